@@ -1,0 +1,36 @@
+"""Mass and inertia of a link."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description.pose import Pose
+from gazelle.description.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Inertia:
+    """Inertia tensor about the centre of mass, in the inertial frame [kg m²]."""
+
+    ixx: float = 1.0
+    iyy: float = 1.0
+    izz: float = 1.0
+    ixy: float = 0.0
+    ixz: float = 0.0
+    iyz: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Inertial:
+    """Mass, centre of mass and inertia of a link.
+
+    Attributes:
+        mass: [kg].
+        pose: The inertial frame in the link frame; its origin is the centre of mass.
+        inertia: About the centre of mass, in the inertial frame.
+    """
+
+    mass: float = 1.0
+    pose: Pose = field(default_factory=Pose)
+    inertia: Inertia = field(default_factory=Inertia)
+    source: Source | None = field(default=None, compare=False, repr=False)

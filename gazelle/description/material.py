@@ -1,0 +1,32 @@
+"""Colour and texture of a visual."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+Color = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """Look of a surface; colours are (red, green, blue, alpha), each 0 to 1.
+
+    Attributes:
+        ambient: Colour in ambient light; None when the file says none.
+        diffuse: Colour in direct light; None when the file says none.
+        specular: Colour of highlights; None when the file says none.
+        emissive: Colour it glows with; None when the file says none.
+        script: Name of a material script such as ``Gazebo/Grey``, whose colours the
+            readers have already put into the fields above where they know it.
+        script_uris: Where the file says the script is.
+        texture: Image file of the diffuse texture, or None.
+    """
+
+    ambient: Color | None = None
+    diffuse: Color | None = None
+    specular: Color | None = None
+    emissive: Color | None = None
+    script: str | None = None
+    script_uris: tuple[str, ...] = ()
+    texture: Path | None = None

@@ -1,0 +1,62 @@
+"""How finely and how exactly a world is simulated. Defaults are SDF 1.7's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Ode:
+    """Terms of ODE's solver, which Gazebo classic uses unless told otherwise.
+
+    Attributes:
+        solver: ``quick`` (projected Gauss-Seidel) or ``world`` (exact).
+        min_step_size: For solvers of variable step [s].
+        iters: Iterations a step.
+        precon_iters: Preconditioning iterations.
+        sor: Successive over-relaxation.
+        friction_model: ``pyramid_model``, ``box_model`` or ``cone_model``.
+        cfm: Constraint force mixing.
+        erp: Error reduction a step, 0 to 1.
+        contact_max_correcting_vel: [m/s].
+        contact_surface_layer: Penetration that is left uncorrected [m].
+    """
+
+    solver: str = "quick"
+    min_step_size: float = 0.0001
+    iters: int = 50
+    precon_iters: int = 0
+    sor: float = 1.3
+    friction_model: str = "pyramid_model"
+    cfm: float = 0.0
+    erp: float = 0.2
+    contact_max_correcting_vel: float = 100.0
+    contact_surface_layer: float = 0.001
+
+
+@dataclass(frozen=True, slots=True)
+class Physics:
+    """A physics profile.
+
+    Attributes:
+        name: Of the profile.
+        default: Whether it is the one in use when there are several.
+        type: Engine the file asks for; Gazelle's engines all read the same terms.
+        max_step_size: Physics step [s].
+        real_time_factor: Simulated seconds a wall second to aim at.
+        real_time_update_rate: Steps a wall second to aim at [Hz]; 0 means as fast as possible.
+        max_contacts: At most so many contact points between two collisions.
+        ode: Solver terms.
+    """
+
+    name: str = "default_physics"
+    default: bool = False
+    type: str = "ode"
+    max_step_size: float = 0.001
+    real_time_factor: float = 1.0
+    real_time_update_rate: float = 1000.0
+    max_contacts: int = 20
+    ode: Ode = field(default_factory=Ode)
+    source: Source | None = field(default=None, compare=False, repr=False)

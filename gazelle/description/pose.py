@@ -1,0 +1,243 @@
+"""Rigid transforms: position in metres, orientation as a unit quaternion (x, y, z, w)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector3 = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+_IDENTITY: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+class Pose:
+    """A pose of a child frame in a parent frame, and the transform from child to parent.
+
+    ``a * b`` composes: a pose b given in the child frame of a, in the parent frame of a.
+    Roll, pitch and yaw turn about the fixed x, y, z axes in that order, as SDF, URDF and
+    tf do: R = Rz(yaw) Ry(pitch) Rx(roll).
+
+    Args:
+        x: Position [m].
+        y: Position [m].
+        z: Position [m].
+        roll: Rotation about x [rad].
+        pitch: Rotation about y [rad].
+        yaw: Rotation about z [rad].
+    """
+
+    __slots__ = ("_position", "_quaternion")
+
+    def __init__(
+        self,
+        x: float = 0.0,
+        y: float = 0.0,
+        z: float = 0.0,
+        roll: float = 0.0,
+        pitch: float = 0.0,
+        yaw: float = 0.0,
+    ) -> None:
+        self._position: Vector3 = (float(x), float(y), float(z))
+        self._quaternion: Quaternion = (
+            _IDENTITY
+            if roll == 0.0 and pitch == 0.0 and yaw == 0.0
+            else quaternion_from_rpy(roll, pitch, yaw)
+        )
+
+    @classmethod
+    def from_quaternion(
+        cls, position: Sequence[float] = (0.0, 0.0, 0.0), quaternion: Sequence[float] = _IDENTITY
+    ) -> Pose:
+        """A pose from a position [m] and a quaternion (x, y, z, w), which is normalised.
+
+        A quaternion of length zero becomes the identity, as in Gazebo.
+        """
+        norm = math.sqrt(sum(q * q for q in quaternion))
+        pose = cls(*position)
+        if norm > 0.0:
+            x, y, z, w = (float(q) / norm for q in quaternion)
+            pose._quaternion = (x, y, z, w)
+        return pose
+
+    @classmethod
+    def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
+        """A pose from a homogeneous transform, shape (4, 4), or a rotation, shape (3, 3)."""
+        position = matrix[:3, 3] if matrix.shape == (4, 4) else (0.0, 0.0, 0.0)
+        return cls.from_quaternion(tuple(position), quaternion_from_matrix(matrix[:3, :3]))
+
+    @property
+    def position(self) -> Vector3:
+        """(x, y, z) [m]."""
+        return self._position
+
+    @property
+    def quaternion(self) -> Quaternion:
+        """Unit quaternion (x, y, z, w)."""
+        return self._quaternion
+
+    @property
+    def x(self) -> float:
+        """Position along x [m]."""
+        return self._position[0]
+
+    @property
+    def y(self) -> float:
+        """Position along y [m]."""
+        return self._position[1]
+
+    @property
+    def z(self) -> float:
+        """Position along z [m]."""
+        return self._position[2]
+
+    @property
+    def rpy(self) -> Vector3:
+        """(roll, pitch, yaw) [rad], pitch within [-pi/2, pi/2]."""
+        return rpy_from_quaternion(self._quaternion)
+
+    @property
+    def roll(self) -> float:
+        """Rotation about x [rad]."""
+        return self.rpy[0]
+
+    @property
+    def pitch(self) -> float:
+        """Rotation about y [rad]."""
+        return self.rpy[1]
+
+    @property
+    def yaw(self) -> float:
+        """Rotation about z [rad]."""
+        return self.rpy[2]
+
+    def __mul__(self, other: Pose) -> Pose:
+        """Compose: ``other``, given in this pose's child frame, in this pose's parent frame."""
+        moved = rotate(self._quaternion, other._position)
+        x, y, z = (a + b for a, b in zip(self._position, moved, strict=True))
+        return Pose.from_quaternion((x, y, z), multiply(self._quaternion, other._quaternion))
+
+    def inverse(self) -> Pose:
+        """The pose of the parent frame in the child frame."""
+        x, y, z, w = self._quaternion
+        conjugate: Quaternion = (-x, -y, -z, w)
+        px, py, pz = rotate(conjugate, self._position)
+        return Pose.from_quaternion((-px, -py, -pz), conjugate)
+
+    def apply(self, point: Sequence[float]) -> Vector3:
+        """A point [m] of the child frame in the parent frame."""
+        px, py, pz = rotate(self._quaternion, (point[0], point[1], point[2]))
+        return (self.x + px, self.y + py, self.z + pz)
+
+    def rotate(self, vector: Sequence[float]) -> Vector3:
+        """A direction of the child frame in the parent frame."""
+        return rotate(self._quaternion, (vector[0], vector[1], vector[2]))
+
+    def matrix(self) -> NDArray[np.float64]:
+        """The homogeneous transform from child to parent, shape (4, 4)."""
+        matrix = np.eye(4)
+        for column, axis in enumerate(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))):
+            matrix[:3, column] = rotate(self._quaternion, axis)
+        matrix[:3, 3] = self._position
+        return matrix
+
+    def is_close(self, other: Pose, *, position: float = 1e-9, angle: float = 1e-9) -> bool:
+        """Whether two poses agree within a distance [m] and an angle [rad]."""
+        delta = self.inverse() * other
+        sine = math.sqrt(sum(q * q for q in delta._quaternion[:3]))
+        turned = 2.0 * math.atan2(sine, abs(delta._quaternion[3]))
+        return math.dist(self._position, other._position) <= position and turned <= angle
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Pose):
+            return NotImplemented
+        return self._position == other._position and self._quaternion == other._quaternion
+
+    def __hash__(self) -> int:
+        return hash((self._position, self._quaternion))
+
+    def __repr__(self) -> str:
+        values = dict(zip(("x", "y", "z"), self._position, strict=True))
+        values |= dict(zip(("roll", "pitch", "yaw"), self.rpy, strict=True))
+        shown = ", ".join(f"{name}={value:.6g}" for name, value in values.items() if value != 0.0)
+        return f"Pose({shown})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Pose.from_quaternion, (self._position, self._quaternion))
+
+
+def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
+    """The Hamilton product of two quaternions (x, y, z, w): first b, then a."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def rotate(q: Quaternion, v: Vector3) -> Vector3:
+    """The vector v turned by the unit quaternion q (x, y, z, w)."""
+    x, y, z, w = q
+    tx = 2.0 * (y * v[2] - z * v[1])
+    ty = 2.0 * (z * v[0] - x * v[2])
+    tz = 2.0 * (x * v[1] - y * v[0])
+    return (
+        v[0] + w * tx + y * tz - z * ty,
+        v[1] + w * ty + z * tx - x * tz,
+        v[2] + w * tz + x * ty - y * tx,
+    )
+
+
+def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """Quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad."""
+    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def rpy_from_quaternion(q: Quaternion) -> Vector3:
+    """(roll, pitch, yaw) [rad] of a unit quaternion; at pitch ±pi/2 roll is taken as 0."""
+    x, y, z, w = q
+    sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
+    if abs(sine) > 1.0 - 1e-12:
+        pitch = math.copysign(math.pi / 2, sine)
+        return (0.0, pitch, math.copysign(1.0, -sine) * 2.0 * math.atan2(x, w))
+    roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+    yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return (roll, math.asin(sine), yaw)
+
+
+def quaternion_from_matrix(r: NDArray[np.float64]) -> Quaternion:
+    """Quaternion (x, y, z, w) of a rotation matrix, shape (3, 3).
+
+    Shepperd's method: divides by the largest of the four components, so that it is
+    well conditioned for every rotation.
+    """
+    trace = float(r[0, 0] + r[1, 1] + r[2, 2])
+    squares = [float(r[i, i]) for i in range(3)] + [trace]
+    largest = squares.index(max(squares))
+    if largest == 3:
+        w = 1.0 + trace
+        q = (r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], w)
+    else:
+        i, j, k = largest, (largest + 1) % 3, (largest + 2) % 3
+        values = [0.0, 0.0, 0.0, float(r[k, j] - r[j, k])]
+        values[i] = float(1.0 + r[i, i] - r[j, j] - r[k, k])
+        values[j] = float(r[j, i] + r[i, j])
+        values[k] = float(r[k, i] + r[i, k])
+        q = (values[0], values[1], values[2], values[3])
+    norm = math.sqrt(sum(float(c) ** 2 for c in q))
+    return (float(q[0]) / norm, float(q[1]) / norm, float(q[2]) / norm, float(q[3]) / norm)

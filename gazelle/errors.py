@@ -1,0 +1,130 @@
+"""The errors Gazelle raises: one root, one subclass a room.
+
+Every error can say where the fault is (file, line, element) and what to do
+about it (hint). The text is one line: ``FILE:LINE: <ELEMENT>: MESSAGE; HINT``.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gazelle.description.source import Source
+
+
+class Error(Exception):
+    """Root of all errors that Gazelle raises on purpose.
+
+    Attributes:
+        message: What is wrong, and what was expected.
+        file: Path or name of the offending file, if the fault is in one.
+        line: Line in that file, counted from 1.
+        element: The element, such as ``link[@name='base']/inertial/mass``.
+        hint: What to do about it.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        file: str | None = None,
+        line: int | None = None,
+        element: str | None = None,
+        hint: str | None = None,
+        source: Source | None = None,
+    ) -> None:
+        if source is not None:
+            file, line, element = source.file, source.line, source.element
+        self.message = message
+        self.file = file
+        self.line = line
+        self.element = element
+        self.hint = hint
+        super().__init__(describe(message, file=file, line=line, element=element, hint=hint))
+
+
+class FormatError(Error):
+    """A file is malformed, or says something that cannot be."""
+
+
+class ResolveError(FormatError):
+    """A URI or path in a file leads nowhere."""
+
+
+class EngineError(Error):
+    """A description cannot be simulated, or the simulation broke down."""
+
+
+class SimulationError(Error):
+    """A request to a running simulation cannot be met."""
+
+
+class ControlError(Error):
+    """A controller is misconfigured or misused."""
+
+
+class RosError(Error):
+    """The ROS graph does not answer, or answers wrongly."""
+
+
+class PlanningError(Error):
+    """No plan, and why."""
+
+
+class TaskError(Error):
+    """A learning task is misconfigured."""
+
+
+class MissingExtraError(Error):
+    """An optional part is not installed; the hint holds the command."""
+
+    def __init__(self, package: str, extra: str) -> None:
+        super().__init__(
+            f"this needs the package '{package}', which is not installed",
+            hint=f'pip install "gazelle[{extra}]"',
+        )
+
+
+class GazelleWarning(UserWarning):
+    """Root of all warnings: something is valid, but not done as written."""
+
+
+class FormatWarning(GazelleWarning):
+    """A file holds something that is ignored, replaced or not supported."""
+
+
+class EngineWarning(GazelleWarning):
+    """The engine cannot do what the description says in every detail."""
+
+
+class SimulationWarning(GazelleWarning):
+    """A plugin, sensor or request is ignored or done differently."""
+
+
+def describe(
+    message: str,
+    *,
+    file: str | None = None,
+    line: int | None = None,
+    element: str | None = None,
+    hint: str | None = None,
+) -> str:
+    """One line that says where, what, and what to do."""
+    place = "" if file is None else f"{file}:" if line is None else f"{file}:{line}:"
+    parts = [place, f"<{element}>:" if element else "", message]
+    text = " ".join(part for part in parts if part)
+    return f"{text}; {hint}" if hint else text
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A hint that names the closest of the known names, else all of them (the first 20)."""
+    names = sorted(known)
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    if close:
+        return f"did you mean '{close[0]}'?"
+    if not names:
+        return "there are none"
+    more = "" if len(names) <= 20 else f" and {len(names) - 20} more"
+    return "there are: " + ", ".join(names[:20]) + more
