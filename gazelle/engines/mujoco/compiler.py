@@ -1,0 +1,257 @@
+"""A world description as a MuJoCo model."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gazelle.description import Inertial, Model, World
+from gazelle.engines.mujoco.joints import add_joint
+from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.engines.mujoco.surfaces import ContactTerms, friction_ranks, surface_options
+from gazelle.engines.mujoco.tree import Body, bodies_of
+from gazelle.errors import EngineError
+
+COLLISION_GROUP = 0
+VISUAL_GROUP = 1
+
+# How many times the inertia that a motor moves is added to its axle; see ``Motor``.
+_ARMATURE_FACTOR = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """A velocity motor on a joint.
+
+    ODE's motor is a constraint solved together with the contacts: the axle turns at the
+    wanted speed whatever inertia hangs on it, as long as the effort suffices. In MuJoCo an
+    actuator of gain (I + A) / dt reaches the wanted speed in one step, and an added
+    armature A, well above the inertia that the contacts reflect to the axle, keeps them
+    from turning it back within the step. The armature does not react on the parent link.
+
+    Attributes:
+        joint: Scoped name.
+        max_effort: [N or N m].
+    """
+
+    joint: str
+    max_effort: float
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """All that a compiled model depends on.
+
+    Attributes:
+        world: The description.
+        time_step: Physics step [s].
+        kinematic: Names of models that move only when told to.
+        motors: By scoped joint name.
+    """
+
+    world: World
+    time_step: float
+    kinematic: frozenset[str] = frozenset()
+    motors: Mapping[str, Motor] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A MuJoCo model and what its bodies stand for.
+
+    Attributes:
+        model: The MuJoCo model.
+        bodies: By model name, in order.
+    """
+
+    model: mujoco.MjModel
+    bodies: Mapping[str, list[Body]]
+
+
+def compile_world(recipe: Recipe) -> Compiled:
+    """Build the MuJoCo model of a world's collision shapes.
+
+    Raises:
+        EngineError: Something in the description cannot be simulated.
+    """
+    spec = mujoco.MjSpec()
+    _set_options(spec, recipe)
+    bodies = {
+        model.name: bodies_of(model, kinematic=model.name in recipe.kinematic)
+        for model in recipe.world.models
+    }
+    builder = _Builder(spec, recipe, bodies)
+    for model in recipe.world.models:
+        builder.add_model(model)
+    for motor in recipe.motors.values():
+        _add_motor(spec, motor, bodies, recipe.time_step)
+    try:
+        return Compiled(spec.compile(), bodies)
+    except ValueError as error:
+        raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
+
+
+def _set_options(spec: mujoco.MjSpec, recipe: Recipe) -> None:
+    option = spec.option
+    option.timestep = recipe.time_step
+    option.gravity = list(recipe.world.gravity)
+    # Semi-implicit Euler as ODE integrates; joint damping stays implicit (eulerdamp).
+    option.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    option.iterations = 20
+    option.ls_iterations = 20
+    spec.compiler.autolimits = True
+    spec.compiler.degree = False
+    spec.compiler.discardvisual = False
+    spec.compiler.fusestatic = False
+
+
+class _Builder:
+    """Fills an ``MjSpec`` model by model."""
+
+    def __init__(
+        self, spec: mujoco.MjSpec, recipe: Recipe, bodies: Mapping[str, list[Body]]
+    ) -> None:
+        self._spec = spec
+        self._time_step = recipe.time_step
+        self._terms = ContactTerms(recipe.time_step, recipe.world.profile.ode.erp)
+        self._bodies = bodies
+        self._shapes = ShapeBuilder(spec)
+        self._ranks = friction_ranks(
+            collision
+            for parts in bodies.values()
+            for body in parts
+            for collision in body.link.collisions
+        )
+
+    def add_model(self, model: Model) -> None:
+        """Add the bodies of one model, and what of it must not collide."""
+        handles: dict[str, Any] = {}
+        for body in self._bodies[model.name]:
+            parent = self._spec.worldbody if body.parent is None else handles[body.parent]
+            handles[body.name] = self._add_body(parent, body)
+        if not model.static and model.name:
+            self._exclude_own(self._bodies[model.name])
+
+    def _add_body(self, parent: Any, body: Body) -> Any:
+        x, y, z, w = body.pose.quaternion
+        handle = parent.add_body(
+            name=body.name, pos=list(body.pose.position), quat=[w, x, y, z]
+        )
+        if body.root == "kinematic":
+            handle.mocap = True
+        if body.root == "free":
+            handle.add_freejoint(name=body.name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+        if body.joint is not None:
+            add_joint(handle, body.joint_name, body.joint, self._time_step)
+        if body.root not in ("static", "kinematic"):
+            _set_inertial(handle, body)
+        for collision in body.link.collisions:
+            surface = surface_options(collision, self._terms, self._ranks)
+            for shape in self._shapes.options(
+                collision.geometry, collision.pose, collision.source
+            ):
+                handle.add_geom(group=COLLISION_GROUP, mass=0.0, **surface, **shape)
+        return handle
+
+    def _exclude_own(self, bodies: list[Body]) -> None:
+        """Links of one model collide only if both say so, as in Gazebo."""
+        solid = [body for body in bodies if body.link.collisions]
+        for first, second in itertools.combinations(solid, 2):
+            if not (first.self_collide and second.self_collide):
+                self._spec.add_exclude(bodyname1=first.name, bodyname2=second.name)
+
+
+def _set_inertial(handle: Any, body: Body) -> None:
+    inertial = body.link.inertial or Inertial()
+    i = inertial.inertia
+    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    rotation = inertial.pose.matrix()[:3, :3]
+    turned = rotation @ tensor @ rotation.T
+    if inertial.mass <= 0.0:
+        raise EngineError(
+            f"link '{body.name}' moves but has the mass {inertial.mass:g} kg",
+            source=inertial.source or body.link.source,
+            hint="give it a positive <mass>, or fix it to another link",
+        )
+    handle.explicitinertial = True
+    handle.mass = inertial.mass
+    handle.ipos = list(inertial.pose.position)
+    principal = _principal_inertia(turned, body)
+    handle.inertia, handle.iquat = principal
+    if not body.link.gravity:
+        handle.gravcomp = 1.0
+
+
+def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float]]:
+    """Moments and axes (w, x, y, z) of an inertia tensor, made possible if it is not.
+
+    A rigid body's moments obey a + b >= c. Files break that by rounding or by guess-work;
+    the smaller moments are raised just enough.
+    """
+    moments, axes = np.linalg.eigh(tensor)
+    if moments[0] <= 0.0:
+        inertial = body.link.inertial or Inertial()
+        raise EngineError(
+            f"link '{body.name}' has an inertia that is not positive definite "
+            f"(principal moments {', '.join(f'{m:.3g}' for m in moments)} kg m²)",
+            source=inertial.source or body.link.source,
+        )
+    lack = moments[2] - moments[0] - moments[1]
+    if lack > 0.0:
+        moments[:2] += lack / 2.0 * (1.0 + 1e-9)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 0] *= -1.0
+    quaternion = np.zeros(4)
+    mujoco.mju_mat2Quat(quaternion, axes.ravel())
+    return [float(m) for m in moments], [float(q) for q in quaternion]
+
+
+def _add_motor(
+    spec: mujoco.MjSpec, motor: Motor, bodies: Mapping[str, list[Body]], time_step: float
+) -> None:
+    armature = _ARMATURE_FACTOR * _reflected_inertia(motor.joint, bodies)
+    actuator = spec.add_actuator(
+        name=motor.joint, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=motor.joint
+    )
+    gain = armature / time_step
+    actuator.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+    actuator.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    actuator.gainprm[0] = gain
+    actuator.biasprm[2] = -gain
+    actuator.armature = armature
+    actuator.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+    actuator.forcerange = [-motor.max_effort, motor.max_effort]
+
+
+def _reflected_inertia(joint: str, bodies: Mapping[str, list[Body]]) -> float:
+    """An upper estimate of the inertia at an axle: the whole model, at its link's radius."""
+    for parts in bodies.values():
+        for body in parts:
+            if body.joint_name == joint:
+                mass = sum((part.link.inertial or Inertial()).mass for part in parts)
+                slides = body.joint is not None and body.joint.type == "prismatic"
+                return mass if slides else mass * _reach(body) ** 2
+    raise EngineError(f"there is no joint '{joint}' to put a motor on")
+
+
+def _reach(body: Body) -> float:
+    """How far a link's shapes reach from its joint axis, at least a centimetre [m]."""
+    reach = 0.01
+    for collision in body.link.collisions:
+        shape = collision.geometry
+        radius = getattr(shape, "radius", None)
+        if radius is None:
+            radius = max(getattr(shape, "size", (0.05,))) / 2.0
+        reach = max(reach, float(radius))
+    return reach
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).strip().splitlines()[0]

@@ -1,0 +1,109 @@
+"""SDF joints as MuJoCo joints: one small function a type, in a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+
+from gazelle.description import Joint, JointAxis
+from gazelle.errors import EngineError
+
+_HINGE = mujoco.mjtJoint.mjJNT_HINGE
+_SLIDE = mujoco.mjtJoint.mjJNT_SLIDE
+_BALL = mujoco.mjtJoint.mjJNT_BALL
+
+# Limit stops must not ring: MuJoCo's time constant of a limit, in physics steps.
+_LIMIT_STEPS = 5.0
+
+
+def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    """Let a MuJoCo body move in its parent as the joint says; names get ``#1`` for axis 2.
+
+    Raises:
+        EngineError: The joint's type is not simulated.
+    """
+    if joint.type not in _ADDERS:
+        known = ", ".join(sorted(_ADDERS))
+        raise EngineError(
+            f"joint '{name}': type '{joint.type}' is not simulated yet",
+            source=joint.source,
+            hint=f"types that are: {known}",
+        )
+    _ADDERS[joint.type](body, name, joint, time_step)
+
+
+def _fixed(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    """A body without a joint is welded to its parent."""
+
+
+def _hinge(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    body.add_joint(
+        name=name, type=_HINGE, **_axis_options(joint, _axis(joint, 0), time_step)
+    )
+
+
+def _slide(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    body.add_joint(
+        name=name, type=_SLIDE, **_axis_options(joint, _axis(joint, 0), time_step)
+    )
+
+
+def _ball(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    options: dict[str, Any] = {}
+    if joint.axes:
+        options["damping"] = [joint.axes[0].damping, 0.0, 0.0]
+    body.add_joint(name=name, type=_BALL, pos=list(joint.pose.position), **options)
+
+
+def _two_hinges(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    first, second = _axis(joint, 0), _axis(joint, 1)
+    body.add_joint(name=name, type=_HINGE, **_axis_options(joint, first, time_step))
+    body.add_joint(name=f"{name}#1", type=_HINGE, **_axis_options(joint, second, time_step))
+
+
+def _floating(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    if joint.parent != "world":
+        raise EngineError(
+            f"joint '{name}': a floating joint needs the world as parent", source=joint.source
+        )
+    body.add_freejoint(name=name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+
+
+def _axis(joint: Joint, index: int) -> JointAxis:
+    if index >= len(joint.axes):
+        raise EngineError(
+            f"joint '{joint.name}' of type '{joint.type}' needs {index + 1} axes, "
+            f"it has {len(joint.axes)}",
+            source=joint.source,
+        )
+    return joint.axes[index]
+
+
+def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, Any]:
+    options: dict[str, Any] = {
+        "pos": list(joint.pose.position),
+        "axis": list(joint.pose.rotate(axis.xyz)),
+        "damping": [axis.damping, 0.0, 0.0],
+        "frictionloss": axis.friction,
+        "stiffness": [axis.spring_stiffness, 0.0, 0.0],
+        "springref": axis.spring_reference,
+    }
+    if joint.type != "continuous" and (math.isfinite(axis.lower) or math.isfinite(axis.upper)):
+        options["limited"] = mujoco.mjtLimited.mjLIMITED_TRUE
+        options["range"] = [max(axis.lower, -1e10), min(axis.upper, 1e10)]
+        options["solref_limit"] = [_LIMIT_STEPS * time_step, 1.0]
+    return options
+
+
+_ADDERS: dict[str, Callable[[Any, str, Joint, float], None]] = {
+    "ball": _ball,
+    "continuous": _hinge,
+    "fixed": _fixed,
+    "floating": _floating,
+    "prismatic": _slide,
+    "revolute": _hinge,
+    "universal": _two_hinges,
+}

@@ -1,0 +1,161 @@
+"""Where in MuJoCo's arrays each named thing lives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeVar
+
+import mujoco
+
+from gazelle.description import Pose
+from gazelle.engines.mujoco.compiler import Compiled
+from gazelle.engines.mujoco.tree import Body, RootKind
+from gazelle.errors import EngineError, did_you_mean
+
+T = TypeVar("T")
+
+_WIDTHS = {
+    mujoco.mjtJoint.mjJNT_FREE: (7, 6),
+    mujoco.mjtJoint.mjJNT_BALL: (4, 3),
+    mujoco.mjtJoint.mjJNT_SLIDE: (1, 1),
+    mujoco.mjtJoint.mjJNT_HINGE: (1, 1),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """Columns of one MuJoCo joint in ``qpos`` and ``qvel``."""
+
+    position: slice
+    velocity: slice
+
+
+@dataclass(frozen=True, slots=True)
+class LinkSlot:
+    """One link.
+
+    Attributes:
+        body: MuJoCo's body index.
+        root: How it moves, if it is the root of its tree.
+        free: Columns of its free joint, if it has one.
+        mocap: Row in ``mocap_pos``, if it is kinematic.
+        pose: Its pose in the world in the initial state, if it is a root.
+    """
+
+    body: int
+    root: RootKind | None
+    free: Slot | None
+    mocap: int | None
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class ModelSlot:
+    """One top-level model.
+
+    Attributes:
+        roots: Scoped names of the links that carry the others.
+        canonical: Scoped name of the link that the model's pose follows.
+        offset: The model frame in the canonical link's frame.
+        joints: Scoped names of its joints that move.
+    """
+
+    roots: tuple[str, ...]
+    canonical: str
+    offset: Pose
+    joints: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Names to places."""
+
+    links: Mapping[str, LinkSlot]
+    joints: Mapping[str, tuple[Slot, ...]]
+    models: Mapping[str, ModelSlot]
+    motors: Mapping[str, int]
+
+    def link(self, name: str) -> LinkSlot:
+        """The slot of a link.
+
+        Raises:
+            EngineError: There is none of that name.
+        """
+        return _look_up("link", name, self.links)
+
+    def joint(self, name: str) -> tuple[Slot, ...]:
+        """The slots of a joint, one an axis.
+
+        Raises:
+            EngineError: There is none of that name.
+        """
+        return _look_up("joint", name, self.joints)
+
+    def model(self, name: str) -> ModelSlot:
+        """The slot of a model.
+
+        Raises:
+            EngineError: There is none of that name.
+        """
+        return _look_up("model", name, self.models)
+
+    def motor(self, joint: str) -> int:
+        """The column in ``ctrl`` of a joint's motor.
+
+        Raises:
+            EngineError: The joint has no motor.
+        """
+        return _look_up("motor on joint", joint, self.motors)
+
+
+def _look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
+    try:
+        return known[name]
+    except KeyError:
+        raise EngineError(f"there is no {kind} '{name}'", hint=did_you_mean(name, known)) from None
+
+
+def layout_of(compiled: Compiled) -> Layout:
+    """Find everything of a compiled world."""
+    model = compiled.model
+    links: dict[str, LinkSlot] = {}
+    joints: dict[str, tuple[Slot, ...]] = {}
+    models: dict[str, ModelSlot] = {}
+    for name, bodies in compiled.bodies.items():
+        for body in bodies:
+            links[body.name] = _link_slot(model, body)
+            if body.joint is not None and body.joint.type != "fixed":
+                joints[body.joint_name] = _joint_slots(model, body.joint_name)
+        models[name] = _model_slot(name, bodies, joints)
+    motors = {model.actuator(column).name: column for column in range(model.nu)}
+    return Layout(links, joints, models, motors)
+
+
+def _link_slot(model: mujoco.MjModel, body: Body) -> LinkSlot:
+    index = model.body(body.name).id
+    free = _slot(model, model.joint(body.name).id) if body.root == "free" else None
+    mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
+    return LinkSlot(index, body.root, free, mocap, body.pose)
+
+
+def _joint_slots(model: mujoco.MjModel, name: str) -> tuple[Slot, ...]:
+    names = [name, f"{name}#1"]
+    ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, each) for each in names]
+    return tuple(_slot(model, joint) for joint in ids if joint >= 0)
+
+
+def _slot(model: mujoco.MjModel, joint: int) -> Slot:
+    nq, nv = _WIDTHS[mujoco.mjtJoint(int(model.jnt_type[joint]))]
+    q, v = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
+    return Slot(slice(q, q + nq), slice(v, v + nv))
+
+
+def _model_slot(
+    name: str, bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]
+) -> ModelSlot:
+    roots = tuple(body.name for body in bodies if body.parent is None)
+    canonical = bodies[0]
+    offset = canonical.link.pose.inverse()
+    own = tuple(body.joint_name for body in bodies if body.joint_name in joints)
+    return ModelSlot(roots, canonical.name, offset, own)

@@ -1,0 +1,178 @@
+"""SDF shapes as MuJoCo geoms: one small function a shape, in a table."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Image,
+    Mesh,
+    Plane,
+    Polyline,
+    Pose,
+    Source,
+    Sphere,
+    Vector3,
+)
+from gazelle.errors import EngineWarning
+from gazelle.formats.mesh import load_mesh
+
+_SIDES = 24
+
+
+@dataclass(slots=True)
+class ShapeBuilder:
+    """Makes geoms in one ``MjSpec``; meshes used twice are stored once."""
+
+    spec: mujoco.MjSpec
+    meshes: dict[Any, str] = field(default_factory=dict)
+
+    def options(self, shape: Geometry, pose: Pose, source: Source | None) -> list[dict[str, Any]]:
+        """Arguments of ``add_geom`` for a shape at a pose; none if there is nothing to hit."""
+        return _READERS[type(shape)](self, shape, pose, source)
+
+    def mesh_geom(self, key: Any, vertices: Any, faces: Any, pose: Pose) -> dict[str, Any]:
+        """A mesh geom; its vertices are stored on first use of the key."""
+        if key not in self.meshes:
+            name = f"mesh_{len(self.meshes)}"
+            self.spec.add_mesh(
+                name=name,
+                uservert=np.asarray(vertices, dtype=np.float64).ravel(),
+                userface=np.asarray(faces, dtype=np.int32).ravel(),
+            )
+            self.meshes[key] = name
+        return {
+            "type": mujoco.mjtGeom.mjGEOM_MESH,
+            "meshname": self.meshes[key],
+            **_placed(pose),
+        }
+
+
+def _placed(pose: Pose) -> dict[str, Any]:
+    x, y, z, w = pose.quaternion
+    return {"pos": list(pose.position), "quat": [w, x, y, z]}
+
+
+def _primitive(kind: Any, size: tuple[float, ...], pose: Pose) -> list[dict[str, Any]]:
+    padded = (*size, 0.0, 0.0)[:3]
+    return [{"type": kind, "size": list(padded), **_placed(pose)}]
+
+
+def _box(_: ShapeBuilder, shape: Box, pose: Pose, __: Source | None) -> list[dict[str, Any]]:
+    x, y, z = shape.size
+    return _primitive(mujoco.mjtGeom.mjGEOM_BOX, (x / 2, y / 2, z / 2), pose)
+
+
+def _sphere(_: ShapeBuilder, shape: Sphere, pose: Pose, __: Source | None) -> list[dict[str, Any]]:
+    return _primitive(mujoco.mjtGeom.mjGEOM_SPHERE, (shape.radius,), pose)
+
+
+def _cylinder(
+    _: ShapeBuilder, shape: Cylinder, pose: Pose, __: Source | None
+) -> list[dict[str, Any]]:
+    return _primitive(mujoco.mjtGeom.mjGEOM_CYLINDER, (shape.radius, shape.length / 2), pose)
+
+
+def _capsule(
+    _: ShapeBuilder, shape: Capsule, pose: Pose, __: Source | None
+) -> list[dict[str, Any]]:
+    return _primitive(mujoco.mjtGeom.mjGEOM_CAPSULE, (shape.radius, shape.length / 2), pose)
+
+
+def _ellipsoid(
+    _: ShapeBuilder, shape: Ellipsoid, pose: Pose, __: Source | None
+) -> list[dict[str, Any]]:
+    return _primitive(mujoco.mjtGeom.mjGEOM_ELLIPSOID, shape.radii, pose)
+
+
+def _plane(_: ShapeBuilder, shape: Plane, pose: Pose, __: Source | None) -> list[dict[str, Any]]:
+    turned = pose * Pose.from_quaternion((0.0, 0.0, 0.0), _from_z_to(shape.normal))
+    return [{"type": mujoco.mjtGeom.mjGEOM_PLANE, "size": [0.0, 0.0, 1.0], **_placed(turned)}]
+
+
+def _cone(
+    builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None
+) -> list[dict[str, Any]]:
+    angles = np.arange(_SIDES) * (2.0 * np.pi / _SIDES)
+    rim = np.stack(
+        (
+            shape.radius * np.cos(angles),
+            shape.radius * np.sin(angles),
+            np.full(_SIDES, -shape.length / 2),
+        ),
+        axis=1,
+    )
+    vertices = np.vstack((rim, (0.0, 0.0, shape.length / 2), (0.0, 0.0, -shape.length / 2)))
+    after = np.roll(np.arange(_SIDES), -1)
+    here = np.arange(_SIDES)
+    apex, centre = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
+    faces = np.vstack((np.stack((here, after, apex), 1), np.stack((after, here, centre), 1)))
+    return [builder.mesh_geom(shape, vertices, faces, pose)]
+
+
+def _mesh(
+    builder: ShapeBuilder, shape: Mesh, pose: Pose, source: Source | None
+) -> list[dict[str, Any]]:
+    if shape.path is None:
+        return []
+    mesh = load_mesh(shape)
+    key = (shape.path, shape.scale, shape.submesh, shape.center_submesh)
+    return [builder.mesh_geom(key, mesh.vertices, mesh.faces, pose)]
+
+
+def _nothing(_: ShapeBuilder, __: Empty, ___: Pose, ____: Source | None) -> list[dict[str, Any]]:
+    return []
+
+
+def _unsupported(
+    _: ShapeBuilder, shape: Geometry, __: Pose, source: Source | None
+) -> list[dict[str, Any]]:
+    kind = type(shape).__name__.lower()
+    place = f"{source.file}:{source.line}: " if source is not None else ""
+    warnings.warn(
+        EngineWarning(f"{place}a {kind} does not collide in this engine yet; it is left out"),
+        stacklevel=2,
+    )
+    return []
+
+
+_READERS: dict[type, Callable[..., list[dict[str, Any]]]] = {
+    Box: _box,
+    Capsule: _capsule,
+    Cone: _cone,
+    Cylinder: _cylinder,
+    Ellipsoid: _ellipsoid,
+    Empty: _nothing,
+    Heightmap: _unsupported,
+    Image: _unsupported,
+    Mesh: _mesh,
+    Plane: _plane,
+    Polyline: _unsupported,
+    Sphere: _sphere,
+}
+
+
+def _from_z_to(normal: Vector3) -> tuple[float, float, float, float]:
+    """The shortest rotation (x, y, z, w) that turns the z axis into a direction."""
+    n = np.asarray(normal, dtype=np.float64)
+    length = float(np.linalg.norm(n))
+    if length == 0.0:
+        return (0.0, 0.0, 0.0, 1.0)
+    x, y, z = n / length
+    if z < -1.0 + 1e-12:
+        return (1.0, 0.0, 0.0, 0.0)
+    return (-y, x, 0.0, 1.0 + z)
