@@ -45,6 +45,19 @@ class Motion:
     angular: Floats
 
 
+@dataclass(frozen=True, slots=True)
+class Hits:
+    """What rays met in each world.
+
+    Attributes:
+        distance: To the nearest collision shape [m], shape (n, rays); infinite for none.
+        from_inside: Whether the ray started inside that shape, shape (n, rays).
+    """
+
+    distance: Floats
+    from_inside: NDArray[np.bool_]
+
+
 class Engine(Protocol):
     """A batch of copies of one world, all made of the same models."""
 
@@ -83,6 +96,12 @@ class Engine(Protocol):
 
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""
+
+    def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
+        """How a link's motion changes in the next physics step [m/s², rad/s²].
+
+        Contacts, joints and commands are taken as they are now; nothing moves.
+        """
 
     def model_placement(self, model: str, worlds: Worlds | None = None) -> Placement:
         """Where a model's frame is: it moves with the canonical link."""
@@ -147,17 +166,14 @@ class Engine(Protocol):
         origins: Floats,
         directions: Floats,
         worlds: Worlds | None = None,
-    ) -> Floats:
-        """Distance along rays to the nearest collision shape.
+    ) -> Hits:
+        """Follow rays to the nearest collision shape.
 
         Args:
             link: The link that the rays move with.
             origins: In the link frame [m], shape (rays, 3).
             directions: Unit vectors in the link frame, shape (rays, 3).
             worlds: Which worlds.
-
-        Returns:
-            Distances [m], shape (n, rays); infinite where nothing is hit.
         """
 
     def spawn(self, model: Model) -> None:

@@ -141,9 +141,7 @@ class _Builder:
 
     def _add_body(self, parent: Any, body: Body) -> Any:
         x, y, z, w = body.pose.quaternion
-        handle = parent.add_body(
-            name=body.name, pos=list(body.pose.position), quat=[w, x, y, z]
-        )
+        handle = parent.add_body(name=body.name, pos=list(body.pose.position), quat=[w, x, y, z])
         if body.root == "kinematic":
             handle.mocap = True
         if body.root == "free":
@@ -154,9 +152,7 @@ class _Builder:
             _set_inertial(handle, body)
         for collision in body.link.collisions:
             surface = surface_options(collision, self._terms, self._ranks)
-            for shape in self._shapes.options(
-                collision.geometry, collision.pose, collision.source
-            ):
+            for shape in self._shapes.options(collision.geometry, collision.pose, collision.source):
                 handle.add_geom(group=COLLISION_GROUP, mass=0.0, **surface, **shape)
         return handle
 

@@ -11,12 +11,13 @@ from mujoco.batch import Batch, SimulationError
 from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
-from gazelle.engines.engine import Floats, Motion, Placement, Worlds
-from gazelle.engines.mujoco import quaternions
+from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP, Motor, Recipe, compile_world
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, Slot, layout_of
+from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.errors import EngineError, did_you_mean
+from gazelle.rotations import conjugate, cross, multiply, rotate
 
 _GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
 _VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
@@ -131,16 +132,14 @@ class MujocoEngine:
         rows = _rows(worlds)
         if slot.free is not None:
             q = self._batch.qpos[rows, slot.free.position]
-            return Placement(q[:, :3].copy(), quaternions.xyzw_from_wxyz(q[:, 3:]))
+            return Placement(q[:, :3].copy(), xyzw_from_wxyz(q[:, 3:]))
         if slot.mocap is not None:
             position = self._batch.mocap_pos[rows, slot.mocap].copy()
             q = self._batch.mocap_quat[rows, slot.mocap]
-            return Placement(position, quaternions.xyzw_from_wxyz(q))
+            return Placement(position, xyzw_from_wxyz(q))
         self._refresh()
         position = self._batch.xpos[rows, slot.body].copy()
-        return Placement(
-            position, quaternions.xyzw_from_wxyz(self._batch.xquat[rows, slot.body])
-        )
+        return Placement(position, xyzw_from_wxyz(self._batch.xquat[rows, slot.body]))
 
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""
@@ -148,7 +147,7 @@ class MujocoEngine:
         rows = _rows(worlds)
         if slot.free is not None:
             v = self._batch.qvel[rows, slot.free.velocity]
-            turned = quaternions.rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
+            turned = rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
             return Motion(v[:, :3].copy(), turned)
         self._refresh()
         # MuJoCo's cvel is about the centre of mass of the whole tree.
@@ -156,7 +155,21 @@ class MujocoEngine:
         root = int(self._batch.model.body_rootid[slot.body])
         arm = self._batch.xpos[rows, slot.body] - self._batch.subtree_com[rows, root]
         angular = spatial[:, :3].copy()
-        return Motion(spatial[:, 3:] + quaternions.cross(angular, arm), angular)
+        return Motion(spatial[:, 3:] + cross(angular, arm), angular)
+
+    def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
+        """How a link's motion changes in the next physics step [m/s², rad/s²]."""
+        before = self.link_motion(link, worlds)
+        state, warnings = self._batch.state.copy(), self._batch.warning.copy()
+        self._batch.step(ids=worlds)
+        self._stale = True
+        after = self.link_motion(link, worlds)
+        self._batch.state[:], self._batch.warning[:] = state, warnings
+        self._stale = True
+        rate = 1.0 / self.time_step
+        return Motion(
+            (after.linear - before.linear) * rate, (after.angular - before.angular) * rate
+        )
 
     # -- models ------------------------------------------------------------------------
 
@@ -165,8 +178,8 @@ class MujocoEngine:
         slot = self._now().model(model)
         link = self.link_placement(slot.canonical, worlds)
         offset = np.asarray(slot.offset.position), np.asarray(slot.offset.quaternion)
-        position = link.position + quaternions.rotate(link.quaternion, offset[0])
-        return Placement(position, quaternions.multiply(link.quaternion, offset[1]))
+        position = link.position + rotate(link.quaternion, offset[0])
+        return Placement(position, multiply(link.quaternion, offset[1]))
 
     def set_model_placement(
         self, model: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
@@ -185,20 +198,18 @@ class MujocoEngine:
         before = self.model_placement(model, worlds)
         goal_p = np.broadcast_to(np.asarray(position, np.float64), before.position.shape)
         goal_q = _unit(np.broadcast_to(np.asarray(quaternion, np.float64), before.quaternion.shape))
-        turn = quaternions.multiply(goal_q, quaternions.conjugate(before.quaternion))
+        turn = multiply(goal_q, conjugate(before.quaternion))
         for root in slot.roots:
             link = self.link_placement(root, worlds)
-            moved = goal_p + quaternions.rotate(turn, link.position - before.position)
-            self._put(
-                self._layout.link(root), moved, quaternions.multiply(turn, link.quaternion), worlds
-            )
+            moved = goal_p + rotate(turn, link.position - before.position)
+            self._put(self._layout.link(root), moved, multiply(turn, link.quaternion), worlds)
         self._stale = True
 
     def _put(
         self, slot: LinkSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
         rows = _rows(worlds)
-        wxyz = quaternions.wxyz_from_xyzw(quaternion)
+        wxyz = wxyz_from_xyzw(quaternion)
         if slot.mocap is not None:
             self._batch.mocap_pos[rows, slot.mocap] = position
             self._batch.mocap_quat[rows, slot.mocap] = wxyz
@@ -219,8 +230,8 @@ class MujocoEngine:
             if free is None:
                 continue
             link = self.link_placement(root, worlds)
-            at_link = v + quaternions.cross(w, link.position - origin.position)
-            local = quaternions.rotate(quaternions.conjugate(link.quaternion), w)
+            at_link = v + cross(w, link.position - origin.position)
+            local = rotate(conjugate(link.quaternion), w)
             self._batch.qvel[rows, free.velocity] = np.concatenate((at_link, local), axis=1)
         for joint in slot.joints:
             for each in self._layout.joint(joint):
@@ -293,14 +304,17 @@ class MujocoEngine:
 
     def cast_rays(
         self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
-    ) -> Floats:
-        """Distance along rays to the nearest collision shape; see the protocol."""
+    ) -> Hits:
+        """Follow rays to the nearest collision shape; see the protocol."""
         place = self.link_placement(link, worlds)
         turn = place.quaternion[:, None, :]
-        start = place.position[:, None, :] + quaternions.rotate(turn, origins[None])
-        along = quaternions.rotate(turn, directions[None])
-        distance, _ = self._batch.ray(start, along, geomgroup=_GROUPS, ids=worlds)
-        return np.where(distance < 0.0, np.inf, distance)
+        start = place.position[:, None, :] + rotate(turn, origins[None])
+        along = rotate(turn, directions[None])
+        distance, _, normal = self._batch.ray(
+            start, along, geomgroup=_GROUPS, ids=worlds, normal=True
+        )
+        from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
+        return Hits(np.where(distance < 0.0, np.inf, distance), from_inside)
 
     # -- change ------------------------------------------------------------------------
 

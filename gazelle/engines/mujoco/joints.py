@@ -40,15 +40,11 @@ def _fixed(body: Any, name: str, joint: Joint, time_step: float) -> None:
 
 
 def _hinge(body: Any, name: str, joint: Joint, time_step: float) -> None:
-    body.add_joint(
-        name=name, type=_HINGE, **_axis_options(joint, _axis(joint, 0), time_step)
-    )
+    body.add_joint(name=name, type=_HINGE, **_axis_options(joint, _axis(joint, 0), time_step))
 
 
 def _slide(body: Any, name: str, joint: Joint, time_step: float) -> None:
-    body.add_joint(
-        name=name, type=_SLIDE, **_axis_options(joint, _axis(joint, 0), time_step)
-    )
+    body.add_joint(name=name, type=_SLIDE, **_axis_options(joint, _axis(joint, 0), time_step))
 
 
 def _ball(body: Any, name: str, joint: Joint, time_step: float) -> None:

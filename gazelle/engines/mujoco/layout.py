@@ -151,9 +151,7 @@ def _slot(model: mujoco.MjModel, joint: int) -> Slot:
     return Slot(slice(q, q + nq), slice(v, v + nv))
 
 
-def _model_slot(
-    name: str, bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]
-) -> ModelSlot:
+def _model_slot(name: str, bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]) -> ModelSlot:
     roots = tuple(body.name for body in bodies if body.parent is None)
     canonical = bodies[0]
     offset = canonical.link.pose.inverse()

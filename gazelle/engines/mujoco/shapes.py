@@ -104,9 +104,7 @@ def _plane(_: ShapeBuilder, shape: Plane, pose: Pose, __: Source | None) -> list
     return [{"type": mujoco.mjtGeom.mjGEOM_PLANE, "size": [0.0, 0.0, 1.0], **_placed(turned)}]
 
 
-def _cone(
-    builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None
-) -> list[dict[str, Any]]:
+def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> list[dict[str, Any]]:
     angles = np.arange(_SIDES) * (2.0 * np.pi / _SIDES)
     rim = np.stack(
         (

@@ -1,28 +1,11 @@
-"""Quaternions by the batch, and the one place that turns (x, y, z, w) into (w, x, y, z)."""
+"""Quaternions by the batch, always (x, y, z, w)."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Quaternion
-
 Floats = NDArray[np.float64]
-
-
-def to_wxyz(q: Quaternion) -> tuple[float, float, float, float]:
-    """MuJoCo's order of one quaternion."""
-    return (q[3], q[0], q[1], q[2])
-
-
-def wxyz_from_xyzw(q: Floats) -> Floats:
-    """MuJoCo's order of many quaternions, shape (..., 4)."""
-    return q[..., [3, 0, 1, 2]]
-
-
-def xyzw_from_wxyz(q: Floats) -> Floats:
-    """The public order of many quaternions, shape (..., 4)."""
-    return q[..., [1, 2, 3, 0]]
 
 
 def rotate(q: Floats, v: Floats) -> Floats:
@@ -50,3 +33,16 @@ def cross(a: Floats, b: Floats) -> Floats:
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     return np.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=-1)
+
+
+def yaw_of(q: Floats) -> Floats:
+    """Heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
+    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def from_yaw(yaw: Floats) -> Floats:
+    """Quaternions of a turn about z, shape (..., 4), from angles [rad], shape (...)."""
+    half = np.asarray(yaw, np.float64) / 2.0
+    zero = np.zeros_like(half)
+    return np.stack((zero, zero, np.sin(half), np.cos(half)), axis=-1)

@@ -1,0 +1,134 @@
+"""Laser range finders: all rays of all worlds cast in native code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Lidar, Pose, Scan
+from gazelle.engines import Engine
+from gazelle.sensors.noise import NoiseModel
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class LaserScan:
+    """One measurement of a lidar.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        ranges: [m], shape (..., rows * samples), row by row from the lowest, each
+            counter-clockwise from ``angle_min``. +inf: nothing within ``range_max``;
+            -inf: something nearer than ``range_min`` (as REP 117 says it).
+        angle_min: Angle of the first ray about z [rad].
+        angle_max: Angle of the last ray [rad].
+        angle_increment: Between two rays [rad].
+        range_min: [m].
+        range_max: [m].
+    """
+
+    stamp: int
+    ranges: Floats
+    angle_min: float
+    angle_max: float
+    angle_increment: float
+    range_min: float
+    range_max: float
+
+
+class LidarModel:
+    """Measures one lidar in every world.
+
+    Rays start at ``range_min``, as Gazebo's do, so the scanner's own housing is not seen.
+
+    Args:
+        lidar: What the file says.
+        engine: Casts the rays.
+        link: Scoped name of the link it is on.
+        pose: The sensor frame in the link frame.
+        seed: The run's seed.
+        name: Scoped name of the sensor; names its random stream.
+    """
+
+    def __init__(
+        self, lidar: Lidar, engine: Engine, link: str, pose: Pose, seed: int, name: str
+    ) -> None:
+        self.lidar = lidar
+        self._engine = engine
+        self._link = link
+        self.angles = angles_of(lidar.horizontal)
+        self.vertical_angles = angles_of(lidar.vertical)
+        local = directions_of(self.angles, self.vertical_angles)
+        rotation = pose.matrix()[:3, :3]
+        self._directions = local @ rotation.T
+        self._origins = np.asarray(pose.position) + lidar.range_min * self._directions
+        self._noise = NoiseModel(lidar.noise, seed, name, engine.nworld, len(self._directions))
+
+    @property
+    def samples(self) -> int:
+        """Rays a measurement has, all rows together."""
+        return len(self._directions)
+
+    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
+        """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``.
+
+        Args:
+            worlds: Which worlds; all if None.
+            interval: Time since the last measurement [s].
+        """
+        hits = self._engine.cast_rays(self._link, self._origins, self._directions, worlds)
+        lidar = self.lidar
+        distance = hits.distance + lidar.range_min
+        measured = self._noise.apply(distance, interval, worlds)
+        if lidar.range_resolution > 0.0:
+            measured = np.round(measured / lidar.range_resolution) * lidar.range_resolution
+        measured = np.clip(measured, lidar.range_min, lidar.range_max)
+        measured[distance >= lidar.range_max] = np.inf
+        measured[hits.from_inside] = -np.inf
+        return measured
+
+    def scan(self, ranges: Floats, stamp: int) -> LaserScan:
+        """A measurement with what is needed to read it."""
+        count = len(self.angles)
+        first, last = float(self.angles[0]), float(self.angles[-1])
+        increment = (last - first) / (count - 1) if count > 1 else 0.0
+        return LaserScan(
+            stamp, ranges, first, last, increment, self.lidar.range_min, self.lidar.range_max
+        )
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Forget drifts of noise."""
+        self._noise.reset(worlds)
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return self._noise.state()
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._noise.restore(state)
+
+
+def angles_of(scan: Scan) -> Floats:
+    """Angles of a fan's rays [rad], both ends included, shape (round(samples * resolution),).
+
+    Gazebo casts ``samples`` rays and interpolates to ``samples * resolution`` points; here
+    every reported point has a ray of its own.
+    """
+    count = max(1, round(scan.samples * scan.resolution))
+    if count == 1:
+        return np.array([scan.min_angle])
+    return np.linspace(scan.min_angle, scan.max_angle, count)
+
+
+def directions_of(horizontal: Floats, vertical: Floats) -> Floats:
+    """Unit vectors in the sensor frame, row by row, shape (rows * samples, 3)."""
+    yaw, pitch = np.meshgrid(horizontal, vertical)
+    directions = np.stack(
+        (np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)), axis=-1
+    )
+    return directions.reshape(-1, 3)

@@ -1,0 +1,105 @@
+"""Sensor noise for all worlds at once, each world with its own random numbers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Noise
+from gazelle.streams import Stream
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class NoiseModel:
+    """White noise, a constant bias and a drifting bias on one group of channels.
+
+    As in Gazebo: the constant bias is drawn once a run with random sign, the drifting bias
+    is a first-order Gauss-Markov process, and quantising comes last.
+
+    Args:
+        noise: What the file says.
+        seed: The run's seed.
+        name: Names the random stream; unique for each channel group.
+        nworld: Number of worlds.
+        channels: Number of values a measurement has.
+    """
+
+    def __init__(self, noise: Noise, seed: int, name: str, nworld: int, channels: int) -> None:
+        self._noise = noise
+        self._channels = channels
+        self._stream = Stream(seed, name, nworld)
+        self._bias_stream = Stream(seed, f"{name}/bias", nworld)
+        self._bias = np.zeros((nworld, channels))
+        self._drift = np.zeros((nworld, channels))
+        self._active = noise.type != "none"
+        self._draw_bias(None)
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Draw new biases; the white noise goes on."""
+        self._drift[slice(None) if worlds is None else worlds] = 0.0
+        self._draw_bias(worlds)
+
+    def apply(self, values: Floats, interval: float, worlds: Worlds | None = None) -> Floats:
+        """Values with noise.
+
+        Args:
+            values: True values, shape (n, channels).
+            interval: Time since the last measurement [s], for the drift.
+            worlds: Which worlds the rows are.
+
+        Returns:
+            Measured values, shape (n, channels).
+        """
+        if not self._active:
+            return values
+        noise = self._noise
+        rows = slice(None) if worlds is None else worlds
+        measured = values + noise.mean + self._bias[rows]
+        if noise.stddev > 0.0:
+            measured = measured + noise.stddev * self._stream.normal(self._channels, worlds)
+        if noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0:
+            self._advance_drift(interval, worlds)
+            measured = measured + self._drift[rows]
+        if noise.type == "gaussian_quantized" and noise.precision > 0.0:
+            measured = np.round(measured / noise.precision) * noise.precision
+        return measured
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {
+            "counters": self._stream.counters.copy(),
+            "bias_counters": self._bias_stream.counters.copy(),
+            "bias": self._bias.copy(),
+            "drift": self._drift.copy(),
+        }
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._stream.counters[:] = state["counters"]
+        self._bias_stream.counters[:] = state["bias_counters"]
+        self._bias[:] = state["bias"]
+        self._drift[:] = state["drift"]
+
+    def _draw_bias(self, worlds: Worlds | None) -> None:
+        noise = self._noise
+        if not self._active or (noise.bias_mean == 0.0 and noise.bias_stddev == 0.0):
+            return
+        rows = slice(None) if worlds is None else worlds
+        size = noise.bias_mean + noise.bias_stddev * self._bias_stream.normal(
+            self._channels, worlds
+        )
+        sign = np.where(self._bias_stream.uniform(self._channels, worlds) < 0.5, -1.0, 1.0)
+        self._bias[rows] = sign * size
+
+    def _advance_drift(self, interval: float, worlds: Worlds | None) -> None:
+        """One step of the process b' = -b / T + white noise, exactly discretised."""
+        noise = self._noise
+        rows = slice(None) if worlds is None else worlds
+        keep = math.exp(-interval / noise.dynamic_bias_correlation_time)
+        spread = noise.dynamic_bias_stddev * math.sqrt(1.0 - keep * keep)
+        draw = self._stream.normal(self._channels, worlds)
+        self._drift[rows] = keep * self._drift[rows] + spread * draw
