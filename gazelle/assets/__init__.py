@@ -1,0 +1,61 @@
+"""Robots, worlds and models that come with Gazelle: data, and the paths to it.
+
+Laid out as the files of a Gazebo and ROS 1 workspace are, so that ``model://NAME`` resolves
+under ``root() / "models"`` and ``package://NAME`` under ``root()``::
+
+    gazelle.load(gazelle.assets.world("turtlebot3_stage_1"))
+"""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+
+from gazelle.errors import ResolveError, did_you_mean
+
+__all__ = ["models", "robot", "robots", "root", "world", "worlds"]
+
+
+def root() -> Path:
+    """The folder that holds ``models/``, ``worlds/`` and one folder a ROS package."""
+    return Path(str(resources.files(__name__)))
+
+
+def worlds() -> dict[str, Path]:
+    """World files by name, such as ``turtlebot3_stage_1``."""
+    return {path.stem: path for path in sorted((root() / "worlds").glob("*.world"))}
+
+
+def robots() -> dict[str, Path]:
+    """Robot files (xacro) by name, such as ``turtlebot3_burger``."""
+    files = sorted(root().glob("*_description/urdf/*.urdf.xacro"))
+    return {path.name.removesuffix(".urdf.xacro"): path for path in files}
+
+
+def models() -> dict[str, Path]:
+    """Model files (SDF) by name, such as ``ground_plane``."""
+    return {path.parent.name: path for path in sorted((root() / "models").glob("*/model.sdf"))}
+
+
+def world(name: str) -> Path:
+    """The file of a bundled world.
+
+    Raises:
+        ResolveError: No world has that name; the hint names the closest.
+    """
+    return _pick(name, worlds(), "world")
+
+
+def robot(name: str) -> Path:
+    """The file of a bundled robot.
+
+    Raises:
+        ResolveError: No robot has that name; the hint names the closest.
+    """
+    return _pick(name, robots(), "robot")
+
+
+def _pick(name: str, known: dict[str, Path], kind: str) -> Path:
+    if name in known:
+        return known[name]
+    raise ResolveError(f"no bundled {kind} is called '{name}'", hint=did_you_mean(name, known))
