@@ -1,0 +1,108 @@
+"""Train, resume and evaluate policies.
+
+::
+
+    from gazelle.training import evaluate, resume, train
+
+    result = train("TurtleBot3Stage1", steps=300_000)
+    print(evaluate(result.run.folder, episodes=100).success)
+
+Evaluation needs numpy only; torch is imported when something is trained.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from gazelle.errors import MissingExtraError
+
+if TYPE_CHECKING:
+    from gazelle.training.actor import Actor, load_actor
+    from gazelle.training.evaluation import Evaluation, evaluate
+    from gazelle.training.learners import ALGORITHMS
+    from gazelle.training.progress import Progress, choose_progress
+    from gazelle.training.recipes import (
+        RECIPES,
+        OffPolicySettings,
+        PPOSettings,
+        Recipe,
+        recipe_for,
+    )
+    from gazelle.training.runs import Run, RunConfig
+    from gazelle.training.session import TrainResult, resume, train
+    from gazelle.training.statistics import Rate, wilson_interval
+    from gazelle.training.tasks import Task, find_task, list_tasks, make_task
+
+_EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
+
+_HOMES = {
+    "ALGORITHMS": "learners",
+    "Actor": "actor",
+    "Evaluation": "evaluation",
+    "OffPolicySettings": "recipes",
+    "PPOSettings": "recipes",
+    "Progress": "progress",
+    "RECIPES": "recipes",
+    "Rate": "statistics",
+    "Recipe": "recipes",
+    "Run": "runs",
+    "RunConfig": "runs",
+    "Task": "tasks",
+    "TrainResult": "session",
+    "choose_progress": "progress",
+    "evaluate": "evaluation",
+    "find_task": "tasks",
+    "list_tasks": "tasks",
+    "load_actor": "actor",
+    "make_task": "tasks",
+    "recipe_for": "recipes",
+    "resume": "session",
+    "train": "session",
+    "wilson_interval": "statistics",
+}
+
+__all__ = [
+    "ALGORITHMS",
+    "RECIPES",
+    "Actor",
+    "Evaluation",
+    "OffPolicySettings",
+    "PPOSettings",
+    "Progress",
+    "Rate",
+    "Recipe",
+    "Run",
+    "RunConfig",
+    "Task",
+    "TrainResult",
+    "choose_progress",
+    "evaluate",
+    "find_task",
+    "list_tasks",
+    "load_actor",
+    "make_task",
+    "recipe_for",
+    "resume",
+    "train",
+    "wilson_interval",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its module on first use."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'gazelle.training' has no attribute '{name}'")
+    try:
+        module = importlib.import_module(f"gazelle.training.{_HOMES[name]}")
+    except ModuleNotFoundError as error:
+        if error.name in _EXTRA:
+            raise MissingExtraError(error.name, "train") from error
+        raise
+    value = getattr(module, name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

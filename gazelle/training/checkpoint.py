@@ -1,0 +1,179 @@
+"""Save and restore everything that a training run depends on.
+
+A checkpoint is a folder:
+
+- ``learner.pt``: weights and optimisers, read with ``weights_only=True``;
+- ``state.json`` and ``state.npz``: counters, random generators, the adapter's
+  and the environment's state, the replay memory; see `portable`;
+- ``policy.npz``: the policy alone; see `Actor`.
+
+A run that is continued from a checkpoint does exactly what it would have done
+without the break, as long as the environment can save its state.
+"""
+
+from __future__ import annotations
+
+import pickle
+import random
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from gazelle.errors import FormatError, SimulationWarning
+from gazelle.training import portable
+from gazelle.training.export import export_actor
+from gazelle.training.learners import Learner
+from gazelle.training.vecenv import VectorEnvAdapter
+
+_COUNTERS = (
+    "num_timesteps",
+    "_total_timesteps",
+    "_n_updates",
+    "_episode_num",
+    "_current_progress_remaining",
+    "_n_calls",
+    "exploration_rate",
+)
+
+
+def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> None:
+    """Write the state of a learner and its environment into an empty folder.
+
+    Args:
+        folder: An existing folder.
+        learner: Between two rollouts.
+        extra: More to remember; see `portable.pack` for what it may hold.
+    """
+    torch.save(_torch_state(learner), folder / "learner.pt")
+    export_actor(learner.policy).save(folder / "policy.npz")
+    state: dict[str, Any] = {
+        "counters": {name: getattr(learner, name) for name in _COUNTERS if hasattr(learner, name)},
+        "last_obs": learner._last_obs,  # noqa: SLF001  # SB3 has no public name for it
+        "last_starts": learner._last_episode_starts,  # noqa: SLF001
+        "generators": _generators(learner),
+        "stepper": learner.env.stepper.get_state(),
+        "environment": _environment_state(learner.env),
+        "extra": extra,
+    }
+    memory = getattr(learner, "replay_buffer", None)
+    if memory is not None:
+        state["memory"] = memory.get_state()
+    portable.save(folder / "state", state)
+
+
+def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
+    """Bring a freshly built learner and its environment to the state of a checkpoint.
+
+    If the environment cannot restore its state, its episodes start anew and a
+    `SimulationWarning` says so.
+
+    Returns:
+        What was given to `write_checkpoint` as ``extra``.
+
+    Raises:
+        FormatError: The checkpoint is damaged or belongs to another recipe.
+    """
+    state = portable.load(folder / "state")
+    _set_torch_state(learner, folder / "learner.pt")
+    try:
+        for name, value in state["counters"].items():
+            setattr(learner, name, value)
+        if "memory" in state:
+            learner.replay_buffer.set_state(state["memory"])
+        _restore_environment(learner, state)
+        _set_generators(learner, state["generators"])
+    except (KeyError, ValueError, TypeError) as error:
+        hint = "it is damaged, or was written by another version"
+        raise FormatError(
+            f"cannot use the checkpoint: {error}", file=str(folder), hint=hint
+        ) from error
+    extra: dict[str, Any] = state["extra"]
+    return extra
+
+
+def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:
+    adapter: VectorEnvAdapter = learner.env
+    setter = _method(adapter, "set_state")
+    if state["environment"] is None or setter is None:
+        warnings.warn(
+            "this environment cannot save its state: its episodes start anew, "
+            "so the run goes on well but not bit for bit as without the break",
+            SimulationWarning,
+            stacklevel=2,
+        )
+        learner._last_obs = adapter.reset()  # noqa: SLF001
+        learner._last_episode_starts = np.ones(adapter.num_envs, dtype=np.bool_)  # noqa: SLF001
+        return
+    adapter.reset()
+    setter(state["environment"]["value"])
+    adapter.stepper.set_state(state["stepper"])
+    learner._last_obs = state["last_obs"]  # noqa: SLF001
+    learner._last_episode_starts = state["last_starts"]  # noqa: SLF001
+
+
+def _environment_state(adapter: VectorEnvAdapter) -> dict[str, Any] | None:
+    getter = _method(adapter, "get_state")
+    return None if getter is None else {"value": getter()}
+
+
+def _method(adapter: VectorEnvAdapter, name: str) -> Any:
+    """A method of the environment below all wrappers, if it has one."""
+    return getattr(adapter.env.unwrapped, name, None)
+
+
+def _generators(learner: Learner) -> dict[str, Any]:
+    """The state of every random generator that training uses."""
+    state: dict[str, Any] = {
+        "python": random.getstate(),
+        "numpy": np.random.get_state(),  # noqa: NPY002  # SB3 draws from the global one
+        "torch": torch.get_rng_state().numpy(),
+        "actions": learner.action_space.np_random.bit_generator.state,
+    }
+    if hasattr(learner, "action_rng"):
+        state["sampling"] = learner.action_rng.bit_generator.state
+        state["batches"] = learner.rollout_buffer.rng.bit_generator.state
+    return state
+
+
+def _set_generators(learner: Learner, state: dict[str, Any]) -> None:
+    random.setstate(state["python"])
+    np.random.set_state(state["numpy"])  # noqa: NPY002
+    torch.set_rng_state(torch.as_tensor(state["torch"]))
+    learner.action_space.np_random.bit_generator.state = state["actions"]
+    if hasattr(learner, "action_rng"):
+        learner.action_rng.bit_generator.state = state["sampling"]
+        learner.rollout_buffer.rng.bit_generator.state = state["batches"]
+
+
+def _torch_state(learner: Learner) -> dict[str, Any]:
+    modules, tensors = learner._get_torch_save_params()  # noqa: SLF001  # SB3's own list
+    return {
+        "modules": {name: _attribute(learner, name).state_dict() for name in modules},
+        "tensors": {name: _attribute(learner, name).detach() for name in tensors},
+    }
+
+
+def _set_torch_state(learner: Learner, file: Path) -> None:
+    try:
+        state = torch.load(file, weights_only=True, map_location="cpu")
+        for name, values in state["modules"].items():
+            _attribute(learner, name).load_state_dict(values)
+        for name, tensor in state["tensors"].items():
+            _attribute(learner, name).data.copy_(tensor)
+    except (pickle.UnpicklingError, RuntimeError, KeyError, ValueError, EOFError) as error:
+        hint = "it is damaged, or belongs to another recipe"
+        reason = str(error).splitlines()[0]
+        raise FormatError(
+            f"cannot use these weights: {reason}", file=str(file), hint=hint
+        ) from error
+
+
+def _attribute(learner: Learner, path: str) -> Any:
+    """``policy.optimizer`` to the optimiser of the policy."""
+    value = learner
+    for name in path.split("."):
+        value = getattr(value, name)
+    return value

@@ -1,0 +1,78 @@
+"""From a Stable-Baselines3 policy in torch to an `Actor` in numpy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+import numpy.typing as npt
+import torch
+from torch import nn
+
+from gazelle.errors import TaskError
+from gazelle.training.actor import Actor, Head
+
+Floats = npt.NDArray[np.float32]
+
+
+def export_actor(policy: Any) -> Actor:
+    """Copy the acting part of a policy into numpy arrays.
+
+    The fixed scaling of observations is folded into the first layer.
+
+    Args:
+        policy: The ``policy`` of a Stable-Baselines3 PPO, DQN, SAC, TD3 or DDPG
+            with the features extractor `ScaledObservations`.
+
+    Raises:
+        TaskError: The policy is not a multi-layer perceptron.
+    """
+    space = policy.action_space
+    head, extractor, modules = _parts(policy)
+    weights, biases = _linear_layers(modules)
+    gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
+    biases[0] = biases[0] + offset @ weights[0]
+    weights[0] = np.ascontiguousarray(gain[:, None] * weights[0])
+    relu = any(isinstance(module, nn.ReLU) for module in modules)
+    continuous = isinstance(space, gym.spaces.Box)
+    return Actor(
+        weights=tuple(weights),
+        biases=tuple(biases),
+        activation="relu" if relu else "tanh",
+        head=head,
+        log_std=_numpy(policy.log_std) if head == "gaussian" else None,
+        low=space.low.astype(np.float32) if continuous else None,
+        high=space.high.astype(np.float32) if continuous else None,
+        first_action=int(space.start) if isinstance(space, gym.spaces.Discrete) else 0,
+    )
+
+
+def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
+    """The head, the features extractor and the layers in order."""
+    if hasattr(policy, "mlp_extractor"):
+        head: Head = "categorical"
+        if isinstance(policy.action_space, gym.spaces.Box):
+            head = "gaussian"
+        layers = [*policy.mlp_extractor.policy_net, policy.action_net]
+        return head, policy.pi_features_extractor, layers
+    if hasattr(policy, "q_net"):
+        return "greedy", policy.q_net.features_extractor, list(policy.q_net.q_net)
+    if hasattr(policy.actor, "latent_pi"):
+        layers = [*policy.actor.latent_pi, policy.actor.mu]
+        return "squashed", policy.actor.features_extractor, layers
+    return "squashed", policy.actor.features_extractor, list(policy.actor.mu)
+
+
+def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats], list[Floats]]:
+    linear = [module for module in modules if isinstance(module, nn.Linear)]
+    other = [module for module in modules if not isinstance(module, nn.Linear | nn.Tanh | nn.ReLU)]
+    if other or not linear:
+        raise TaskError(f"cannot copy a policy with a {type((other or modules)[0]).__name__} layer")
+    weights = [np.ascontiguousarray(_numpy(module.weight).T) for module in linear]
+    return weights, [_numpy(module.bias) for module in linear]
+
+
+def _numpy(tensor: torch.Tensor) -> Floats:
+    array: Floats = tensor.detach().cpu().numpy().astype(np.float32, copy=True)
+    return array

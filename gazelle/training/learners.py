@@ -1,0 +1,139 @@
+"""Build a learner from a recipe: one function an algorithm, in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from stable_baselines3 import DDPG, DQN, SAC, TD3
+from stable_baselines3.common.noise import NormalActionNoise
+from torch import nn
+
+from gazelle.errors import TaskError
+from gazelle.training.ppo import FastPPO
+from gazelle.training.recipes import OffPolicySettings, PPOSettings, Recipe
+from gazelle.training.replay import MaskedReplayBuffer
+from gazelle.training.scaling import ScaledObservations
+from gazelle.training.vecenv import VectorEnvAdapter
+
+Learner = Any
+"""A Stable-Baselines3 algorithm (the library gives no usable types)."""
+
+
+def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    """A fresh learner for an environment.
+
+    Raises:
+        TaskError: The algorithm does not know this kind of actions.
+    """
+    continuous = isinstance(env.action_space, gym.spaces.Box)
+    discrete = isinstance(env.action_space, gym.spaces.Discrete)
+    suits = {"ppo": continuous or discrete, "dqn": discrete}.get(recipe.algo, continuous)
+    if not suits:
+        fitting = "ppo or dqn" if discrete else "ppo, sac, td3 or ddpg"
+        kind = type(env.action_space).__name__
+        raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
+    return ALGORITHMS[recipe.algo](recipe, env, seed)
+
+
+def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    settings = recipe.settings
+    if not isinstance(settings, PPOSettings):
+        raise TaskError("a recipe for ppo needs PPOSettings")
+    common = _common(recipe, seed)
+    # SB3's own epsilon for PPO; the fused kernel is one call instead of many.
+    common["policy_kwargs"]["optimizer_kwargs"] = {"eps": 1e-5, "fused": True}
+    return FastPPO(
+        "MlpPolicy",
+        env,
+        n_steps=settings.n_steps,
+        batch_size=settings.batch_size,
+        n_epochs=settings.n_epochs,
+        gae_lambda=settings.gae_lambda,
+        clip_range=settings.clip_range,
+        ent_coef=settings.ent_coef,
+        vf_coef=settings.vf_coef,
+        max_grad_norm=settings.max_grad_norm,
+        **common,
+    )
+
+
+def _build_dqn(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    settings = _off_policy(recipe)
+    return DQN(
+        "MlpPolicy",
+        env,
+        exploration_fraction=settings.exploration_fraction,
+        exploration_final_eps=settings.exploration_final,
+        target_update_interval=settings.target_update_interval,
+        **_replaying(recipe, settings, seed),
+    )
+
+
+def _build_sac(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    return SAC("MlpPolicy", env, **_replaying(recipe, _off_policy(recipe), seed))
+
+
+def _build_td3(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    return TD3("MlpPolicy", env, **_noisy(recipe, env, seed))
+
+
+def _build_ddpg(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    return DDPG("MlpPolicy", env, **_noisy(recipe, env, seed))
+
+
+ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
+    "ppo": _build_ppo,
+    "dqn": _build_dqn,
+    "sac": _build_sac,
+    "td3": _build_td3,
+    "ddpg": _build_ddpg,
+}
+"""The algorithms, by the name used on the command line."""
+
+
+def _common(recipe: Recipe, seed: int) -> dict[str, Any]:
+    """What all algorithms take."""
+    activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
+    rate = recipe.learning_rate
+    return {
+        "learning_rate": (lambda left: left * rate) if recipe.learning_rate_decay else rate,
+        "gamma": recipe.gamma,
+        "seed": seed,
+        "device": "cpu",
+        "policy_kwargs": {
+            "net_arch": list(recipe.net_arch),
+            "activation_fn": activation,
+            "features_extractor_class": ScaledObservations,
+            "features_extractor_kwargs": {"scale": recipe.scale_observations},
+        },
+    }
+
+
+def _replaying(recipe: Recipe, settings: OffPolicySettings, seed: int) -> dict[str, Any]:
+    """What all algorithms with a replay memory take."""
+    return _common(recipe, seed) | {
+        "buffer_size": settings.buffer_size,
+        "batch_size": settings.batch_size,
+        "learning_starts": settings.learning_starts,
+        "train_freq": settings.train_freq,
+        "gradient_steps": settings.gradient_steps,
+        "tau": settings.tau,
+        "replay_buffer_class": MaskedReplayBuffer,
+    }
+
+
+def _noisy(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
+    """What algorithms take that explore by noise on the action."""
+    settings = _off_policy(recipe)
+    size = env.action_space.shape[0]
+    noise = NormalActionNoise(np.zeros(size), np.full(size, settings.action_noise))
+    return _replaying(recipe, settings, seed) | {"action_noise": noise}
+
+
+def _off_policy(recipe: Recipe) -> OffPolicySettings:
+    if not isinstance(recipe.settings, OffPolicySettings):
+        raise TaskError(f"a recipe for {recipe.algo} needs OffPolicySettings")
+    return recipe.settings

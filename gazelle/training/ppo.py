@@ -1,0 +1,150 @@
+"""Stable-Baselines3's PPO with a faster way to collect rollouts.
+
+Three things differ from its parent, none of which changes what is computed:
+acting is done by a numpy copy of the actor, values are computed for the whole
+rollout at once, and no Python object is made for each copy of the environment.
+Steps that an environment spends on its reset are left out of the update.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from stable_baselines3 import PPO
+from stable_baselines3.common.buffers import RolloutBuffer
+
+from gazelle.training.actor import Actor
+from gazelle.training.export import export_actor
+from gazelle.training.stepper import Step
+from gazelle.training.vecenv import VectorEnvAdapter
+
+Floats = npt.NDArray[np.float32]
+
+
+class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
+    """A rollout buffer that gives only the valid transitions to the learner.
+
+    Attributes:
+        valid: Which transitions are valid, shape (steps, copies).
+        rng: Where the order of the minibatches comes from.
+    """
+
+    valid: npt.NDArray[np.bool_]
+    rng: np.random.Generator
+    generator_ready: bool
+
+    def get(self, batch_size: int | None = None) -> Generator[Any, None, None]:
+        """Minibatches of the valid transitions in a new random order."""
+        if not self.generator_ready:
+            for name in ("observations", "actions", "values", "log_probs", "advantages", "returns"):
+                setattr(self, name, self.swap_and_flatten(getattr(self, name)))
+            self.generator_ready = True
+        usable = np.flatnonzero(self.valid.swapaxes(0, 1))
+        order = self.rng.permutation(usable)
+        size = batch_size or len(order)
+        for start in range(0, len(order), size):
+            yield self._get_samples(order[start : start + size])
+
+
+class FastPPO(PPO):  # type: ignore[misc]  # untyped base
+    """PPO for a `VectorEnvAdapter`; see the module's text for what differs."""
+
+    env: VectorEnvAdapter
+    _last_obs: Floats
+    _last_episode_starts: npt.NDArray[np.bool_]
+
+    def _setup_model(self) -> None:
+        self.rollout_buffer_class = MaskedRolloutBuffer
+        super()._setup_model()
+        self.action_rng = np.random.default_rng(self.seed)
+        self.rollout_buffer.rng = np.random.default_rng(self.seed)
+
+    def collect_rollouts(
+        self,
+        env: VectorEnvAdapter,
+        callback: Any,
+        rollout_buffer: MaskedRolloutBuffer,
+        n_rollout_steps: int,
+    ) -> bool:
+        """Fill the buffer with ``n_rollout_steps`` control steps of every copy.
+
+        Returns:
+            False if the callback asked to stop.
+        """
+        callback.on_rollout_start()
+        self.policy.set_training_mode(False)
+        rollout_buffer.reset()
+        rollout_buffer.valid = np.ones((n_rollout_steps, env.num_envs), dtype=np.bool_)
+        actor = export_actor(self.policy)
+        outputs = np.empty((n_rollout_steps, env.num_envs, len(actor.biases[-1])), dtype=np.float32)
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]] = []
+        for row in range(n_rollout_steps):
+            obs, starts = self._last_obs, self._last_episode_starts
+            outputs[row] = actor.outputs(obs.reshape(env.num_envs, -1))
+            actions = actor.sample(outputs[row], self.action_rng)
+            step = env.advance(actor.to_env(actions))
+            self.num_timesteps += env.num_envs
+            if not callback.on_step():
+                return False
+            rollout_buffer.observations[row] = obs
+            rollout_buffer.actions[row] = actions.reshape(env.num_envs, -1)
+            rollout_buffer.rewards[row] = step.rewards * env.reward_scale
+            rollout_buffer.episode_starts[row] = starts
+            rollout_buffer.valid[row] = step.valid
+            self._note_cut_off(row, step, cut_off)
+            self._last_obs = step.obs
+            self._last_episode_starts = step.terminated | step.truncated | ~step.valid
+        rollout_buffer.log_probs[:] = _log_probs(actor, outputs, rollout_buffer.actions)
+        self._finish(rollout_buffer, cut_off)
+        callback.on_rollout_end()
+        return True
+
+    def _note_cut_off(
+        self,
+        row: int,
+        step: Step,
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]],
+    ) -> None:
+        """Remember the last observations of episodes that were cut off, to value them later."""
+        if step.ended is None or step.final_obs is None:
+            return
+        which = step.truncated[step.ended.slots]
+        if which.any():
+            cut_off.append((row, step.ended.slots[which], step.final_obs[which]))
+
+    def _finish(
+        self,
+        buffer: MaskedRolloutBuffer,
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]],
+    ) -> None:
+        """Values, bootstrapped rewards of cut-off episodes (Pardo et al. 2018), advantages."""
+        rows, copies = buffer.rewards.shape
+        flat = buffer.observations.reshape(rows * copies, *buffer.obs_shape)
+        buffer.values[:] = self._values(flat).reshape(rows, copies)
+        if cut_off:
+            values = self._values(np.concatenate([last for _, _, last in cut_off]))
+            start = 0
+            for row, slots, _ in cut_off:
+                buffer.rewards[row, slots] += self.gamma * values[start : start + len(slots)]
+                start += len(slots)
+        buffer.pos, buffer.full = rows, True
+        last_values = torch.as_tensor(self._values(self._last_obs))
+        buffer.compute_returns_and_advantage(last_values, self._last_episode_starts)
+
+    def _values(self, obs: Floats) -> Floats:
+        with torch.no_grad():
+            values: Floats = self.policy.predict_values(torch.as_tensor(obs)).numpy().reshape(-1)
+        return values
+
+
+def _log_probs(actor: Actor, outputs: Floats, actions: npt.NDArray[Any]) -> Floats:
+    """Log-probabilities of all actions of a rollout, shape (steps, copies)."""
+    rows, copies, width = outputs.shape
+    flat = actions.reshape(rows * copies, -1)
+    if actor.discrete:
+        flat = flat[:, 0].astype(np.int64)
+    return actor.log_prob(outputs.reshape(-1, width), flat).reshape(rows, copies)

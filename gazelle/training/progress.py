@@ -1,0 +1,141 @@
+"""How a training run shows that it is alive."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Protocol, TextIO
+
+_SECONDS_BETWEEN_LINES = 10.0
+
+
+class Progress(Protocol):
+    """Shows how far a training run is."""
+
+    def start(self, done: int, total: int) -> None:
+        """Training starts with some control steps done already."""
+
+    def update(self, done: int, summary: dict[str, float]) -> None:
+        """So many control steps are done; the summary is `EpisodeLog.summary`'s."""
+
+    def say(self, text: str) -> None:
+        """Tell the user something, without disturbing the display."""
+
+    def close(self) -> None:
+        """Training is over."""
+
+
+class Silent:
+    """Shows nothing."""
+
+    def start(self, done: int, total: int) -> None:
+        """Show nothing."""
+
+    def update(self, done: int, summary: dict[str, float]) -> None:
+        """Show nothing."""
+
+    def say(self, text: str) -> None:
+        """Show nothing."""
+
+    def close(self) -> None:
+        """Show nothing."""
+
+
+class Lines:
+    """A line now and then, for logs and pipes.
+
+    Args:
+        stream: Where the lines go.
+        seconds: Wall time between two lines [s].
+    """
+
+    def __init__(self, stream: TextIO, seconds: float = _SECONDS_BETWEEN_LINES) -> None:
+        self._stream = stream
+        self._seconds = seconds
+        self._total = 0
+        self._began = (0.0, 0)
+        self._last = 0.0
+
+    def start(self, done: int, total: int) -> None:
+        """Note where and when training starts."""
+        self._total = total
+        self._last = time.monotonic()
+        self._began = (self._last, done)
+
+    def update(self, done: int, summary: dict[str, float]) -> None:
+        """Write a line if the last one is long enough ago."""
+        now = time.monotonic()
+        if now - self._last < self._seconds:
+            return
+        self._last = now
+        rate = (done - self._began[1]) / (now - self._began[0])
+        self.say(f"{done:,}/{self._total:,} steps, {rate:,.0f} steps/s{describe(summary)}")
+
+    def say(self, text: str) -> None:
+        """Write a line."""
+        self._stream.write(f"{text}\n")
+        self._stream.flush()
+
+    def close(self) -> None:
+        """Nothing is left to do."""
+
+
+class Bar:
+    """A progress bar of one line, for terminals.
+
+    Args:
+        stream: Where the bar goes.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        from tqdm import tqdm
+
+        self._stream = stream
+        self._tqdm = tqdm
+        self._bar = tqdm(disable=True)
+
+    def start(self, done: int, total: int) -> None:
+        """Show the bar."""
+        form = "{percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} [{remaining}, {rate_fmt}{postfix}]"
+        self._bar = self._tqdm(
+            initial=done,
+            total=total,
+            unit=" steps",
+            unit_scale=True,
+            dynamic_ncols=True,
+            bar_format=form,
+            file=self._stream,
+            leave=True,
+        )
+
+    def update(self, done: int, summary: dict[str, float]) -> None:
+        """Move the bar."""
+        self._bar.set_postfix_str(describe(summary).removeprefix(", "), refresh=False)
+        self._bar.update(min(done, self._bar.total) - self._bar.n)
+
+    def say(self, text: str) -> None:
+        """Write a line above the bar."""
+        self._tqdm.write(text, file=self._stream)
+
+    def close(self) -> None:
+        """Leave the bar as it stands."""
+        self._bar.close()
+
+
+def choose_progress(stream: TextIO | None = None) -> Progress:
+    """A bar on a terminal, else a line now and then.
+
+    Args:
+        stream: Where to; by default standard error.
+    """
+    stream = stream or sys.stderr
+    return Bar(stream) if stream.isatty() else Lines(stream)
+
+
+def describe(summary: dict[str, float]) -> str:
+    """The most telling figure of an `EpisodeLog.summary`: success, else return."""
+    if "success_rate" in summary:
+        return f", success {summary['success_rate']:.0%}"
+    if "return" in summary:
+        return f", return {summary['return']:.4g}"
+    return ""

@@ -1,0 +1,224 @@
+"""How each task is best trained: one frozen recipe a task.
+
+A recipe holds everything that shapes the result, so a run is described by its
+recipe, its seed and the options of its environment.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from gazelle.errors import TaskError, did_you_mean
+
+Activation = Literal["tanh", "relu"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PPOSettings:
+    """What only PPO knows (Schulman et al. 2017, arXiv 1707.06347)."""
+
+    n_steps: int = 64
+    """Control steps of each copy between two updates."""
+    batch_size: int = 1024
+    """Transitions in a minibatch."""
+    n_epochs: int = 4
+    """Passes over the collected transitions in an update."""
+    gae_lambda: float = 0.95
+    """Trade of bias for variance (Schulman et al. 2015, arXiv 1506.02438)."""
+    clip_range: float = 0.2
+    """How far the new policy's probability ratio may move from 1."""
+    ent_coef: float = 0.005
+    """Weight of the entropy bonus."""
+    vf_coef: float = 0.5
+    """Weight of the value loss."""
+    max_grad_norm: float = 0.5
+    """Gradients longer than this are shortened to it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OffPolicySettings:
+    """What DQN, DDPG, TD3 and SAC share."""
+
+    buffer_size: int = 300_000
+    """Transitions remembered."""
+    batch_size: int = 256
+    """Transitions in a minibatch."""
+    learning_starts: int = 5_000
+    """Random transitions before the first update."""
+    train_freq: int = 1
+    """Control steps of all copies between two updates."""
+    gradient_steps: int = 1
+    """Minibatches in an update."""
+    tau: float = 0.005
+    """Share of the new weights that goes into the target network at each update."""
+    action_noise: float = 0.1
+    """Standard deviation of DDPG's and TD3's exploration noise, actions scaled to [-1, 1]."""
+    exploration_fraction: float = 0.2
+    """Share of the training in which DQN's random actions become rare."""
+    exploration_final: float = 0.05
+    """Share of random actions that stays (DQN)."""
+    target_update_interval: int = 2_000
+    """Transitions between two copies to DQN's target network (with tau 1)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """How one task is trained with one algorithm."""
+
+    algo: str = "ppo"
+    """One of the names in `gazelle.training.ALGORITHMS`."""
+    steps: int = 500_000
+    """Control steps in total, all copies together."""
+    num_envs: int = 64
+    """Copies of the world that run at once."""
+    net_arch: tuple[int, ...] = (64, 64)
+    """Sizes of the hidden layers."""
+    activation: Activation = "tanh"
+    """What follows each hidden layer."""
+    learning_rate: float = 3e-4
+    """Step size of Adam at the start."""
+    learning_rate_decay: bool = True
+    """Whether the step size falls in a straight line to 0 at the end."""
+    gamma: float = 0.98
+    """Discount of one control step."""
+    reward_scale: float = 1.0
+    """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
+    scale_observations: bool = True
+    """Whether observations with finite bounds are mapped to [-1, 1] before the first layer."""
+    settings: PPOSettings | OffPolicySettings = PPOSettings()
+    """What only this algorithm knows."""
+
+    def __post_init__(self) -> None:
+        """Check that the numbers can work.
+
+        Raises:
+            TaskError: One of them cannot.
+        """
+        for name in ("steps", "num_envs", "learning_rate", "reward_scale"):
+            if not getattr(self, name) > 0:
+                raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
+        if not 0 <= self.gamma <= 1:
+            raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
+        wanted = PPOSettings if self.algo == "ppo" else OffPolicySettings
+        if not isinstance(self.settings, wanted):
+            raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")
+
+
+_NAVIGATION = Recipe(reward_scale=0.02)
+
+RECIPES: dict[str, Recipe] = {
+    "CartPole": Recipe(
+        steps=250_000,
+        num_envs=16,
+        learning_rate=1e-3,
+        gamma=0.99,
+        settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
+    ),
+    "TurtleBot3Stage1": _NAVIGATION,
+    "TurtleBot3Stage2": dataclasses.replace(_NAVIGATION, steps=1_500_000),
+    "TurtleBot3Stage3": dataclasses.replace(_NAVIGATION, steps=3_000_000),
+    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=4_000_000),
+}
+"""The recipe of each task, by the task's name without ``gazelle/`` and version."""
+
+_OFF_POLICY: dict[str, Recipe] = {
+    "dqn": Recipe(
+        algo="dqn",
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate=5e-4,
+        learning_rate_decay=False,
+        settings=OffPolicySettings(gradient_steps=4, tau=1.0),
+    ),
+    "sac": Recipe(
+        algo="sac",
+        num_envs=16,
+        steps=200_000,
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate_decay=False,
+        settings=OffPolicySettings(gradient_steps=4),
+    ),
+    "td3": Recipe(
+        algo="td3",
+        num_envs=16,
+        steps=200_000,
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate_decay=False,
+        settings=OffPolicySettings(gradient_steps=4),
+    ),
+    "ddpg": Recipe(
+        algo="ddpg",
+        num_envs=16,
+        steps=200_000,
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate_decay=False,
+        settings=OffPolicySettings(gradient_steps=4),
+    ),
+}
+
+
+def recipe_for(task: str, algo: str | None = None) -> Recipe:
+    """The recipe for a task, by default with the algorithm that suits it best.
+
+    A task without a recipe of its own gets the defaults of the algorithm. A
+    continuous twin (``...Continuous``) uses the recipe of its task.
+
+    Args:
+        task: Name or id, such as ``TurtleBot3Stage1`` or ``gazelle/TurtleBot3Stage1-v0``.
+        algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; None for the recipe's own.
+
+    Raises:
+        TaskError: There is no such algorithm.
+    """
+    own = RECIPES.get(task_name(task).removesuffix("Continuous"))
+    if algo is None or (own is not None and own.algo == algo):
+        return own or Recipe()
+    if algo == "ppo":
+        return Recipe()
+    if algo not in _OFF_POLICY:
+        hint = did_you_mean(algo, ["ppo", *_OFF_POLICY])
+        raise TaskError(f"there is no algorithm '{algo}'", hint=hint)
+    base = _OFF_POLICY[algo]
+    if own is None:
+        return base
+    return dataclasses.replace(base, gamma=own.gamma, reward_scale=own.reward_scale)
+
+
+def task_name(task: str) -> str:
+    """``gazelle/TurtleBot3Stage1-v0`` to ``TurtleBot3Stage1``."""
+    name = task.rsplit("/", maxsplit=1)[-1]
+    head, dash, version = name.rpartition("-v")
+    return head if dash and version.isdigit() else name
+
+
+def recipe_to_dict(recipe: Recipe) -> dict[str, Any]:
+    """A recipe as plain values for JSON."""
+    return dataclasses.asdict(recipe)
+
+
+def recipe_from_dict(values: dict[str, Any]) -> Recipe:
+    """The recipe that `recipe_to_dict` wrote.
+
+    Raises:
+        TaskError: A key is not part of a recipe.
+    """
+    kind = PPOSettings if values.get("algo", "ppo") == "ppo" else OffPolicySettings
+    settings = kind(**_checked(kind, values.get("settings", {})))
+    rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
+    if "net_arch" in rest:
+        rest["net_arch"] = tuple(rest["net_arch"])
+    return Recipe(**rest, settings=settings)
+
+
+def _checked(kind: type[Any], values: dict[str, Any]) -> dict[str, Any]:
+    known = {field.name for field in dataclasses.fields(kind)}
+    for key in values:
+        if key not in known:
+            hint = did_you_mean(key, known)
+            raise TaskError(f"'{key}' is not part of {kind.__name__}", hint=hint)
+    return dict(values)

@@ -1,0 +1,192 @@
+"""The folder of a training run: configuration, checkpoints, logs, policy.
+
+::
+
+    runs/TurtleBot3Stage1-ppo-20261105-140302/
+        config.json          everything that shaped the run, and the versions used
+        progress.csv         the curves as a table
+        tensorboard/         the curves for TensorBoard
+        checkpoints/000000500000/   state to resume from, named by control steps
+        policy.npz           the newest policy, for evaluation without torch
+"""
+
+from __future__ import annotations
+
+import json
+import platform
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from datetime import datetime
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import FormatError, TaskError
+from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
+
+_FORMAT = "gazelle-run-1"
+_PACKAGES = ("gazelle", "gymnasium", "mujoco-core", "numpy", "stable-baselines3", "torch")
+_KEPT = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunConfig:
+    """Everything that shapes a run."""
+
+    task: str
+    """Gymnasium id of the task."""
+    recipe: Recipe
+    """How it is trained."""
+    seed: int
+    """Seed of everything random."""
+    options: dict[str, Any] = field(default_factory=dict)
+    """Options of the environment."""
+    checkpoint_every: int = 100_000
+    """Control steps between two checkpoints."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run on disk."""
+
+    folder: Path
+    """Where its files are."""
+    config: RunConfig
+    """What shapes it."""
+
+    @staticmethod
+    def create(config: RunConfig, out: Path) -> Run:
+        """Make a new folder under ``out`` and write the configuration into it.
+
+        Raises:
+            TaskError: The folder cannot be made.
+        """
+        stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
+        name = f"{task_name(config.task)}-{config.recipe.algo}-{stamp}"
+        try:
+            folder = _new_folder(out, name)
+            (folder / "checkpoints").mkdir()
+            text = json.dumps(_config_to_dict(config), indent=2)
+            (folder / "config.json").write_text(text + "\n", encoding="utf-8")
+        except OSError as error:
+            hint = "give another folder with --out"
+            raise TaskError(f"cannot write the run: {error}", hint=hint) from error
+        return Run(folder, config)
+
+    @staticmethod
+    def open(folder: Path) -> Run:
+        """Read a run from its folder.
+
+        Raises:
+            FormatError: There is no run, or its configuration is damaged.
+        """
+        file = folder / "config.json"
+        if not file.is_file():
+            hint = "expected the folder of a training run, such as runs/TASK-ppo-DATE"
+            raise FormatError("no run here: there is no config.json", file=str(folder), hint=hint)
+        try:
+            return Run(folder, _config_from_dict(json.loads(file.read_text(encoding="utf-8"))))
+        except (ValueError, KeyError, TypeError, TaskError) as error:
+            raise FormatError(f"not a run's configuration: {error}", file=str(file)) from error
+
+    def checkpoints(self) -> list[Path]:
+        """The complete checkpoints, oldest first."""
+        return sorted(
+            path for path in (self.folder / "checkpoints").iterdir() if path.name.isdigit()
+        )
+
+    def newest_checkpoint(self) -> Path:
+        """The checkpoint to resume from.
+
+        Raises:
+            FormatError: There is none yet.
+        """
+        found = self.checkpoints()
+        if not found:
+            hint = "it stopped before its first checkpoint; train again"
+            raise FormatError("the run has no checkpoint", file=str(self.folder), hint=hint)
+        return found[-1]
+
+    def policy_file(self) -> Path:
+        """The newest policy.
+
+        Raises:
+            FormatError: There is none yet.
+        """
+        file = self.folder / "policy.npz"
+        if not file.is_file():
+            hint = "it stopped before its first checkpoint; train again"
+            raise FormatError("the run has no policy", file=str(self.folder), hint=hint)
+        return file
+
+    def add_checkpoint(self, steps: int, write: Callable[[Path], None]) -> Path:
+        """Write a checkpoint, all or nothing, and remove the oldest beyond three.
+
+        Args:
+            steps: Control steps done so far.
+            write: Writes the files into the folder it is given.
+
+        Returns:
+            The checkpoint's folder.
+        """
+        place = self.folder / "checkpoints" / f"{steps:012d}"
+        draft = place.with_name(place.name + ".part")
+        shutil.rmtree(draft, ignore_errors=True)
+        draft.mkdir()
+        write(draft)
+        shutil.rmtree(place, ignore_errors=True)
+        draft.rename(place)
+        fresh = self.folder / "policy.npz.part"
+        shutil.copyfile(place / "policy.npz", fresh)
+        fresh.replace(self.folder / "policy.npz")
+        for old in self.checkpoints()[:-_KEPT]:
+            shutil.rmtree(old)
+        return place
+
+
+def _new_folder(out: Path, name: str) -> Path:
+    """A folder that did not exist, also when two runs start in the same second."""
+    for suffix in ("", *(f"-{i}" for i in range(2, 100))):
+        folder = out / f"{name}{suffix}"
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        return folder
+    raise FileExistsError(f"{out / name} and 98 like it exist")
+
+
+def _config_to_dict(config: RunConfig) -> dict[str, Any]:
+    return {
+        "format": _FORMAT,
+        "task": config.task,
+        "seed": config.seed,
+        "options": config.options,
+        "checkpoint_every": config.checkpoint_every,
+        "recipe": recipe_to_dict(config.recipe),
+        "versions": {"python": platform.python_version()} | _versions(),
+        "machine": platform.machine(),
+    }
+
+
+def _config_from_dict(values: dict[str, Any]) -> RunConfig:
+    if values["format"] != _FORMAT:
+        raise ValueError(f"format {values['format']!r}, expected {_FORMAT!r}")
+    return RunConfig(
+        task=str(values["task"]),
+        recipe=recipe_from_dict(values["recipe"]),
+        seed=int(values["seed"]),
+        options=dict(values["options"]),
+        checkpoint_every=int(values["checkpoint_every"]),
+    )
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for package in _PACKAGES:
+        try:
+            found[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            continue
+    return found

@@ -1,0 +1,189 @@
+"""Train a policy for a task, or go on with a run that was stopped."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import TaskError
+from gazelle.training.checkpoint import read_checkpoint
+from gazelle.training.conductor import Conductor, StopOnInterrupt, StopRequested
+from gazelle.training.learners import Learner, build_learner
+from gazelle.training.progress import Progress, Silent
+from gazelle.training.recipes import Recipe, recipe_for
+from gazelle.training.runs import Run, RunConfig
+from gazelle.training.statistics import EpisodeLog
+from gazelle.training.tasks import control_period, find_task, make_task, plain_options
+from gazelle.training.threads import limit_threads
+from gazelle.training.vecenv import VectorEnvAdapter
+
+_CHECKPOINTS = 10
+
+
+@dataclass(frozen=True, slots=True)
+class TrainResult:
+    """What a call of `train` or `resume` did."""
+
+    run: Run
+    """The run on disk."""
+    steps: int
+    """Control steps of the whole run so far, all copies together."""
+    new_steps: int
+    """Control steps done in this call."""
+    wall_seconds: float
+    """Wall time of this call's training [s]."""
+    sim_seconds: float | None
+    """Simulated time of this call, all copies together [s]; None when the task has no period."""
+    interrupted: bool
+    """Whether Ctrl-C ended it early; everything is saved then, see `resume`."""
+    summary: dict[str, float]
+    """Means over the latest episodes: ``return``, ``length``, ``success_rate`` ..."""
+
+
+def train(
+    task: str,
+    *,
+    algo: str | None = None,
+    recipe: Recipe | None = None,
+    steps: int | None = None,
+    num_envs: int | None = None,
+    seed: int = 0,
+    out: str | Path = "runs",
+    checkpoint_every: int | None = None,
+    progress: Progress | None = None,
+    threads: int = 1,
+    **options: Any,
+) -> TrainResult:
+    """Train a policy from scratch.
+
+    Args:
+        task: A task's id or name.
+        algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; by default what the recipe says.
+        recipe: How to train; by default the task's own, see `recipe_for`.
+        steps: Control steps in total, instead of the recipe's.
+        num_envs: Copies that run at once, instead of the recipe's.
+        seed: Seed of everything random.
+        out: Folder in which the run's folder is made.
+        checkpoint_every: Control steps between two checkpoints; by default a tenth of the total.
+        progress: Shows how far it is; by default nothing is shown.
+        threads: Threads for torch and BLAS.
+        options: Options of the environment.
+
+    Raises:
+        TaskError: The task, the algorithm or an option does not exist, or they do not fit.
+        MissingExtraError: torch or Stable-Baselines3 is not installed.
+    """
+    task = find_task(task)
+    recipe = recipe or recipe_for(task, algo)
+    recipe = dataclasses.replace(
+        recipe,
+        steps=recipe.steps if steps is None else steps,
+        num_envs=recipe.num_envs if num_envs is None else num_envs,
+    )
+    if checkpoint_every is not None and checkpoint_every < 1:
+        raise TaskError(f"checkpoint_every must be above 0, not {checkpoint_every}")
+    config = RunConfig(
+        task=task,
+        recipe=recipe,
+        seed=seed,
+        options=plain_options(options),
+        checkpoint_every=checkpoint_every or max(1, recipe.steps // _CHECKPOINTS),
+    )
+    limit_threads(threads)
+    session = _Session(config, progress or Silent())
+    try:
+        return session.go(Run.create(config, Path(out)))
+    finally:
+        session.close()
+
+
+def resume(run: str | Path, *, progress: Progress | None = None, threads: int = 1) -> TrainResult:
+    """Go on with a run until the number of steps it was started with.
+
+    The result is the same, bit for bit, as without the break, if the
+    environment can save its state (else a warning says so).
+
+    Args:
+        run: The run's folder.
+        progress: Shows how far it is; by default nothing is shown.
+        threads: Threads for torch and BLAS.
+
+    Raises:
+        FormatError: There is no run, no checkpoint, or it is damaged.
+    """
+    found = Run.open(Path(run))
+    checkpoint = found.newest_checkpoint()
+    limit_threads(threads)
+    session = _Session(found.config, progress or Silent())
+    try:
+        return session.go(found, checkpoint)
+    finally:
+        session.close()
+
+
+class _Session:
+    """The living parts of a run: environment and learner."""
+
+    def __init__(self, config: RunConfig, progress: Progress) -> None:
+        self.progress = progress
+        self.episodes = EpisodeLog()
+        self.total = config.recipe.steps
+        env = make_task(config.task, config.recipe.num_envs, **config.options)
+        self.env = VectorEnvAdapter(
+            env, reward_scale=config.recipe.reward_scale, on_episodes=self.episodes.add
+        )
+        try:
+            self.learner: Learner = build_learner(config.recipe, self.env, config.seed)
+        except BaseException:
+            self.env.close()
+            raise
+
+    def close(self) -> None:
+        self.env.close()
+
+    def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
+        """Train until the total; from the checkpoint if there is one."""
+        with StopOnInterrupt(self.progress) as stop:
+            conductor = Conductor(run, self.total, self.episodes, self.progress, stop)
+            if checkpoint is not None:
+                extra = read_checkpoint(checkpoint, self.learner)
+                conductor.set_state(extra, self.learner.num_timesteps)
+            before = self.learner.num_timesteps
+            conductor.attach(self.learner)
+            self.progress.start(before, self.total)
+            start = time.perf_counter()
+            try:
+                interrupted = self._learn(conductor, fresh=checkpoint is None)
+            finally:
+                self.progress.close()
+                self.learner.logger.close()
+            seconds = time.perf_counter() - start
+        new = self.learner.num_timesteps - before
+        period = control_period(self.env.env)
+        return TrainResult(
+            run=run,
+            steps=self.learner.num_timesteps,
+            new_steps=new,
+            wall_seconds=seconds,
+            sim_seconds=None if period is None else new * period,
+            interrupted=interrupted,
+            summary=self.episodes.summary(),
+        )
+
+    def _learn(self, conductor: Conductor, *, fresh: bool) -> bool:
+        """Run the learner; returns whether it was interrupted."""
+        left = self.total - self.learner.num_timesteps
+        if not fresh and left <= 0:
+            return False
+        try:
+            self.learner.learn(
+                left, callback=conductor, log_interval=None, reset_num_timesteps=fresh
+            )
+        except StopRequested:
+            return True
+        conductor.finish()
+        self.progress.update(self.learner.num_timesteps, self.episodes.summary())
+        return False

@@ -1,0 +1,99 @@
+"""Rates with honest intervals, and a running account of the latest episodes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gazelle.training.stepper import OUTCOMES, Episodes
+
+_Z_95 = 1.959963984540054
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """How often something happened, with a 95 % confidence interval."""
+
+    count: int
+    """How often it happened."""
+    total: int
+    """How often it could have."""
+
+    @property
+    def value(self) -> float:
+        """Share, 0 to 1 (0 of nothing)."""
+        return self.count / self.total if self.total else 0.0
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Lower and upper end of the 95 % interval; see `wilson_interval`."""
+        return wilson_interval(self.count, self.total)
+
+
+def wilson_interval(count: int, total: int, z: float = _Z_95) -> tuple[float, float]:
+    """Confidence interval of a share, also sound near 0 and 1.
+
+    The score interval of E. B. Wilson, "Probable inference, the law of
+    succession, and statistical inference", JASA 22 (1927) 209-212.
+
+    Args:
+        count: How often it happened.
+        total: How often it could have.
+        z: Quantile of the normal distribution; the default gives 95 %.
+
+    Returns:
+        Lower and upper end, within 0 and 1.
+    """
+    if total == 0:
+        return 0.0, 1.0
+    share = count / total
+    spread = z * math.sqrt(share * (1 - share) / total + z**2 / (4 * total**2))
+    scale = 1 + z**2 / total
+    centre = share + z**2 / (2 * total)
+    return max(0.0, (centre - spread) / scale), min(1.0, (centre + spread) / scale)
+
+
+class EpisodeLog:
+    """Returns, lengths and outcomes of the latest episodes.
+
+    Args:
+        window: How many episodes to look back on.
+    """
+
+    def __init__(self, window: int = 200) -> None:
+        self.window = window
+        self.total = 0
+        self._rows: npt.NDArray[np.float64] = np.zeros((0, 2 + len(OUTCOMES)))
+
+    def add(self, episodes: Episodes) -> None:
+        """Take in the episodes that ended in one step."""
+        missing = np.full(len(episodes.slots), np.nan)
+        columns = [episodes.returns, episodes.lengths]
+        columns += [episodes.outcomes.get(name, missing) for name in OUTCOMES]
+        rows = np.column_stack([np.asarray(column, dtype=np.float64) for column in columns])
+        self._rows = np.concatenate([self._rows, rows])[-self.window :]
+        self.total += len(rows)
+
+    def summary(self) -> dict[str, float]:
+        """Means over the window: ``return``, ``length``, and a rate for each known outcome."""
+        if not len(self._rows):
+            return {}
+        names = ["return", "length", "success_rate", "collision_rate", "timeout_rate"]
+        means = self._rows.mean(axis=0)
+        return {
+            name: float(mean)
+            for name, mean in zip(names, means, strict=True)
+            if not math.isnan(mean)
+        }
+
+    def get_state(self) -> dict[str, Any]:
+        """The account, for a checkpoint."""
+        return {"rows": self._rows, "total": self.total}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Continue an account that `get_state` returned."""
+        self._rows, self.total = np.array(state["rows"]), int(state["total"])

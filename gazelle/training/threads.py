@@ -1,0 +1,39 @@
+"""How many threads the number crunching may use.
+
+Small networks gain nothing from a second thread, and threads that spin while
+they wait take the core that the simulation needs: the same training run is
+several times slower with two threads on two busy cores.
+"""
+
+from __future__ import annotations
+
+import os
+
+_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def claim_environment(threads: int = 1) -> None:
+    """Set the environment variables that BLAS libraries read when they are first loaded.
+
+    Works only before numpy and torch are imported. What the user has set stays.
+
+    Args:
+        threads: Threads for each library.
+    """
+    for name in _VARIABLES:
+        os.environ.setdefault(name, str(threads))
+
+
+def limit_threads(threads: int = 1) -> None:
+    """Limit torch and BLAS to some threads.
+
+    Works at any time, also after numpy was imported.
+
+    Args:
+        threads: Threads for each library.
+    """
+    import torch
+    from threadpoolctl import threadpool_limits
+
+    torch.set_num_threads(threads)
+    threadpool_limits(limits=threads, user_api="blas")

@@ -1,0 +1,125 @@
+"""A Gymnasium vector environment as Stable-Baselines3 wants it.
+
+Stable-Baselines3 has its own vector interface, older than Gymnasium's. This
+adapter steps all copies with one call and touches single copies only when
+their episodes end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium.vector import VectorEnv
+from stable_baselines3.common.vec_env import VecEnv
+
+from gazelle.training.stepper import Episodes, Step, Stepper
+
+
+class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
+    """Stable-Baselines3's ``VecEnv`` over a Gymnasium ``VectorEnv``.
+
+    The infos of ended episodes hold ``terminal_observation`` and
+    ``TimeLimit.truncated`` as Stable-Baselines3 defines them. A step that an
+    environment spent on its reset (autoreset in the next step) has
+    ``reset_step`` in its info, for `MaskedReplayBuffer` to leave out.
+
+    Args:
+        env: The environment.
+        reward_scale: Rewards are multiplied by this.
+        on_episodes: Called with the episodes that ended, at each step where some did.
+    """
+
+    def __init__(
+        self,
+        env: VectorEnv[Any, Any, Any],
+        *,
+        reward_scale: float = 1.0,
+        on_episodes: Callable[[Episodes], None] | None = None,
+    ) -> None:
+        self.env = env
+        self.stepper = Stepper(env)
+        self.reward_scale = reward_scale
+        self.on_episodes = on_episodes
+        self._seed: int | None = None
+        self._actions: npt.NDArray[Any] = np.zeros(0)
+        self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
+        self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+        super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
+
+    def advance(self, actions: npt.NDArray[Any]) -> Step:
+        """One control step as a `Step`, without infos (rewards are not scaled)."""
+        step = self.stepper.step(actions)
+        if step.ended is not None and self.on_episodes is not None:
+            self.on_episodes(step.ended)
+        return step
+
+    def reset(self) -> npt.NDArray[np.float32]:
+        """Start all episodes anew, with the seed given to `seed` if there is one."""
+        obs = self.stepper.reset(seed=self._seed)
+        self._seed = None
+        return obs
+
+    def seed(self, seed: int | None = None) -> Sequence[int | None]:
+        """Remember the seed for the next reset."""
+        self._seed = seed
+        return [seed] * self.num_envs
+
+    def step_async(self, actions: npt.NDArray[Any]) -> None:
+        """Take the actions of the next step."""
+        self._actions = actions
+
+    def step_wait(
+        self,
+    ) -> tuple[
+        npt.NDArray[np.float32],
+        npt.NDArray[np.float32],
+        npt.NDArray[np.bool_],
+        list[dict[str, Any]],
+    ]:
+        """Do the step: observations, rewards, dones, infos."""
+        step = self.advance(self._actions)
+        for slot in self._marked:
+            self._infos[slot] = {}
+        if step.ended is not None and step.final_obs is not None:
+            for slot, last in zip(step.ended.slots, step.final_obs, strict=True):
+                truncated = bool(step.truncated[slot])
+                self._infos[slot] = {
+                    "terminal_observation": last,
+                    "TimeLimit.truncated": truncated,
+                }
+        idle = np.flatnonzero(~step.valid)
+        for slot in idle:
+            self._infos[slot]["reset_step"] = True
+        ended = step.ended.slots if step.ended is not None else idle[:0]
+        self._marked = np.concatenate([ended, idle])
+        rewards = (step.rewards * self.reward_scale).astype(np.float32)
+        return step.obs, rewards, step.terminated | step.truncated, self._infos
+
+    def close(self) -> None:
+        """Close the environment."""
+        self.env.close()
+
+    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
+        """An attribute of the environment, once for each copy asked for."""
+        value = getattr(self.env, attr_name, None)
+        return [value for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
+        """Set an attribute of the environment; the copies share it."""
+        del indices
+        setattr(self.env, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """Call a method of the environment once; the copies share the result."""
+        result = getattr(self.env, method_name)(*method_args, **method_kwargs)
+        return [result for _ in self._get_indices(indices)]
+
+    def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
+        """Whether the single copies are wrapped: they are not."""
+        del wrapper_class
+        return [False for _ in self._get_indices(indices)]
