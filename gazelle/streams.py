@@ -67,9 +67,9 @@ class Stream:
         both = np.concatenate((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
         return both[:, :size]
 
-    def integers(self, high: int, size: int, worlds: NDArray[np.intp] | None = None) -> NDArray[
-        np.intp
-    ]:
+    def integers(
+        self, high: int, size: int, worlds: NDArray[np.intp] | None = None
+    ) -> NDArray[np.intp]:
         """Whole numbers in [0, high), shape (n, size)."""
         return (self.uniform(size, worlds) * high).astype(np.intp)
 

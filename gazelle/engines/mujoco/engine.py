@@ -21,7 +21,11 @@ from gazelle.rotations import conjugate, cross, multiply, rotate
 
 _GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
 _VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
-_NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
+_BAD_STATE = [
+    int(mujoco.mjtWarning.mjWARN_BADQPOS),
+    int(mujoco.mjtWarning.mjWARN_BADQVEL),
+    int(mujoco.mjtWarning.mjWARN_BADQACC),
+]
 
 
 class MujocoEngine:
@@ -107,8 +111,7 @@ class MujocoEngine:
 
     def _check_finite(self) -> None:
         # MuJoCo resets a simulation whose state became bad and counts a warning.
-        bad = self._batch.warning[:, mujoco.mjtWarning.mjWARN_BADQACC, 1] > 0
-        bad |= self._batch.warning[:, mujoco.mjtWarning.mjWARN_BADQPOS, 1] > 0
+        bad = (self._batch.warning[:, _BAD_STATE, 1] > 0).any(axis=1)
         if bad.any():
             worlds = np.flatnonzero(bad)
             self._batch.warning[worlds] = 0
@@ -272,7 +275,7 @@ class MujocoEngine:
     def _write(
         self, array: Floats, columns: list[slice], values: ArrayLike, worlds: Worlds | None
     ) -> None:
-        given = np.asarray(values, np.float64)
+        given = np.atleast_1d(np.asarray(values, np.float64))
         start = 0
         for column in columns:
             width = column.stop - column.start

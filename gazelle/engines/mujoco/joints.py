@@ -35,7 +35,7 @@ def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
     _ADDERS[joint.type](body, name, joint, time_step)
 
 
-def _fixed(body: Any, name: str, joint: Joint, time_step: float) -> None:
+def _fixed(_: Any, __: str, ___: Joint, ____: float) -> None:
     """A body without a joint is welded to its parent."""
 
 
@@ -47,7 +47,7 @@ def _slide(body: Any, name: str, joint: Joint, time_step: float) -> None:
     body.add_joint(name=name, type=_SLIDE, **_axis_options(joint, _axis(joint, 0), time_step))
 
 
-def _ball(body: Any, name: str, joint: Joint, time_step: float) -> None:
+def _ball(body: Any, name: str, joint: Joint, _: float) -> None:
     options: dict[str, Any] = {}
     if joint.axes:
         options["damping"] = [joint.axes[0].damping, 0.0, 0.0]
@@ -60,7 +60,7 @@ def _two_hinges(body: Any, name: str, joint: Joint, time_step: float) -> None:
     body.add_joint(name=f"{name}#1", type=_HINGE, **_axis_options(joint, second, time_step))
 
 
-def _floating(body: Any, name: str, joint: Joint, time_step: float) -> None:
+def _floating(body: Any, name: str, joint: Joint, _: float) -> None:
     if joint.parent != "world":
         raise EngineError(
             f"joint '{name}': a floating joint needs the world as parent", source=joint.source

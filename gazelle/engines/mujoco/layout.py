@@ -127,7 +127,7 @@ def layout_of(compiled: Compiled) -> Layout:
             links[body.name] = _link_slot(model, body)
             if body.joint is not None and body.joint.type != "fixed":
                 joints[body.joint_name] = _joint_slots(model, body.joint_name)
-        models[name] = _model_slot(name, bodies, joints)
+        models[name] = _model_slot(bodies, joints)
     motors = {model.actuator(column).name: column for column in range(model.nu)}
     return Layout(links, joints, models, motors)
 
@@ -151,7 +151,7 @@ def _slot(model: mujoco.MjModel, joint: int) -> Slot:
     return Slot(slice(q, q + nq), slice(v, v + nv))
 
 
-def _model_slot(name: str, bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]) -> ModelSlot:
+def _model_slot(bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]) -> ModelSlot:
     roots = tuple(body.name for body in bodies if body.parent is None)
     canonical = bodies[0]
     offset = canonical.link.pose.inverse()

@@ -29,7 +29,6 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.errors import EngineWarning
-from gazelle.formats.mesh import load_mesh
 
 _SIDES = 24
 
@@ -123,10 +122,12 @@ def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> l
 
 
 def _mesh(
-    builder: ShapeBuilder, shape: Mesh, pose: Pose, source: Source | None
+    builder: ShapeBuilder, shape: Mesh, pose: Pose, _: Source | None
 ) -> list[dict[str, Any]]:
     if shape.path is None:
         return []
+    from gazelle.formats.mesh import load_mesh
+
     mesh = load_mesh(shape)
     key = (shape.path, shape.scale, shape.submesh, shape.center_submesh)
     return [builder.mesh_geom(key, mesh.vertices, mesh.faces, pose)]

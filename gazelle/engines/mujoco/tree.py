@@ -68,7 +68,7 @@ def bodies_of(model: Model, *, kinematic: bool = False) -> list[Body]:
         children[parent].append(name)
     bodies = list(_walk(None, children, parts, joints))
     if len(bodies) < len(parts):
-        stuck = sorted(set(parts) - {body.name for body in bodies})[0]
+        stuck = min(set(parts) - {body.name for body in bodies})
         scoped, joint = joints[stuck]
         raise EngineError(
             f"the joints form a loop through joint '{scoped}' and link '{stuck}'; "

@@ -1,0 +1,106 @@
+"""Models that follow a script: ``libgazelle_scripted_motion.so``, Gazelle's own.
+
+The model becomes kinematic: it pushes others, nothing pushes it. Tags::
+
+    <waypoint><time>SECONDS</time><pose>x y z roll pitch yaw</pose></waypoint>  (repeated)
+    <loop>true</loop>
+    <angular_velocity>x y z</angular_velocity>   turn about the model's origin instead
+    <updateRate>10</updateRate>                  how often the pose is set [Hz]
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters, Pose
+from gazelle.errors import SimulationError
+from gazelle.rotations import multiply
+from gazelle.simulation import ModelPlugin, Robot
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class ScriptedMotion(ModelPlugin):
+    """Moves a model along waypoints in the world frame, or turns it evenly.
+
+    Every world has a time of its own that starts at its reset.
+    """
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the script and take hold of the model."""
+        self._robot = robot
+        self._loop = parameters.get("loop", False)
+        self._spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
+        self._times, self._positions, self._quaternions = _waypoints(parameters)
+        self.update_rate = parameters.get("updateRate", 10.0)
+        start = robot.description.pose
+        self._start = np.asarray(start.position), np.asarray(start.quaternion)
+        self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
+        robot.simulation.engine.make_kinematic(robot.name)
+
+    def on_update(self, time: float) -> None:
+        """Put the model where the script says."""
+        elapsed = time - self._epoch
+        if self._times.size:
+            position, quaternion = self._on_path(elapsed)
+        else:
+            position = np.broadcast_to(self._start[0], (len(elapsed), 3))
+            quaternion = multiply(_turned(self._spin, elapsed), self._start[1][None])
+        self._robot.simulation.engine.set_model_placement(self._robot.name, position, quaternion)
+
+    def _on_path(self, elapsed: Floats) -> tuple[Floats, Floats]:
+        last = self._times[-1]
+        moment = np.mod(elapsed, last) if self._loop and last > 0.0 else np.minimum(elapsed, last)
+        after = np.clip(np.searchsorted(self._times, moment, side="right"), 1, None)
+        after = np.minimum(after, len(self._times) - 1)
+        before = np.maximum(after - 1, 0)
+        span = self._times[after] - self._times[before]
+        share = np.where(
+            span > 0.0, (moment - self._times[before]) / np.where(span > 0, span, 1), 0
+        )
+        share = np.clip(share, 0.0, 1.0)[:, None]
+        position = (1.0 - share) * self._positions[before] + share * self._positions[after]
+        quaternion = (1.0 - share) * self._quaternions[before] + share * self._quaternions[after]
+        return position, quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Start the script over."""
+        rows = slice(None) if worlds is None else worlds
+        self._epoch[rows] = self._robot.simulation.time
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """When each world's script started."""
+        return {"epoch": self._epoch.copy()}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._epoch[:] = state["epoch"]
+
+
+def _waypoints(parameters: Parameters) -> tuple[Floats, Floats, Floats]:
+    """Times (k,), positions (k, 3) and quaternions (k, 4), neighbours on the same half."""
+    times, poses = [], []
+    for waypoint in parameters.find_all("waypoint"):
+        times.append(waypoint.require("time", float))
+        poses.append(Pose(*waypoint.numbers("pose", (0.0,) * 6)))
+    if any(late <= early for early, late in itertools.pairwise(times)):
+        raise SimulationError("the times of waypoints must increase", source=parameters.source)
+    quaternions = np.array([pose.quaternion for pose in poses]).reshape(-1, 4)
+    for i in range(1, len(quaternions)):
+        if quaternions[i] @ quaternions[i - 1] < 0.0:
+            quaternions[i] *= -1.0
+    positions = np.array([pose.position for pose in poses]).reshape(-1, 3)
+    return np.asarray(times, np.float64), positions, quaternions
+
+
+def _turned(spin: Floats, elapsed: Floats) -> Floats:
+    """Quaternions of an even turn after some times, shape (n, 4)."""
+    rate = float(np.linalg.norm(spin))
+    axis = spin / rate if rate > 0.0 else np.array([0.0, 0.0, 1.0])
+    half = rate * elapsed / 2.0
+    return np.concatenate((np.sin(half)[:, None] * axis, np.cos(half)[:, None]), axis=1)

@@ -1,0 +1,72 @@
+"""Simulated time in whole nanoseconds, and things that happen at a rate of it."""
+
+from __future__ import annotations
+
+NANOSECONDS = 1_000_000_000
+
+
+class Clock:
+    """Counts physics steps.
+
+    Args:
+        step: Physics step [s]; rounded to whole nanoseconds.
+    """
+
+    def __init__(self, step: float) -> None:
+        self.step_ns = round(step * NANOSECONDS)
+        self.now_ns = 0
+
+    @property
+    def now(self) -> float:
+        """Simulated time [s]."""
+        return self.now_ns / NANOSECONDS
+
+    def advance(self, steps: int) -> None:
+        """Go on by physics steps."""
+        self.now_ns += steps * self.step_ns
+
+    def steps_in(self, seconds: float) -> int:
+        """The whole number of physics steps nearest to a time."""
+        return round(seconds * NANOSECONDS / self.step_ns)
+
+
+class Schedule:
+    """When something is due: at multiples of its period, on the first step not before.
+
+    Multiples are counted from time zero, so a 30 Hz update on 10 ms steps keeps 30 Hz on
+    the average and never drifts.
+
+    Args:
+        rate: [Hz]; 0 means every physics step.
+    """
+
+    def __init__(self, rate: float) -> None:
+        self.rate = rate
+        self._count = 0
+
+    @property
+    def due_ns(self) -> int:
+        """The next time at which it is due [ns]; 0 for "every step"."""
+        if self.rate <= 0.0:
+            return 0
+        return round(self._count * NANOSECONDS / self.rate)
+
+    def is_due(self, now_ns: int) -> bool:
+        """Whether its time has come."""
+        return now_ns >= self.due_ns
+
+    def done(self, now_ns: int) -> None:
+        """It has happened: the next time is the first multiple after now."""
+        if self.rate > 0.0:
+            self._count = int(now_ns * self.rate // NANOSECONDS)
+            while self.due_ns <= now_ns:
+                self._count += 1
+
+    def steps_until(self, clock: Clock) -> int:
+        """Physics steps until it is due, at least 1."""
+        wait = self.due_ns - clock.now_ns
+        return max(1, -(-wait // clock.step_ns))
+
+    def restart(self) -> None:
+        """Start over at time zero."""
+        self._count = 0

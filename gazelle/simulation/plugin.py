@@ -1,0 +1,77 @@
+"""What a plugin is: code that a file names, run with the simulation.
+
+Subclass one of these, override what you need, and register it under the file name that
+SDF and URDF files use (see ``registry``). All worlds of a batch share one plugin object, so
+its state is arrays with a leading axis over worlds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+
+if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
+    from gazelle.simulation.sensors import SensorUnit
+    from gazelle.simulation.simulation import Simulation
+
+Worlds = NDArray[np.intp]
+
+
+class Plugin:
+    """What all plugins have in common.
+
+    Attributes:
+        update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
+            step, None means never. Set it in the class or in ``load``.
+    """
+
+    update_rate: float | None = None
+
+    @property
+    def active(self) -> bool:
+        """Whether it needs its updates now; one that only publishes needs them when heard."""
+        return True
+
+    def on_update(self, time: float) -> None:
+        """Act; called at ``update_rate``.
+
+        Args:
+            time: Simulated time [s].
+        """
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget everything about these worlds (all if None), as if just loaded."""
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+
+
+class WorldPlugin(Plugin):
+    """A plugin of the world."""
+
+    def load(self, simulation: Simulation, parameters: Parameters) -> None:
+        """Start: read the parameters, keep what is needed."""
+
+
+class ModelPlugin(Plugin):
+    """A plugin of a model."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Start: read the parameters, open ports on the robot."""
+
+
+class SensorPlugin(Plugin):
+    """A plugin of a sensor."""
+
+    def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
+        """Start: read the parameters, open ports on ``sensor.robot``."""

@@ -1,0 +1,75 @@
+"""Find a plugin's code by the file name that a description gives.
+
+Gazelle's own and other packages' plugins are entry points of the group ``gazelle.plugins``,
+named like the library without ``lib`` and ``.so``: ``libgazebo_ros_diff_drive.so`` is found as
+``gazebo_ros_diff_drive``. A program can add its own with ``register``.
+"""
+
+from __future__ import annotations
+
+import functools
+import warnings
+from importlib.metadata import EntryPoint, entry_points
+from typing import TypeVar
+
+from gazelle import description
+from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.simulation.plugin import Plugin
+
+P = TypeVar("P", bound=type[Plugin])
+
+_GROUP = "gazelle.plugins"
+_registered: dict[str, type[Plugin]] = {}
+_missing: set[str] = set()
+
+
+def register(filename: str, plugin: P) -> P:
+    """Let descriptions name a plugin class by a file name, such as ``libmy_drive.so``."""
+    _registered[_stem(filename)] = plugin
+    return plugin
+
+
+def names() -> list[str]:
+    """All plugins that can be found, as descriptions name them."""
+    return sorted(f"lib{stem}.so" for stem in {*_registered, *_entry_points()})
+
+
+def find(plugin: description.Plugin) -> type[Plugin] | None:
+    """The class for a ``<plugin>``; None, with one warning a file name, if there is none."""
+    stem = _stem(plugin.filename)
+    if stem in _registered:
+        return _registered[stem]
+    known = _entry_points()
+    if stem in known:
+        return _load(known[stem])
+    if stem not in _missing:
+        _missing.add(stem)
+        place = plugin.source.file if plugin.source is not None else None
+        line = f":{plugin.source.line}" if plugin.source is not None else ""
+        where = f"{place}{line}: " if place else ""
+        warnings.warn(
+            SimulationWarning(
+                f"{where}plugin '{plugin.name}' ({plugin.filename}) is not supported and is "
+                f"left out; {did_you_mean(f'lib{stem}.so', names())}; supported: "
+                f"{', '.join(names())}"
+            ),
+            stacklevel=3,
+        )
+    return None
+
+
+def _load(point: EntryPoint) -> type[Plugin]:
+    loaded = point.load()
+    if not (isinstance(loaded, type) and issubclass(loaded, Plugin)):
+        raise SimulationError(f"the entry point '{point.name}' ({point.value}) is no plugin class")
+    return loaded
+
+
+@functools.cache
+def _entry_points() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=_GROUP)}
+
+
+def _stem(filename: str) -> str:
+    name = filename.rsplit("/", 1)[-1]
+    return name.removeprefix("lib").removesuffix(".so")

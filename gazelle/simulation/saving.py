@@ -1,0 +1,91 @@
+"""A simulation's whole state as bytes, and back."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.errors import SimulationError
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+_FORMAT = 1
+_HINT = "restore into a simulation with the same world, models, engine and number of worlds"
+
+
+def snapshot(simulation: Simulation) -> bytes:
+    """The state of physics, clock, commands, plugins, sensors and noise."""
+    arrays: dict[str, NDArray[np.generic]] = {"engine": simulation.engine.snapshot()}
+    for key, part in _parts(simulation).items():
+        for name, value in part.state().items():
+            arrays[f"{key}|{name}"] = np.asarray(value)
+    for robot in simulation.robots.values():
+        for name, port in robot.inputs.items():
+            arrays[f"input|{robot.name}|{name}"] = np.concatenate((port.linear, port.angular), 1)
+    header = {"format": _FORMAT, "time": simulation.clock.now_ns, "names": _names(simulation)}
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    buffer = io.BytesIO()
+    np.savez(buffer, allow_pickle=False, **{_escape(k): v for k, v in arrays.items()})
+    return buffer.getvalue()
+
+
+def restore(simulation: Simulation, data: bytes) -> None:
+    """Put back what ``snapshot`` gave.
+
+    Raises:
+        SimulationError: The bytes are no snapshot, or one of another simulation.
+    """
+    arrays = _read(data)
+    header = json.loads(arrays.pop("header").tobytes())
+    if header.get("format") != _FORMAT or header.get("names") != _names(simulation):
+        raise SimulationError("the snapshot is of other models than those that run", hint=_HINT)
+    engine_state: Any = arrays.pop("engine")
+    simulation.engine.restore(engine_state)
+    simulation.clock.now_ns = int(header["time"])
+    grouped: dict[str, dict[str, NDArray[np.generic]]] = {}
+    for key, value in arrays.items():
+        group, _, name = key.rpartition("|")
+        grouped.setdefault(group, {})[name] = value
+    for key, part in _parts(simulation).items():
+        part.restore(grouped.get(key, {}))
+    for robot in simulation.robots.values():
+        for name, port in robot.inputs.items():
+            both: Any = grouped[f"input|{robot.name}"][name]
+            port.linear[:], port.angular[:] = both[:, :3], both[:, 3:]
+
+
+def _parts(simulation: Simulation) -> Mapping[str, Any]:
+    """Everything besides the engine that has a state, by a unique key."""
+    parts: dict[str, Any] = {}
+    for entry in simulation.plugins:
+        parts[f"plugin|{entry.owner}|{entry.name}"] = entry.plugin
+    for robot in simulation.robots.values():
+        for unit in robot.sensors.values():
+            parts[f"sensor|{unit.name}"] = unit
+    return parts
+
+
+def _names(simulation: Simulation) -> list[str]:
+    return [*simulation.engine.link_names, *sorted(_parts(simulation))]
+
+
+def _read(data: bytes) -> dict[str, NDArray[Any]]:
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+            return {_unescape(name): archive[name] for name in archive.files}
+    except (ValueError, OSError, KeyError) as error:
+        raise SimulationError(f"these bytes are no snapshot: {error}") from None
+
+
+def _escape(name: str) -> str:
+    return name.replace("%", "%25").replace("/", "%2F")
+
+
+def _unescape(name: str) -> str:
+    return name.replace("%2F", "/").replace("%25", "%")

@@ -1,0 +1,136 @@
+"""Sensors of a running robot: measured at their own rate, while somebody wants them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Imu, Pose, Sensor
+from gazelle.sensors import ImuModel, LidarModel
+from gazelle.simulation.clock import NANOSECONDS, Schedule
+
+if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+SensorModel = LidarModel | ImuModel
+
+_LIDARS = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
+
+
+class SensorUnit:
+    """One sensor of one robot.
+
+    It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
+
+    Attributes:
+        description: What the file says.
+        robot: The robot that it is on.
+        model: Measures now, in any world.
+    """
+
+    def __init__(self, robot: Robot, sensor: Sensor, name: str, model: SensorModel) -> None:
+        self.description = sensor
+        self.robot = robot
+        self.name = name
+        self.model = model
+        self.schedule = Schedule(sensor.update_rate)
+        self._values: Floats | None = None
+        self._stamp = 0
+        self._awake = False
+        self._listeners: list[Callable[[SensorUnit], None]] = []
+
+    @property
+    def awake(self) -> bool:
+        """Whether it measures at its rate."""
+        return self._awake or bool(self._listeners)
+
+    def measure(self, worlds: Worlds | None = None) -> Floats:
+        """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
+        return self.model.measure(worlds, self._period())
+
+    def read(self, world: int = 0) -> Any:
+        """The last reading of one world: a LaserScan or an ImuReading.
+
+        The first call measures at once and wakes the sensor.
+        """
+        self._awake = True
+        if self._values is None:
+            self.update(self.robot.simulation.clock.now_ns)
+        return self.reading(self.latest()[world])
+
+    def latest(self) -> Floats:
+        """The last reading of all worlds, shape (nworld, channels)."""
+        self._awake = True
+        if self._values is None:
+            self.update(self.robot.simulation.clock.now_ns)
+        values = self._values
+        return values if values is not None else self.measure()
+
+    def reading(self, values: Floats) -> Any:
+        """Values by name."""
+        if isinstance(self.model, LidarModel):
+            return self.model.scan(values, self._stamp)
+        return self.model.reading(values, self._stamp)
+
+    def subscribe(self, listener: Callable[[SensorUnit], None]) -> Callable[[], None]:
+        """Call a function after every measurement; returns what ends it."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def update(self, now_ns: int) -> None:
+        """Measure in turn."""
+        self._values = self.measure()
+        self._stamp = now_ns
+        self.schedule.done(now_ns)
+        for listener in tuple(self._listeners):
+            listener(self)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget drifts and readings."""
+        self.model.reset(worlds)
+        self._values = None
+        if worlds is None:
+            self.schedule.restart()
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        state = dict(self.model.state())
+        state["stamp"] = np.array([self._stamp, int(self._awake)])
+        if self._values is not None:
+            state["values"] = self._values.copy()
+        return state
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        own = dict(state)
+        stamp = own.pop("stamp")
+        values: Any = own.pop("values", None)
+        self.model.restore(own)
+        self._stamp, self._awake = int(stamp[0]), bool(stamp[1])
+        self._values = values
+        self.schedule.restart()
+        if values is not None:
+            self.schedule.done(self._stamp)
+
+    def _period(self) -> float:
+        if self.schedule.rate > 0.0:
+            return 1.0 / self.schedule.rate
+        return self.robot.simulation.clock.step_ns / NANOSECONDS
+
+
+def sensor_model(
+    robot: Robot, sensor: Sensor, link: str, pose: Pose, name: str
+) -> SensorModel | None:
+    """The measurement model of a sensor; None for types that are not measured yet."""
+    simulation = robot.simulation
+    if sensor.type in _LIDARS and sensor.lidar is not None:
+        return LidarModel(sensor.lidar, simulation.engine, link, pose, simulation.seed, name)
+    if sensor.type == "imu":
+        imu = sensor.imu or Imu()
+        return ImuModel(imu, simulation.engine, link, pose, simulation.seed, name)
+    return None

@@ -1,0 +1,45 @@
+"""How well the burger drives, against kinematics, with the errors stated.
+
+The driver of a wheeled robot asks for speeds; what the wheels make of it is limited by
+contact. The bounds below are the measured errors, rounded up.
+"""
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.simulation import Simulation
+
+
+def drive(step, linear, angular, seconds):
+    """Pose after driving from rest, and the total angle turned."""
+    world = scenes.world(scenes.ground(), scenes.burger(), step=step)
+    with Simulation(world) as sim:
+        robot = sim.robots["burger"]
+        sim.run(0.5)
+        start = robot.position[0]
+        robot.inputs["cmd_vel"].send(linear=linear, angular=angular)
+        turned, before = 0.0, robot.yaw[0]
+        for _ in range(round(seconds * 10)):
+            sim.run(0.1)
+            turned += np.angle(np.exp(1j * (robot.yaw[0] - before)))
+            before = robot.yaw[0]
+        return robot.position[0] - start, turned
+
+
+@pytest.mark.parametrize(("step", "length", "aside"), [(0.001, 0.01, 0.05), (0.01, 0.01, 0.02)])
+def test_ten_metres_straight(step, length, aside):
+    speed = 0.2
+    ramp = speed**2 / (2 * 1.0)  # lost while speeding up at 1 m/s²
+    moved, _ = drive(step, speed, 0.0, (10.0 + ramp) / speed)
+    assert moved[0] == pytest.approx(10.0, rel=length)
+    assert abs(moved[1]) < 10.0 * aside
+
+
+@pytest.mark.parametrize(("step", "error"), [(0.001, 0.01), (0.01, 0.015)])
+def test_ten_turns_on_the_spot(step, error):
+    rate = 1.0
+    ramp = (rate * 0.08) ** 2 / 2 / 0.08
+    moved, turned = drive(step, 0.0, rate, (20 * np.pi + ramp) / rate)
+    assert turned == pytest.approx(20 * np.pi, rel=error)
+    assert np.linalg.norm(moved[:2]) < 0.05
