@@ -1,0 +1,1 @@
+"""The command line: one command, ``gazelle``, with one module a sub-command."""

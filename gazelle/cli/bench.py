@@ -1,0 +1,64 @@
+"""Run the benchmarks of a source checkout, each printing its figure and the peer's
+from the same run. Without a name, list them.
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import ast
+import runpy
+import sys
+from pathlib import Path
+
+import gazelle
+from gazelle.cli import showing
+from gazelle.errors import Error, ResolveError, did_you_mean
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("name", nargs="?", metavar="NAME", help="which; by default list them")
+    parser.add_argument(
+        "arguments", nargs=argparse.REMAINDER, metavar="...", help="passed on to it"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    known = benchmarks()
+    if args.name is None:
+        rows = [(name, _purpose(path)) for name, path in known.items()]
+        sys.stdout.write(showing.table([("BENCHMARK", "WHAT IT MEASURES"), *rows]))
+        return 0
+    if args.name not in known:
+        hint = did_you_mean(args.name, known)
+        raise ResolveError(f"there is no benchmark '{args.name}'", hint=hint)
+    path = known[args.name]
+    saved = sys.argv
+    sys.argv = [str(path), *args.arguments]
+    try:
+        runpy.run_path(str(path), run_name="__main__")
+    finally:
+        sys.argv = saved
+    return 0
+
+
+def benchmarks() -> dict[str, Path]:
+    """The benchmark scripts by name.
+
+    Raises:
+        Error: There is no ``benchmarks`` folder beside the package.
+    """
+    folder = Path(gazelle.__file__).resolve().parent.parent / "benchmarks"
+    if not folder.is_dir():
+        raise Error(
+            "the benchmarks come with the source code only",
+            hint="get a checkout of Gazelle and install it with: pip install -e .",
+        )
+    return {path.stem: path for path in sorted(folder.glob("*.py")) if path.stem[0] != "_"}
+
+
+def _purpose(path: Path) -> str:
+    """First line of a script's docstring."""
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    return (text or "").partition("\n")[0]

@@ -1,0 +1,53 @@
+"""What sub-commands there are. Their modules are imported only when they are used."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+
+class CommandModule(Protocol):
+    """What the module of a sub-command offers."""
+
+    def configure(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the arguments."""
+
+    def run(self, args: argparse.Namespace) -> int:
+        """Do it; returns the exit code."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A sub-command."""
+
+    name: str
+    """What the user types."""
+    purpose: str
+    """One line for ``gazelle --help``."""
+    group: str
+    """Headline it stands under."""
+    module: str
+    """Name of its module in this package."""
+
+    def load(self) -> CommandModule:
+        """Import its module."""
+        return cast("CommandModule", importlib.import_module(f"gazelle.cli.{self.module}"))
+
+
+COMMANDS = {
+    command.name: command
+    for command in (
+        Command("demo", "train and evaluate a TurtleBot3 from its files", "start here", "demo"),
+        Command("run", "simulate a file", "simulate", "run"),
+        Command("check", "judge files: every problem, with file and line", "simulate", "check"),
+        Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
+        Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
+        Command("tasks", "list the tasks", "what there is", "tasks"),
+        Command("robots", "list the bundled robots", "what there is", "robots"),
+        Command("worlds", "list the bundled worlds", "what there is", "worlds"),
+        Command("plugins", "list the supported plugins", "what there is", "plugins"),
+        Command("bench", "run the benchmarks of a source checkout", "measure", "bench"),
+    )
+}

@@ -1,0 +1,150 @@
+"""The entry point: find the sub-command, run it, report what goes wrong in one line."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import TextIO
+
+from gazelle import __version__
+from gazelle.cli.commands import COMMANDS, Command
+from gazelle.cli.parsing import Parser
+from gazelle.errors import Error, GazelleWarning, describe, did_you_mean
+
+DONE, FAILED, WRONG_USAGE, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Args:
+        argv: The arguments after ``gazelle``; by default those of this process.
+
+    Returns:
+        0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    debug = "--debug" in arguments
+    arguments = [argument for argument in arguments if argument != "--debug"]
+    if not arguments or arguments[0] in {"-h", "--help", "help"}:
+        sys.stdout.write(overview())
+        return DONE
+    if arguments[0] in {"-V", "--version"}:
+        sys.stdout.write(f"gazelle {__version__}\n")
+        return DONE
+    command = COMMANDS.get(arguments[0])
+    if command is None:
+        _complain(f"there is no command '{arguments[0]}'", did_you_mean(arguments[0], COMMANDS))
+        return WRONG_USAGE
+    with _one_line_warnings(show_all=debug):
+        return _run(command, arguments[1:], debug=debug)
+
+
+def overview() -> str:
+    """The text of ``gazelle --help``."""
+    lines = [
+        "usage: gazelle COMMAND ...",
+        "",
+        "Simulate robots from their Gazebo, URDF and ROS 1 files, and train policies.",
+    ]
+    group = ""
+    for command in COMMANDS.values():
+        if command.group != group:
+            group = command.group
+            lines += ["", f"{group}:"]
+        lines.append(f"  {command.name:<10} {command.purpose}")
+    lines += [
+        "",
+        "options:",
+        "  -h, --help     this text; 'gazelle COMMAND --help' tells more",
+        "  -V, --version  the version",
+        "  --debug        show tracebacks and all warnings",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _run(command: Command, arguments: list[str], *, debug: bool) -> int:
+    """Run one sub-command; any error becomes a message and an exit code."""
+    # Read by BLAS libraries when numpy is first imported, so set before the command is.
+    from gazelle.training.threads import claim_environment
+
+    claim_environment()
+    try:
+        module = command.load()
+        parser = Parser(prog=f"gazelle {command.name}", description=module.__doc__)
+        module.configure(parser)
+        code = module.run(parser.parse_args(arguments))
+        sys.stdout.flush()
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else FAILED
+    except KeyboardInterrupt:
+        sys.stderr.write("\ngazelle: interrupted\n")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output is gone, as in `gazelle tasks | head`.
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except Exception as error:  # noqa: BLE001  # the last resort: a user sees no traceback
+        if debug:
+            traceback.print_exc()
+        _report(error)
+        return FAILED
+    return code
+
+
+def _report(error: Exception) -> None:
+    if isinstance(error, Error):
+        place = describe(error.message, file=error.file, line=error.line, element=error.element)
+        _complain(place, error.hint)
+    elif isinstance(error, OSError):
+        name = f"{error.filename}: " if error.filename else ""
+        _complain(f"{name}{error.strerror or error}", None)
+    else:
+        text = str(error).splitlines()[0] if str(error) else ""
+        _complain(
+            f"this should not happen: {type(error).__name__}: {text}",
+            "run it again with --debug for the traceback, and report it",
+        )
+
+
+def _complain(message: str, hint: str | None) -> None:
+    sys.stderr.write(f"gazelle: error: {message}\n")
+    if hint:
+        sys.stderr.write(f"  hint: {hint}\n")
+
+
+@contextlib.contextmanager
+def _one_line_warnings(*, show_all: bool) -> Iterator[None]:
+    """Gazelle's warnings as one line each, others not at all unless all are asked for."""
+    with warnings.catch_warnings():
+        if not show_all:
+            warnings.simplefilter("ignore")
+        warnings.simplefilter("always", GazelleWarning)
+        warnings.showwarning = _show_warning
+        yield
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    del line
+    stream = file or sys.stderr
+    if issubclass(category, GazelleWarning):
+        stream.write(f"gazelle: warning: {message}\n")
+    else:
+        stream.write(f"{filename}:{lineno}: {category.__name__}: {message}\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

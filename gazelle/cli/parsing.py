@@ -1,0 +1,107 @@
+"""Argument parsing that fits 80 columns and says what to do about a mistake."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import sys
+from typing import Any, NoReturn
+
+from gazelle.errors import did_you_mean
+
+_WIDTH = 80
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line and a hint, with exit code 2."""
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(formatter_class=_formatter, allow_abbrev=False, **keywords)
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the command line and exit with code 2."""
+        hint = self._closest_option(message) or f"see {self.prog} --help"
+        sys.stderr.write(f"gazelle: error: {message}\n  hint: {hint}\n")
+        self.exit(2)
+
+    def _closest_option(self, message: str) -> str | None:
+        """For an unknown option: the one that was meant."""
+        prefix = "unrecognized arguments: "
+        if not message.startswith(prefix):
+            return None
+        unknown = message.removeprefix(prefix).split()[0].partition("=")[0]
+        known = [option for option in self._option_string_actions if option.startswith("--")]
+        hint = did_you_mean(unknown, known)
+        return hint if hint.startswith("did you mean") else None
+
+
+def positive_int(text: str) -> int:
+    """A whole number of at least 1, also written like 2_000 or 1e6."""
+    try:
+        number = int(text) if "e" not in text.lower() else int(float(text))
+    except (ValueError, OverflowError):
+        number = 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, not '{text}'")
+    return number
+
+
+def positive_float(text: str) -> float:
+    """A finite number above 0."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not 0.0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")
+    return number
+
+
+def key_value(text: str) -> tuple[str, Any]:
+    """``KEY=VALUE``; the value is read as JSON if it is JSON, else as text."""
+    key, equals, value = text.partition("=")
+    if not equals or not key.isidentifier():
+        raise argparse.ArgumentTypeError(f"expected KEY=VALUE, not '{text}'")
+    try:
+        return key, json.loads(value)
+    except ValueError:
+        return key, value
+
+
+def add_environment_options(parser: argparse.ArgumentParser) -> None:
+    """The options that every command with an environment takes."""
+    group = parser.add_argument_group("the environment")
+    group.add_argument("--engine", metavar="NAME", help="physics engine, such as mujoco")
+    group.add_argument(
+        "--option",
+        metavar="KEY=VALUE",
+        action="append",
+        type=key_value,
+        default=[],
+        help="any option of the task, such as lidar_samples=360 (repeatable)",
+    )
+
+
+def add_file_options(parser: argparse.ArgumentParser) -> None:
+    """The options that replace the files of a task."""
+    group = parser.add_argument_group("the files (by default the bundled ones)")
+    group.add_argument("--world", metavar="FILE", help="world: .world or .sdf, or a bundled name")
+    group.add_argument(
+        "--robot", metavar="FILE", help="robot: .urdf, .xacro or .sdf, or a bundled name"
+    )
+
+
+def environment_options(args: argparse.Namespace) -> dict[str, Any]:
+    """What `add_environment_options` and `add_file_options` collected, without what is not given."""
+    options = dict(args.option)
+    for name in ("engine", "world", "robot"):
+        value = getattr(args, name, None)
+        if value is not None:
+            options[name] = value
+    return options
+
+
+def _formatter(prog: str) -> argparse.HelpFormatter:
+    width = min(_WIDTH, shutil.get_terminal_size().columns) - 1
+    return argparse.RawDescriptionHelpFormatter(prog, max_help_position=26, width=width)

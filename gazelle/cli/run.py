@@ -1,0 +1,137 @@
+"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, or the name
+of a bundled world (see 'gazelle worlds').
+
+  gazelle run turtlebot3_stage_1 --for 60 --rate max
+  gazelle run my_robot.urdf.xacro
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.cli.parsing import positive_float
+from gazelle.errors import ResolveError
+
+if TYPE_CHECKING:
+    from gazelle.simulation import Simulation
+
+_STATUS_EVERY = 0.5
+_SLICE = 0.05
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("file", metavar="FILE", help="a file, or the name of a bundled world")
+    parser.add_argument("--engine", metavar="NAME", default="mujoco", help="default mujoco")
+    parser.add_argument(
+        "--for",
+        dest="seconds",
+        metavar="SECONDS",
+        type=positive_float,
+        help="simulated time; by default until Ctrl-C",
+    )
+    parser.add_argument(
+        "--rate",
+        metavar="X",
+        type=_rate,
+        default=1.0,
+        help="real-time factor to keep to, or max (default 1.0)",
+    )
+    parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.set_defaults(parser=parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    if args.paused and args.seconds is not None:
+        args.parser.error("a paused simulation never gets there; leave out --for or --paused")
+    from gazelle.simulation import Simulation
+
+    with Simulation(resolve(args.file), args.engine, seed=args.seed) as sim:
+        models = ", ".join(sim.robots) or "no models"
+        sys.stdout.write(f"world '{sim.world.name}': {models}\n")
+        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
+        sys.stdout.flush()
+        status = _Status(sim)
+        try:
+            if args.paused:
+                _hold(sim)
+            _advance(sim, args.seconds, args.rate, status)
+        except KeyboardInterrupt:
+            status.show(final=True)
+            return 130
+        status.show(final=True)
+    return 0
+
+
+def resolve(name: str) -> Path:
+    """A file by its path, or a bundled world by its name.
+
+    Raises:
+        ResolveError: There is neither.
+    """
+    from gazelle import assets
+
+    path = Path(name)
+    if path.exists():
+        return path
+    if path.suffix or len(path.parts) > 1:
+        hint = "check the path; 'gazelle worlds' lists what comes with Gazelle"
+        raise ResolveError("there is no such file", file=name, hint=hint)
+    return assets.world(name)
+
+
+class _Status:
+    """A line with simulated time and real-time factor, rewritten in place on a terminal."""
+
+    def __init__(self, sim: Simulation) -> None:
+        self._sim = sim
+        self._live = sys.stderr.isatty()
+        self._start = time.monotonic()
+        self._last = self._start
+
+    def show(self, *, final: bool = False) -> None:
+        """Show the status if it is time to, or if it is the last one."""
+        now = time.monotonic()
+        if not final and (not self._live or now - self._last < _STATUS_EVERY):
+            return
+        self._last = now
+        wall = now - self._start
+        factor = self._sim.time / wall if wall > 0 else 0.0
+        text = f"simulated {self._sim.time:.2f} s in {wall:.2f} s, RTF {factor:.2f}"
+        end = "\n" if final else ""
+        sys.stderr.write(f"\r{text:<60}{end}" if self._live else f"{text}\n")
+        sys.stderr.flush()
+
+
+def _advance(sim: Simulation, seconds: float | None, rate: float | None, status: _Status) -> None:
+    """Step in slices of wall time, so that the status and Ctrl-C are prompt."""
+    piece = _SLICE * (rate or 1.0)
+    end = float("inf") if seconds is None else seconds
+    left = end
+    while left > 1e-9:
+        began = time.monotonic()
+        sim.run(min(piece, left), rate=rate)
+        left = end - sim.time
+        if rate is None:
+            took = max(time.monotonic() - began, 1e-4)
+            piece = min(max(piece * _SLICE / took, sim.engine.time_step), 2 * piece)
+        status.show()
+
+
+def _hold(sim: Simulation) -> None:
+    """Wait while the simulation is paused."""
+    sim.pause()
+    sys.stderr.write("paused; Ctrl-C ends it\n")
+    while sim.paused:
+        time.sleep(0.05)
+
+
+def _rate(text: str) -> float | None:
+    """A real-time factor, or ``max`` for none."""
+    return None if text == "max" else positive_float(text)

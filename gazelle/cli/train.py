@@ -1,0 +1,107 @@
+"""Train a policy for a task on many copies of its world at once, or go on with a
+run that was stopped. Ctrl-C saves a checkpoint first.
+
+  gazelle train TurtleBot3Stage1
+  gazelle train TurtleBot3Stage4 --steps 2e6 --seed 3
+  gazelle train --resume runs/TurtleBot3Stage1-ppo-20261105-140302
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.cli import showing
+from gazelle.cli.parsing import (
+    add_environment_options,
+    add_file_options,
+    environment_options,
+    positive_int,
+)
+
+if TYPE_CHECKING:
+    from gazelle.training import TrainResult
+
+INTERRUPTED = 130
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("task", nargs="?", metavar="TASK", help="a name from 'gazelle tasks'")
+    parser.add_argument("--algo", metavar="NAME", help="ppo, dqn, sac, td3 or ddpg")
+    parser.add_argument(
+        "--steps", metavar="N", type=positive_int, help="control steps, all copies together"
+    )
+    parser.add_argument("--num-envs", metavar="N", type=positive_int, help="copies at once")
+    parser.add_argument("--seed", metavar="N", type=int, help="seed of everything (default 0)")
+    parser.add_argument("--resume", metavar="RUN", type=Path, help="go on with this run")
+    parser.add_argument(
+        "--checkpoint-every", metavar="N", type=positive_int, help="steps between checkpoints"
+    )
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
+    )
+    add_file_options(parser)
+    add_environment_options(parser)
+    parser.set_defaults(parser=parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    _check(args)
+    from gazelle.training import choose_progress, resume, train
+
+    if args.resume is not None:
+        return report(resume(args.resume, progress=choose_progress()))
+    result = train(
+        args.task,
+        algo=args.algo,
+        steps=args.steps,
+        num_envs=args.num_envs,
+        seed=args.seed or 0,
+        out=args.out or Path("runs"),
+        checkpoint_every=args.checkpoint_every,
+        progress=choose_progress(),
+        **environment_options(args),
+    )
+    return report(result)
+
+
+def report(result: TrainResult) -> int:
+    """Print what came out and what to type next; returns the exit code."""
+    folder = result.run.folder
+    if result.interrupted:
+        total = result.run.config.recipe.steps
+        sys.stderr.write(
+            f"stopped at {result.steps:,} of {total:,} steps; everything is saved\n"
+            f"  go on with: gazelle train --resume {folder}\n"
+        )
+        return INTERRUPTED
+    if not result.new_steps:
+        sys.stdout.write(f"nothing left to do: the run has its {result.steps:,} steps\n")
+    else:
+        sys.stdout.write(f"trained: {showing.training(result)}\n")
+    sys.stdout.write(
+        f"the run: {folder}\n"
+        f"next:    gazelle eval {folder}\n"
+        f"         tensorboard --logdir {folder}\n"
+    )
+    return 0
+
+
+def _check(args: argparse.Namespace) -> None:
+    """Refuse what cannot go together."""
+    parser: argparse.ArgumentParser = args.parser
+    if args.resume is None:
+        if args.task is None:
+            parser.error("which task? (or which run, with --resume)")
+        return
+    fixed = ["task", "algo", "steps", "num_envs", "seed", "checkpoint_every", "out"]
+    fixed += ["engine", "world", "robot"]
+    given = [name for name in fixed if getattr(args, name) is not None]
+    if given or args.option:
+        name = (given or ["option"])[0].replace("_", "-")
+        name = name if name == "task" else f"--{name}"
+        parser.error(f"a resumed run keeps what it was started with; leave out {name}")
