@@ -39,7 +39,10 @@ class NoiseModel:
         self._draw_bias(None)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Draw new biases; the white noise goes on."""
+        """Draw new biases; with all worlds, the random numbers start over too."""
+        if worlds is None:
+            self._stream.rewind()
+            self._bias_stream.rewind()
         self._drift[slice(None) if worlds is None else worlds] = 0.0
         self._draw_bias(worlds)
 

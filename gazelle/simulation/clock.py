@@ -38,18 +38,21 @@ class Schedule:
 
     Args:
         rate: [Hz]; 0 means every physics step.
+
+    Attributes:
+        count: The next time it is due, in periods.
     """
 
     def __init__(self, rate: float) -> None:
         self.rate = rate
-        self._count = 0
+        self.count = 0
 
     @property
     def due_ns(self) -> int:
         """The next time at which it is due [ns]; 0 for "every step"."""
         if self.rate <= 0.0:
             return 0
-        return round(self._count * NANOSECONDS / self.rate)
+        return round(self.count * NANOSECONDS / self.rate)
 
     def is_due(self, now_ns: int) -> bool:
         """Whether its time has come."""
@@ -58,9 +61,9 @@ class Schedule:
     def done(self, now_ns: int) -> None:
         """It has happened: the next time is the first multiple after now."""
         if self.rate > 0.0:
-            self._count = int(now_ns * self.rate // NANOSECONDS)
+            self.count = int(now_ns * self.rate // NANOSECONDS)
             while self.due_ns <= now_ns:
-                self._count += 1
+                self.count += 1
 
     def steps_until(self, clock: Clock) -> int:
         """Physics steps until it is due, at least 1."""
@@ -69,4 +72,4 @@ class Schedule:
 
     def restart(self) -> None:
         """Start over at time zero."""
-        self._count = 0
+        self.count = 0

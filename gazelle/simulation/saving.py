@@ -28,7 +28,12 @@ def snapshot(simulation: Simulation) -> bytes:
     for robot in simulation.robots.values():
         for name, port in robot.inputs.items():
             arrays[f"input|{robot.name}|{name}"] = np.concatenate((port.linear, port.angular), 1)
-    header = {"format": _FORMAT, "time": simulation.clock.now_ns, "names": _names(simulation)}
+    header = {
+        "format": _FORMAT,
+        "time": simulation.clock.now_ns,
+        "names": _names(simulation),
+        "due": [entry.schedule.count if entry.schedule else 0 for entry in simulation.plugins],
+    }
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **{_escape(k): v for k, v in arrays.items()})
@@ -48,6 +53,9 @@ def restore(simulation: Simulation, data: bytes) -> None:
     engine_state: Any = arrays.pop("engine")
     simulation.engine.restore(engine_state)
     simulation.clock.now_ns = int(header["time"])
+    for entry, count in zip(simulation.plugins, header["due"], strict=True):
+        if entry.schedule is not None:
+            entry.schedule.count = count
     grouped: dict[str, dict[str, NDArray[np.generic]]] = {}
     for key, value in arrays.items():
         group, _, name = key.rpartition("|")

@@ -39,6 +39,7 @@ class SensorUnit:
         self.name = name
         self.model = model
         self.schedule = Schedule(sensor.update_rate)
+        self.schedule.done(robot.simulation.clock.now_ns)
         self._values: Floats | None = None
         self._stamp = 0
         self._awake = False
@@ -95,12 +96,12 @@ class SensorUnit:
         self.model.reset(worlds)
         self._values = None
         if worlds is None:
-            self.schedule.restart()
+            self.schedule.done(self.robot.simulation.clock.now_ns)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
         state = dict(self.model.state())
-        state["stamp"] = np.array([self._stamp, int(self._awake)])
+        state["stamp"] = np.array([self._stamp, int(self._awake), self.schedule.count])
         if self._values is not None:
             state["values"] = self._values.copy()
         return state
@@ -113,9 +114,7 @@ class SensorUnit:
         self.model.restore(own)
         self._stamp, self._awake = int(stamp[0]), bool(stamp[1])
         self._values = values
-        self.schedule.restart()
-        if values is not None:
-            self.schedule.done(self._stamp)
+        self.schedule.count = int(stamp[2])
 
     def _period(self) -> float:
         if self.schedule.rate > 0.0:

@@ -142,7 +142,9 @@ class Simulation:
         clock = self.clock
         update_plugins(self.plugins, clock.now_ns, clock.now)
         sensors = [unit for robot in self._robots.values() for unit in robot.sensors.values()]
-        schedules = [entry.schedule for entry in self.plugins if entry.schedule and entry.plugin.active]
+        schedules = [
+            entry.schedule for entry in self.plugins if entry.schedule and entry.plugin.active
+        ]
         schedules += [unit.schedule for unit in sensors if unit.awake]
         steps = min([most, *(schedule.steps_until(clock) for schedule in schedules)])
         self.engine.step(steps)

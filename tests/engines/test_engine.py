@@ -174,7 +174,12 @@ def test_a_snapshot_of_other_models_is_refused():
 @pytest.mark.parametrize(("nworld", "threads"), [(1, 1), (64, 1), (64, 2)])
 def test_world_0_is_the_same_bits_at_any_number_of_worlds_and_threads(nworld, threads):
     def run(nworld, threads):
-        models = (scenes.ground(), *scenes.square(), scenes.burger(), scenes.box(pose=Pose(x=0.4, z=0.2)))
+        models = (
+            scenes.ground(),
+            *scenes.square(),
+            scenes.burger(),
+            scenes.box(pose=Pose(x=0.4, z=0.2)),
+        )
         engine = make(*models, nworld=nworld, threads=threads, step=0.005)
         for side, speed in (("left", 6.0), ("right", 5.0)):
             engine.add_motor(f"burger::wheel_{side}_joint", 10.0)
@@ -235,7 +240,9 @@ def test_an_infinite_state_is_an_error_that_names_the_world():
 def test_links_of_one_model_do_not_collide_unless_asked():
     def pair(collide):
         links = tuple(
-            Link(n, pose=Pose(x=x), inertial=Inertial(), collisions=scenes.box().links[0].collisions)
+            Link(
+                n, pose=Pose(x=x), inertial=Inertial(), collisions=scenes.box().links[0].collisions
+            )
             for n, x in (("a", 0.0), ("b", 0.1))
         )
         return Model("pair", links=links, self_collide=collide)

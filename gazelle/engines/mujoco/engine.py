@@ -28,6 +28,14 @@ _BAD_STATE = [
 ]
 
 
+def _quiet() -> None:
+    """Keep MuJoCo from writing a log file into the working directory: faults are raised."""
+    config = mujoco.MjLogConfig.get()
+    config.logto_file = False
+    config.logto_console = False
+    config.set()
+
+
 class MujocoEngine:
     """Many copies of one world in MuJoCo; see ``gazelle.engines.engine.Engine``.
 
@@ -49,6 +57,7 @@ class MujocoEngine:
         time_step: float | None = None,
         threads: int | None = None,
     ) -> None:
+        _quiet()
         step = world.profile.max_step_size if time_step is None else time_step
         if nworld < 1:
             raise EngineError(f"nworld must be at least 1, not {nworld}")
@@ -212,7 +221,8 @@ class MujocoEngine:
         self, slot: LinkSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
         rows = _rows(worlds)
-        wxyz = wxyz_from_xyzw(quaternion)
+        # Normalised, or rounding errors would grow with every relative move.
+        wxyz = wxyz_from_xyzw(_unit(quaternion))
         if slot.mocap is not None:
             self._batch.mocap_pos[rows, slot.mocap] = position
             self._batch.mocap_quat[rows, slot.mocap] = wxyz

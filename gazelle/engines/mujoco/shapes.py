@@ -121,9 +121,7 @@ def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> l
     return [builder.mesh_geom(shape, vertices, faces, pose)]
 
 
-def _mesh(
-    builder: ShapeBuilder, shape: Mesh, pose: Pose, _: Source | None
-) -> list[dict[str, Any]]:
+def _mesh(builder: ShapeBuilder, shape: Mesh, pose: Pose, _: Source | None) -> list[dict[str, Any]]:
     if shape.path is None:
         return []
     from gazelle.formats.mesh import load_mesh

@@ -1,0 +1,78 @@
+"""Scripted motion."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import Cylinder, Parameters, Plugin, Pose
+from gazelle.errors import SimulationError
+from gazelle.simulation import Simulation
+
+
+def script(*waypoints, **tags):
+    children = [Parameters(k, str(v)) for k, v in tags.items()]
+    for time, pose in waypoints:
+        children.append(
+            Parameters(
+                "waypoint", children=(Parameters("time", str(time)), Parameters("pose", pose))
+            )
+        )
+    return Plugin(
+        "motion", "libgazelle_scripted_motion.so", Parameters("plugin", children=tuple(children))
+    )
+
+
+def moving(plugin, pose=None):
+    body = scenes.solid("post", Cylinder(0.15, 0.5), pose=pose)
+    return dataclasses.replace(body, plugins=(plugin,))
+
+
+def test_it_is_on_the_line_between_waypoints_and_loops():
+    plugin = script((0, "0 0 0.25 0 0 0"), (2, "2 0 0.25 0 0 0"), (4, "0 0 0.25 0 0 0"), loop=True)
+    with Simulation(scenes.world(moving(plugin))) as sim:
+        post = sim.robots["post"]
+        for seconds, x in ((1.01, 1.0), (1.0, 2.0), (1.0, 1.0), (2.0, 1.0)):
+            sim.run(seconds)
+            assert post.position[0, 0] == pytest.approx(x, abs=0.11)  # set ten times a second
+
+
+def test_without_a_loop_it_stays_at_the_last_waypoint():
+    plugin = script((0, "0 0 1 0 0 0"), (1, "1 0 1 0 0 3.0"))
+    with Simulation(scenes.world(moving(plugin))) as sim:
+        sim.run(3.0)
+        assert sim.robots["post"].pose.is_close(Pose(1.0, 0.0, 1.0, yaw=3.0), angle=1e-6)
+
+
+def test_it_turns_evenly_about_its_origin():
+    plugin = script(angular_velocity="0 0 0.5", updateRate=0)
+    with Simulation(scenes.world(moving(plugin, Pose(1.0, 2.0, 0.25, yaw=0.3)))) as sim:
+        sim.run(2.0)
+        pose = sim.robots["post"].pose
+        assert pose.yaw == pytest.approx(1.3, abs=1e-3)
+        assert (pose.x, pose.y) == (1.0, 2.0)
+
+
+def test_every_world_restarts_its_own_script():
+    plugin = script((0, "0 0 1 0 0 0"), (10, "10 0 1 0 0 0"), updateRate=0)
+    with Simulation(scenes.world(moving(plugin)), nworld=2) as sim:
+        sim.run(2.0)
+        sim.reset([1])
+        sim.run(1.0)
+        np.testing.assert_allclose(sim.robots["post"].position[:, 0], [3.0, 1.0], atol=0.002)
+
+
+def test_it_pushes_and_nothing_pushes_it():
+    plugin = script((0, "0 0 0.25 0 0 0"), (4, "1 0 0.25 0 0 0"), updateRate=0)
+    box = scenes.box(pose=Pose(x=0.5, z=0.1))
+    with Simulation(scenes.world(scenes.ground(), box, moving(plugin))) as sim:
+        sim.run(4.5)
+        assert sim.robots["post"].position[0, 0] == pytest.approx(1.0, abs=1e-6)
+        assert sim.robots["box"].position[0, 0] > 1.2
+
+
+def test_times_must_increase():
+    plugin = script((1, "0 0 0 0 0 0"), (1, "1 0 0 0 0 0"))
+    with pytest.raises(SimulationError, match="must increase"):
+        Simulation(scenes.world(moving(plugin)))
