@@ -49,7 +49,7 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         "MlpPolicy",
         env,
         n_steps=settings.n_steps,
-        batch_size=settings.batch_size,
+        batch_size=min(settings.batch_size, settings.n_steps * env.num_envs),
         n_epochs=settings.n_epochs,
         gae_lambda=settings.gae_lambda,
         clip_range=settings.clip_range,

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import pytest
+
+from gazelle.errors import TaskError
+from gazelle.training.recipes import (
+    RECIPES,
+    OffPolicySettings,
+    Recipe,
+    recipe_for,
+    recipe_from_dict,
+    recipe_to_dict,
+    task_name,
+)
+
+
+@pytest.mark.parametrize("algo", ["ppo", "dqn", "sac", "td3", "ddpg"])
+@pytest.mark.parametrize("task", [*RECIPES, "Unknown"])
+def test_recipes_survive_json(task, algo):
+    recipe = recipe_for(task, algo)
+    assert recipe.algo == algo
+    assert recipe_from_dict(json.loads(json.dumps(recipe_to_dict(recipe)))) == recipe
+
+
+@pytest.mark.parametrize(
+    ("task", "name"),
+    [
+        ("gazelle/TurtleBot3Stage1-v0", "TurtleBot3Stage1"),
+        ("TurtleBot3Stage1", "TurtleBot3Stage1"),
+        ("CartPole-v1", "CartPole"),
+        ("a-very-odd-name", "a-very-odd-name"),
+    ],
+)
+def test_names_lose_namespace_and_version(task, name):
+    assert task_name(task) == name
+
+
+def test_continuous_twins_share_their_tasks_recipe():
+    assert recipe_for("gazelle/TurtleBot3Stage4Continuous-v0") == RECIPES["TurtleBot3Stage4"]
+
+
+def test_unknown_algorithm_suggests_the_closest():
+    with pytest.raises(TaskError, match="did you mean 'ddpg'"):
+        recipe_for("CartPole", "ddgp")
+
+
+def test_unknown_key_suggests_the_closest():
+    values = recipe_to_dict(Recipe())
+    values["gama"] = values.pop("gamma")
+    with pytest.raises(TaskError, match="did you mean 'gamma'"):
+        recipe_from_dict(values)
+
+
+@pytest.mark.parametrize(
+    "change", [{"steps": 0}, {"num_envs": -1}, {"gamma": 1.5}, {"settings": OffPolicySettings()}]
+)
+def test_impossible_recipes_are_refused(change):
+    with pytest.raises(TaskError):
+        dataclasses.replace(Recipe(), **change)

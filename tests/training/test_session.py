@@ -1,0 +1,202 @@
+"""Training, stopping and resuming as a whole."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import json
+import os
+import signal
+
+import numpy as np
+import pytest
+import torch
+
+from gazelle.errors import FormatError, SimulationWarning, TaskError
+from gazelle.training import OffPolicySettings, Recipe, evaluate, resume, train
+from gazelle.training.progress import Silent
+
+SMALL = OffPolicySettings(
+    buffer_size=2000, batch_size=32, learning_starts=100, target_update_interval=100
+)
+
+
+def off_policy(algo):
+    return Recipe(algo=algo, steps=600, num_envs=4, net_arch=(16,), settings=SMALL)
+
+
+class StopAt(Silent):
+    """Presses Ctrl-C after some steps."""
+
+    def __init__(self, steps):
+        self.steps = steps
+        self.said = []
+
+    def update(self, done, summary):
+        if done >= self.steps:
+            self.steps = float("inf")
+            os.kill(os.getpid(), signal.SIGINT)
+
+    def say(self, text):
+        self.said.append(text)
+
+
+def weights(result):
+    file = result.run.newest_checkpoint() / "learner.pt"
+    return torch.load(file, weights_only=True)["modules"]["policy"]
+
+
+def curves(result):
+    with (result.run.folder / "progress.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        del row["time/seconds"], row["time/steps_per_second"]
+    return rows
+
+
+CASES = [
+    ("ppo", "SameStep", False),
+    ("ppo", "NextStep", True),
+    ("ppo", "Disabled", False),
+    ("dqn", "SameStep", False),
+    ("sac", "NextStep", True),
+    ("td3", "SameStep", True),
+    ("ddpg", "SameStep", True),
+]
+
+
+@pytest.mark.parametrize(("algo", "mode", "continuous"), CASES)
+def test_an_interrupted_and_resumed_run_equals_an_uninterrupted_one(
+    tmp_path, tiny, algo, mode, continuous
+):
+    recipe = tiny if algo == "ppo" else off_policy(algo)
+    given = {"recipe": recipe, "seed": 5, "mode": mode, "continuous": continuous}
+    whole = train("test/Corridor-v0", out=tmp_path / "whole", **given)
+    stop = StopAt(recipe.steps // 2)
+    first = train("test/Corridor-v0", out=tmp_path / "broken", progress=stop, **given)
+    assert first.interrupted
+    assert stop.said
+    assert recipe.steps // 2 <= first.steps < recipe.steps
+    np.random.seed(99)
+    torch.manual_seed(99)
+    second = resume(first.run.folder)
+    assert second.steps == whole.steps
+    assert not second.interrupted
+    for name, expected in weights(whole).items():
+        assert torch.equal(weights(second)[name], expected), name
+    assert curves(second) == curves(whole)
+
+
+def test_same_seed_same_weights_other_seed_other_weights(tmp_path, tiny):
+    results = [
+        train("test/Corridor-v0", recipe=tiny, seed=seed, out=tmp_path) for seed in (1, 1, 2)
+    ]
+    first, second, third = (weights(result)["action_net.weight"] for result in results)
+    assert torch.equal(first, second)
+    assert not torch.equal(first, third)
+
+
+def test_a_forgetful_environment_resumes_with_a_warning(tmp_path, tiny):
+    given = {"recipe": tiny, "out": tmp_path}
+    first = train("test/Forgetful-v0", progress=StopAt(500), **given)
+    with pytest.warns(SimulationWarning, match="cannot save its state"):
+        second = resume(first.run.folder)
+    assert second.steps == tiny.steps
+
+
+def test_second_interrupt_stops_at_once_and_leaves_the_handler_alone(tmp_path, tiny):
+    class Impatient(StopAt):
+        def say(self, text):
+            os.kill(os.getpid(), signal.SIGINT)
+
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        train("test/Corridor-v0", recipe=tiny, out=tmp_path, progress=Impatient(300))
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_training_learns_the_corridor(tmp_path, tiny):
+    recipe = dataclasses.replace(tiny, steps=20_000, learning_rate=3e-3, gamma=0.95)
+    result = train("test/Corridor-v0", recipe=recipe, out=tmp_path)
+    found = evaluate(result.run.folder, episodes=100)
+    assert found.success.value > 0.9
+    assert found.episodes == found.success.total == 100
+
+
+def test_a_run_describes_itself(tmp_path, tiny):
+    result = train("test/Corridor-v0", recipe=tiny, seed=4, out=tmp_path, limit=12)
+    config = json.loads((result.run.folder / "config.json").read_text())
+    assert config["task"] == "test/Corridor-v0"
+    assert config["seed"] == 4
+    assert config["options"] == {"limit": 12}
+    assert config["recipe"]["net_arch"] == [16]
+    assert {"python", "torch", "gymnasium", "stable-baselines3"} <= set(config["versions"])
+    assert (result.run.folder / "policy.npz").is_file()
+    assert list((result.run.folder / "tensorboard").iterdir())
+    last = curves(result)[-1]
+    assert int(last["time/steps"]) == result.steps
+    assert float(last["episodes/success_rate"]) >= 0
+    assert float(last["train/loss"])
+
+
+def test_only_the_newest_checkpoints_are_kept(tmp_path, tiny):
+    result = train("test/Corridor-v0", recipe=tiny, out=tmp_path, checkpoint_every=128)
+    names = [int(path.name) for path in result.run.checkpoints()]
+    assert names == [1024 - 256, 1024 - 128, 1024]
+
+
+def test_a_finished_run_has_nothing_left_to_do(tmp_path, tiny):
+    result = train("test/Corridor-v0", recipe=tiny, out=tmp_path)
+    again = resume(result.run.folder)
+    assert again.new_steps == 0
+    assert again.steps == result.steps
+
+
+def test_a_run_in_the_same_second_gets_a_folder_of_its_own(tmp_path, tiny):
+    short = dataclasses.replace(tiny, steps=128)
+    folders = {train("test/Corridor-v0", recipe=short, out=tmp_path).run.folder for _ in range(3)}
+    assert len(folders) == 3
+
+
+@pytest.mark.parametrize("name", ["learner.pt", "state.npz", "state.json"])
+def test_a_damaged_checkpoint_is_one_clear_error(tmp_path, tiny, name):
+    result = train("test/Corridor-v0", recipe=tiny, out=tmp_path)
+    file = result.run.newest_checkpoint() / name
+    file.write_bytes(file.read_bytes()[:40])
+    with pytest.raises(FormatError, match="not a readable state|cannot use these weights"):
+        resume(result.run.folder)
+
+
+def test_weights_with_code_in_them_are_refused(tmp_path, tiny):
+    class Evil:
+        def __reduce__(self):
+            return (print, ("run",))
+
+    result = train("test/Corridor-v0", recipe=tiny, out=tmp_path)
+    torch.save({"modules": Evil(), "tensors": {}}, result.run.newest_checkpoint() / "learner.pt")
+    with pytest.raises(FormatError, match="cannot use these weights"):
+        resume(result.run.folder)
+
+
+def test_a_folder_without_a_run_is_refused(tmp_path):
+    with pytest.raises(FormatError, match="no run here"):
+        resume(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("algo", "continuous", "hint"), [("sac", False, "ppo or dqn"), ("dqn", True, "sac")]
+)
+def test_an_algorithm_that_does_not_fit_is_refused(tmp_path, algo, continuous, hint):
+    with pytest.raises(TaskError, match=hint):
+        train("test/Corridor-v0", recipe=off_policy(algo), out=tmp_path, continuous=continuous)
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_unknown_option_is_refused(tmp_path):
+    with pytest.raises(TaskError, match="does not take"):
+        train("test/Corridor-v0", out=tmp_path, lidar_samples=24)
+
+
+def test_an_unknown_task_suggests_the_closest():
+    with pytest.raises(TaskError, match="there is no task"):
+        train("Coridor")
