@@ -1,0 +1,15 @@
+"""Files to descriptions: SDF, URDF, xacro, and the meshes they name."""
+
+from gazelle.formats.check import Problem, check
+from gazelle.formats.loader import load, load_model, load_model_string, load_string
+from gazelle.formats.resolve import Resolver
+
+__all__ = [
+    "Problem",
+    "Resolver",
+    "check",
+    "load",
+    "load_model",
+    "load_model_string",
+    "load_string",
+]

@@ -1,0 +1,69 @@
+"""Everything that is wrong with a file, as a list."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from gazelle.description import Source
+from gazelle.errors import Error
+from gazelle.formats.loader import PathLike, find_file, read_path
+from gazelle.formats.reading import Reading
+from gazelle.formats.resolve import Resolver
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One finding.
+
+    Attributes:
+        severity: An error stops the load; a warning does not.
+        message: What is wrong.
+        file: File it is in.
+        line: Line in that file, counted from 1.
+        element: Path of the element.
+        hint: What to do about it.
+    """
+
+    severity: Literal["error", "warning"]
+    message: str
+    file: str | None = None
+    line: int | None = None
+    element: str | None = None
+    hint: str | None = None
+
+
+def check(
+    path: PathLike,
+    *,
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+) -> list[Problem]:
+    """Load a file and list its problems instead of raising them, errors first.
+
+    Args:
+        path: As for ``load``.
+        paths: As for ``load``.
+        xacro_args: As for ``load``.
+    """
+    reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
+    problems: list[Problem] = []
+    try:
+        read_path(find_file(path, reading), reading)
+    except Error as error:
+        file = error.file or os.fspath(path)
+        problems.append(
+            Problem("error", error.message, file, error.line, error.element, error.hint)
+        )
+    for miss in reading.misses:
+        problems.append(_warning(f"'{miss.uri}' is not found", miss.source, miss.looked))
+    for note in reading.notes:
+        problems.append(_warning(note.message, note.source, note.hint))
+    return problems
+
+
+def _warning(message: str, source: Source | None, hint: str | None) -> Problem:
+    place = source or Source()
+    return Problem("warning", message, place.file, place.line, place.element, hint)

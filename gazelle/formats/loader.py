@@ -1,0 +1,198 @@
+"""Files of any readable kind as worlds and models."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from gazelle.description import Model, Parameters, World
+from gazelle.errors import FormatError, ResolveError, did_you_mean
+from gazelle.formats import sdf, urdf, xacro, xml
+from gazelle.formats.model_config import entry_file
+from gazelle.formats.reading import Reading
+from gazelle.formats.resolve import Resolver
+
+PathLike = str | os.PathLike[str]
+
+_WORLD_SUFFIXES = (".world", ".sdf")
+_ROBOT_SUFFIXES = (".urdf", ".urdf.xacro", ".xacro")
+
+
+def load(
+    path: PathLike,
+    *,
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+    strict: bool = False,
+) -> World:
+    """The world in a file: SDF, URDF, xacro, or the folder of a model.
+
+    A file of a robot or model gives a world that holds just that. What kind of file it is
+    is decided by its content.
+
+    Args:
+        path: File, model folder, URI (``model://``, ``package://``, ``file://``), or the
+            name of a world, model or robot that comes with Gazelle.
+        paths: Folders to search for models and packages before all others.
+        xacro_args: Values of ``<xacro:arg>``, as ``name:=value`` would give them.
+        strict: Raise when a file that this one refers to is not found; else a warning
+            names all that is missing, and stand-ins are used.
+
+    Raises:
+        FormatError: The file cannot be read, or says something that cannot be.
+        ResolveError: There is no such file; or, if ``strict``, one it refers to.
+    """
+    reading = _reading(paths, xacro_args)
+    world = read_path(find_file(path, reading), reading)
+    reading.report(strict=strict)
+    return world
+
+
+def load_model(
+    path: PathLike,
+    *,
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+    strict: bool = False,
+) -> Model:
+    """The one model in a file; arguments and errors are those of ``load``.
+
+    Raises:
+        FormatError: The file holds no model, or several.
+    """
+    return _only_model(load(path, paths=paths, xacro_args=xacro_args, strict=strict), str(path))
+
+
+def load_string(
+    text: str | bytes,
+    *,
+    name: str = "string",
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+    strict: bool = False,
+) -> World:
+    """The world in SDF, URDF or xacro text; ``name`` stands for the file in errors.
+
+    Relative names start nowhere: files are found through ``paths`` and URIs.
+
+    Raises:
+        FormatError: The text cannot be read, or says something that cannot be.
+        ResolveError: A file is not found, and ``strict`` is set.
+    """
+    reading = _reading(paths, xacro_args)
+    root = xml.parse(text, name=name)
+    if root.tag == "robot" and xacro.is_xacro(root):
+        root = xacro.expand_text(text, name, reading)
+    world = read_root(root, reading)
+    reading.report(strict=strict)
+    return world
+
+
+def load_model_string(
+    text: str | bytes,
+    *,
+    name: str = "string",
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+    strict: bool = False,
+) -> Model:
+    """The one model in SDF, URDF or xacro text; see ``load_string``.
+
+    Raises:
+        FormatError: The text holds no model, or several.
+    """
+    world = load_string(text, name=name, paths=paths, xacro_args=xacro_args, strict=strict)
+    return _only_model(world, name)
+
+
+def _reading(paths: Sequence[PathLike], xacro_args: Mapping[str, str] | None) -> Reading:
+    given = (paths,) if isinstance(paths, (str, os.PathLike)) else paths
+    return Reading(Resolver(given), xacro_args=dict(xacro_args or {}))
+
+
+def _only_model(world: World, name: str) -> Model:
+    if len(world.models) != 1:
+        raise FormatError(
+            f"expected one model, found {len(world.models)}",
+            file=name,
+            hint="use load() for a world" if world.models else None,
+        )
+    return world.models[0]
+
+
+def find_file(path: PathLike, reading: Reading) -> Path:
+    """The file that a path, URI or bundled name means.
+
+    Raises:
+        ResolveError: There is none.
+    """
+    text = os.fspath(path)
+    if "://" not in text:
+        plain = Path(text).expanduser()
+        if plain.exists():
+            return entry_file(plain.absolute())
+    found = reading.resolver.find(text, Path.cwd()) if "://" in text else None
+    found = found or _bundled(text, reading.resolver)
+    if found is None:
+        looked = reading.resolver.looked_in(text)
+        names = bundled_names(reading.resolver.assets)
+        hint = f"{looked}" if "://" in text or "/" in text else did_you_mean(text, names)
+        raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
+    reading.resolver.look_around(found)
+    return entry_file(found)
+
+
+def _bundled(name: str, resolver: Resolver) -> Path | None:
+    if "://" in name:
+        return None
+    model = resolver.model(name)
+    return model or _bundled_files(resolver.assets).get(name)
+
+
+def bundled_names(assets: Path) -> list[str]:
+    """Names of all worlds, models and robots that come with Gazelle."""
+    models = [folder.parent.name for folder in assets.glob("models/*/model.config")]
+    return sorted({*models, *_bundled_files(assets)})
+
+
+def _bundled_files(assets: Path) -> dict[str, Path]:
+    files: dict[str, Path] = {}
+    for suffix in _WORLD_SUFFIXES:
+        for file in sorted(assets.glob(f"worlds/*{suffix}")):
+            files.setdefault(file.name.removesuffix(suffix), file)
+    for pattern in ("robots/*", "*/urdf/*"):
+        for suffix in _ROBOT_SUFFIXES:
+            for file in sorted(assets.glob(pattern + suffix)):
+                files.setdefault(file.name.removesuffix(suffix), file)
+    return files
+
+
+def read_path(file: Path, reading: Reading) -> World:
+    """The world in a file.
+
+    Raises:
+        FormatError: It cannot be read, or says something that cannot be.
+    """
+    with reading.inside(file):
+        root = xml.read_file(file)
+        if root.tag == "robot" and xacro.is_xacro(root):
+            root = xacro.expand(file, reading)
+        return read_root(root, reading)
+
+
+def read_root(root: Parameters, reading: Reading) -> World:
+    """The world of a root element, whatever its format.
+
+    Raises:
+        FormatError: It is of no known format.
+    """
+    if root.tag == "robot":
+        return World(models=(urdf.read_robot(root, reading),), source=root.source)
+    if root.tag in {"sdf", "gazebo"}:
+        return sdf.read_sdf(root, reading)
+    raise FormatError(
+        f"expected <sdf> or <robot>, found <{root.tag}>",
+        source=root.source,
+        hint="readable are SDF, URDF and xacro files, and folders with a model.config",
+    )

@@ -1,0 +1,131 @@
+"""What one load carries along: the resolver, where it stands, and what it found wanting."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gazelle.description import Parameters, Source
+from gazelle.errors import FormatError, FormatWarning, ResolveError, describe
+from gazelle.formats.resolve import Resolver
+
+MAX_INCLUDES = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """A URI that led nowhere.
+
+    Attributes:
+        uri: As the file says.
+        source: Where the file says it.
+        looked: Where it was looked for.
+    """
+
+    uri: str
+    source: Source | None
+    looked: str
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A remark about the file, that becomes a warning when the load is done."""
+
+    message: str
+    source: Source | None = None
+    hint: str | None = None
+
+
+@dataclass(slots=True)
+class Reading:
+    """The state of one load.
+
+    Attributes:
+        resolver: Finds files.
+        folder: Folder that relative names start from.
+        xacro_args: Arguments for xacro files.
+        misses: What was not found.
+        notes: What is valid but not done as written.
+        including: Files being read, outermost first.
+    """
+
+    resolver: Resolver
+    folder: Path | None = None
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
+    misses: list[Miss] = field(default_factory=list)
+    notes: list[Note] = field(default_factory=list)
+    including: list[Path] = field(default_factory=list)
+
+    def find(self, uri: str, node: Parameters, *, required: bool = True) -> Path | None:
+        """The file behind a URI; a miss is recorded when it is required."""
+        path = self.resolver.find(uri, self.folder)
+        if path is None and required and not any(miss.uri == uri for miss in self.misses):
+            self.misses.append(Miss(uri, node.source, self.resolver.looked_in(uri)))
+        return path
+
+    def note(self, message: str, node: Parameters, hint: str | None = None) -> None:
+        """Record a remark, once for each place."""
+        note = Note(message, node.source, hint)
+        if note not in self.notes:
+            self.notes.append(note)
+
+    @contextmanager
+    def inside(self, file: Path, node: Parameters | None = None) -> Iterator[None]:
+        """Read another file: relative names start from its folder while it lasts.
+
+        Raises:
+            FormatError: The file is already being read, or includes go too deep.
+        """
+        source = node.source if node is not None else None
+        if file in self.including:
+            raise FormatError(f"'{file}' includes itself", source=source)
+        if len(self.including) >= MAX_INCLUDES:
+            raise FormatError(f"more than {MAX_INCLUDES} includes in each other", source=source)
+        outer = self.folder
+        self.including.append(file)
+        self.folder = file.parent
+        self.resolver.look_around(file)
+        try:
+            yield
+        finally:
+            self.including.pop()
+            self.folder = outer
+
+    def report(self, *, strict: bool) -> None:
+        """Issue the remarks as warnings, all misses as one.
+
+        Raises:
+            ResolveError: Something was not found, and ``strict`` is set.
+        """
+        for note in self.notes:
+            warnings.warn(note_text(note), FormatWarning, stacklevel=4)
+        if not self.misses:
+            return
+        if strict:
+            raise ResolveError(misses_text(self.misses), source=self.misses[0].source)
+        place = self.misses[0].source
+        text = misses_text(self.misses)
+        if place is not None:
+            text = describe(text, file=place.file, line=place.line, element=place.element)
+        warnings.warn(text, FormatWarning, stacklevel=4)
+
+
+def note_text(note: Note) -> str:
+    """A remark as one line with its place."""
+    place = note.source or Source()
+    return describe(
+        note.message, file=place.file, line=place.line, element=place.element, hint=note.hint
+    )
+
+
+def misses_text(misses: list[Miss]) -> str:
+    """All misses as one line."""
+    parts = []
+    for miss in misses:
+        line = f" (line {miss.source.line})" if miss.source and miss.source.line else ""
+        parts.append(f"'{miss.uri}'{line}")
+    places = "; ".join(dict.fromkeys(miss.looked for miss in misses))
+    return f"not found: {', '.join(parts)}; {places}"

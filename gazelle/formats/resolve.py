@@ -1,0 +1,248 @@
+"""Where the files behind ``model://``, ``package://``, ``file://`` and relative names are.
+
+Nothing is ever fetched from a network, and only files below folders that the user gave
+(as arguments or in the environment), below the folders around the file being read, and
+those that come with Gazelle are opened.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from importlib import resources
+from pathlib import Path
+from urllib.parse import unquote
+
+from gazelle.formats import packages
+
+MODEL_VARIABLES = (
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
+)
+PACKAGE_VARIABLE = "ROS_PACKAGE_PATH"
+NEIGHBOUR_LEVELS = 4
+
+_NETWORK = ("http://", "https://", "fuel://", "ftp://")
+
+
+class Resolver:
+    """Finds files and folders by the names that robot files give them.
+
+    Args:
+        paths: Folders to look in before all others: packages, models, workspaces, or
+            folders that hold them.
+        environ: Environment variables; those of the process when None.
+        file: The file being read: the folders around it are searched too.
+    """
+
+    def __init__(
+        self,
+        paths: Sequence[str | os.PathLike[str]] = (),
+        environ: Mapping[str, str] | None = None,
+        *,
+        file: Path | None = None,
+    ) -> None:
+        self._environ = os.environ if environ is None else environ
+        self.paths = tuple(Path(path).expanduser().absolute() for path in paths)
+        self._indices: dict[Path, packages.Index] = {}
+        self._packages: dict[str, Path | None] = {}
+        self._models: dict[str, Path | None] = {}
+        self._around: list[Path] = []
+        if file is not None:
+            self.look_around(file)
+
+    def look_around(self, file: Path) -> None:
+        """Search the folders around this file as well."""
+        for folder in _ancestors(file):
+            if folder not in self._around:
+                self._around.append(folder)
+                self._packages = {name: at for name, at in self._packages.items() if at}
+                self._models = {name: at for name, at in self._models.items() if at}
+
+    def find(self, uri: str, base: Path | None = None) -> Path | None:
+        """The file or folder a URI or path names, or None.
+
+        Args:
+            uri: ``model://``, ``package://``, ``file://``, an absolute or a relative path.
+            base: Folder that a relative path starts from.
+        """
+        for candidate in self._candidates(uri.strip(), base):
+            found = self._allowed(candidate)
+            if found is not None:
+                return found
+        return None
+
+    def looked_in(self, uri: str) -> str:
+        """Where ``find`` looks for such a URI, for a message."""
+        if uri.startswith(_NETWORK):
+            return "network addresses are never fetched"
+        if uri.startswith("package://"):
+            variable, folders = PACKAGE_VARIABLE, self._package_roots()
+        elif uri.startswith("model://"):
+            variable, folders = MODEL_VARIABLES[0], self._model_roots()
+        else:
+            return "looked beside the file"
+        shown = ", ".join(str(folder) for folder in folders[:6]) or "no folder"
+        state = "" if self._environ.get(variable) else f"; {variable} is not set"
+        return f"looked in {shown}{state}"
+
+    def package(self, name: str) -> Path | None:
+        """The folder of a ROS package, or None."""
+        if name not in self._packages:
+            self._packages[name] = self._find_package(name)
+        return self._packages[name]
+
+    def model(self, name: str) -> Path | None:
+        """The folder of a Gazebo model, or None."""
+        if name not in self._models:
+            self._models[name] = self._find_model(name)
+        return self._models[name]
+
+    def readable(self, path: Path) -> bool:
+        """Whether the path lies, links followed, below a folder that may be read."""
+        try:
+            real = path.resolve()
+        except (OSError, RuntimeError, ValueError):
+            return False
+        return any(real.is_relative_to(root) for root in self._readable_roots())
+
+    def _allowed(self, path: Path) -> Path | None:
+        try:
+            return path if path.exists() and self.readable(path) else None
+        except (OSError, ValueError):
+            return None
+
+    def _candidates(self, uri: str, base: Path | None) -> Iterator[Path]:
+        if uri.startswith(_NETWORK):
+            yield from self._local_copy(uri)
+            return
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            scheme, rest = ("file", uri.removeprefix("file:"))
+        rest = unquote(rest)
+        name, _, inner = rest.partition("/")
+        if scheme in {"model", "package"}:
+            yield from self._below(name, inner, scheme)
+        elif scheme == "file":
+            yield from self._plain(rest, base)
+
+    def _below(self, name: str, inner: str, scheme: str) -> Iterator[Path]:
+        """``model://`` may also name a package, and the other way round, as in Gazebo."""
+        first, second = (self.model, self.package)
+        if scheme == "package":
+            first, second = second, first
+        for find in (first, second):
+            folder = find(name)
+            if folder is not None:
+                yield folder / inner if inner else folder
+        for root in self._model_roots():
+            yield root / name / inner if inner else root / name
+
+    def _plain(self, path: str, base: Path | None) -> Iterator[Path]:
+        plain = Path(path).expanduser()
+        if plain.is_absolute():
+            yield plain
+            return
+        if base is not None:
+            yield base / plain
+        for root in self._model_roots():
+            yield root / plain
+
+    def _local_copy(self, uri: str) -> Iterator[Path]:
+        """A model of the same name that is on disk stands in for one on the network."""
+        parts = [unquote(part) for part in uri.split("/")]
+        if "models" in parts[:-1]:
+            at = parts.index("models")
+            folder = self.model(parts[at + 1])
+            inner = parts[at + 2 :]
+            if inner and inner[0] in {"tip", *map(str, range(100))}:
+                inner = inner[1:]
+            if inner and inner[0] == "files":
+                inner = inner[1:]
+            if folder is not None:
+                yield folder.joinpath(*inner)
+
+    def _find_package(self, name: str) -> Path | None:
+        if not _plain_name(name):
+            return None
+        for root in self._package_roots():
+            for folder in (root, root / name, root / "src" / name):
+                if (folder / "package.xml").is_file() and packages.package_name(folder) == name:
+                    return folder
+        for root in self._scan_roots():
+            found = self._index(root).packages.get(name)
+            if found is not None:
+                return found
+        bundled = self.assets / name
+        return bundled if (bundled / "package.xml").is_file() else None
+
+    def _find_model(self, name: str) -> Path | None:
+        if not _plain_name(name):
+            return None
+        for root in self._model_roots():
+            for folder in (root / name, root / "models" / name, root):
+                if folder.name == name and (folder / "model.config").is_file():
+                    return folder
+        for root in self._scan_roots():
+            found = self._index(root).models.get(name)
+            if found is not None:
+                return found
+        bundled = self.assets / "models" / name
+        return bundled if (bundled / "model.config").is_file() else None
+
+    def _index(self, root: Path) -> packages.Index:
+        if root not in self._indices:
+            self._indices[root] = packages.scan(root)
+        return self._indices[root]
+
+    def _split(self, variable: str) -> list[Path]:
+        parts = self._environ.get(variable, "").split(os.pathsep)
+        return [Path(part).expanduser() for part in parts if Path(part).is_absolute()]
+
+    @cached_property
+    def _variable_roots(self) -> list[Path]:
+        return [path for variable in MODEL_VARIABLES for path in self._split(variable)]
+
+    @cached_property
+    def assets(self) -> Path:
+        """The folder of the robots, models and worlds that come with Gazelle."""
+        return Path(str(resources.files("gazelle"))) / "assets"
+
+    def _package_roots(self) -> list[Path]:
+        return [*self.paths, *self._split(PACKAGE_VARIABLE), *self._around]
+
+    def _model_roots(self) -> list[Path]:
+        exported = [
+            path
+            for root in (*self.paths, *self._split(PACKAGE_VARIABLE), *self._around)
+            if (root / "package.xml").is_file()
+            for path in packages.exported_model_paths(root)
+        ]
+        return [*self.paths, *self._variable_roots, *exported, *self._around]
+
+    def _scan_roots(self) -> list[Path]:
+        return [*self.paths, *self._split(PACKAGE_VARIABLE), *self._around[::-1]]
+
+    def _readable_roots(self) -> list[Path]:
+        roots = [*self._model_roots(), *self._split(PACKAGE_VARIABLE), self.assets]
+        return [root.resolve() for root in roots]
+
+
+def _plain_name(name: str) -> bool:
+    return bool(name) and name not in {".", ".."} and os.sep not in name and "\0" not in name
+
+
+def _ancestors(file: Path) -> list[Path]:
+    """The folders around a file, nearest first, short of a home or a top-level folder."""
+    start = file.absolute()
+    folders = [start] if start.is_dir() else []
+    for folder in list(start.parents)[:NEIGHBOUR_LEVELS]:
+        too_wide = len(folder.parts) <= 2 or folder == Path.home()
+        if too_wide and folders:
+            break
+        folders.append(folder)
+    return folders

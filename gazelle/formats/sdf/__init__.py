@@ -1,0 +1,5 @@
+"""SDF 1.4 to 1.12: one small reader an element."""
+
+from gazelle.formats.sdf.root import read_sdf
+
+__all__ = ["read_sdf"]

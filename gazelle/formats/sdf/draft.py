@@ -1,0 +1,142 @@
+"""Models before they are read: all frames named, so that poses can be resolved.
+
+A model file names frames before it defines them, and a joint may reach into a nested or
+included model. So a first pass collects the frames (a ``Draft``), a second one reads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gazelle.description import Model, Parameters, Pose
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.frames import MODEL, Entry, Scope
+from gazelle.formats.sdf.pose import frame_of, read_pose
+
+Version = tuple[int, int]
+
+
+@dataclass(slots=True)
+class Draft:
+    """A model whose frames are known.
+
+    Attributes:
+        node: The ``<model>``; for an included one, that of its own file.
+        version: Of the file it stands in.
+        name: Its name, after what an include says.
+        pose: As written, in the frame ``relative_to`` of the parent.
+        relative_to: Frame of the parent.
+        placement_frame: Its own frame that ``pose`` places.
+        static: What an include says; None for what the model itself says.
+        plugins: ``<plugin>`` elements that an include adds.
+        file: File to read it from, when it is another one.
+        scope: Its frames.
+        nested: Models inside, in file order.
+        model: Set when it is already read, as a URDF is.
+    """
+
+    node: Parameters
+    version: Version
+    name: str
+    pose: Pose
+    relative_to: str = ""
+    placement_frame: str = ""
+    static: bool | None = None
+    plugins: list[Parameters] = field(default_factory=list)
+    file: Path | None = None
+    scope: Scope = field(default_factory=lambda: Scope(MODEL))
+    nested: list[Draft] = field(default_factory=list)
+    model: Model | None = None
+
+    @property
+    def placed(self) -> Pose:
+        """The pose of the model frame in the frame ``relative_to``."""
+        if not self.placement_frame:
+            return self.pose
+        return self.pose * self.scope.pose(self.placement_frame, self.node).inverse()
+
+
+Includer = Callable[[Parameters, Version, Reading], Draft | None]
+
+
+def draft_model(node: Parameters, version: Version, reading: Reading, include: Includer) -> Draft:
+    """The draft of a ``<model>`` and all models in it.
+
+    Raises:
+        FormatError: Two frames have one name, or a name is missing.
+    """
+    pose = node.find("pose")
+    draft = Draft(
+        node,
+        version,
+        values.attribute(node, "name"),
+        read_pose(pose),
+        frame_of(pose),
+        node.attributes.get("placement_frame", ""),
+    )
+    for child in node.children:
+        drafter = _DRAFTERS.get(child.tag)
+        if drafter is not None:
+            drafter(child, draft.scope)
+        elif child.tag in {"model", "include"}:
+            inner = (
+                draft_model(child, version, reading, include)
+                if child.tag == "model"
+                else include(child, version, reading)
+            )
+            if inner is not None:
+                draft.nested.append(inner)
+                add_model(draft.scope, inner)
+    draft.scope.canonical = _canonical(draft)
+    return draft
+
+
+def add_model(scope: Scope, draft: Draft) -> None:
+    """Name a model in the scope around it."""
+    scope.add(draft.name, Entry(draft.node, draft.placed, draft.relative_to, scope=draft.scope))
+
+
+def draft_link(node: Parameters, scope: Scope) -> None:
+    """A link's frame."""
+    pose = node.find("pose")
+    name = values.attribute(node, "name")
+    scope.add(name, Entry(node, read_pose(pose), frame_of(pose)))
+
+
+def draft_joint(node: Parameters, scope: Scope) -> None:
+    """A joint's frame, which is written in its child's unless it says otherwise."""
+    pose = node.find("pose")
+    child = values.word(node, "child")
+    name = values.attribute(node, "name")
+    scope.add(name, Entry(node, read_pose(pose), frame_of(pose) or child, child))
+
+
+def draft_frame(node: Parameters, scope: Scope) -> None:
+    """An explicit frame, which is written in the frame it is attached to."""
+    pose = node.find("pose")
+    attached = node.attributes.get("attached_to", "")
+    name = values.attribute(node, "name")
+    scope.add(name, Entry(node, read_pose(pose), frame_of(pose) or attached, attached))
+
+
+_DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {
+    "frame": draft_frame,
+    "joint": draft_joint,
+    "link": draft_link,
+}
+
+
+def _canonical(draft: Draft) -> str:
+    named = draft.node.attributes.get("canonical_link", "")
+    if named:
+        return named
+    first = draft.node.find("link")
+    if first is not None:
+        return first.attributes.get("name", "")
+    for inner in draft.nested:
+        if inner.scope.canonical:
+            return f"{inner.name}::{inner.scope.canonical}"
+    return ""

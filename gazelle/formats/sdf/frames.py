@@ -1,0 +1,183 @@
+"""Frames: what ``relative_to`` and ``attached_to`` mean, resolved to plain poses.
+
+The rules are those of SDFormat's specification "Pose frame semantics" (sdformat.org).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description import Parameters, Pose
+from gazelle.errors import did_you_mean
+from gazelle.formats import values
+
+MODEL = "__model__"
+WORLD = "world"
+ROOT = "__root__"
+
+_IDENTITY = Pose()
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One named frame of a scope.
+
+    Attributes:
+        node: The element, for errors.
+        pose: As written.
+        relative_to: The frame that the pose is written in.
+        attached_to: The frame it moves with; empty for links and models, which move by
+            themselves.
+        scope: The frames inside, of a nested model.
+    """
+
+    node: Parameters
+    pose: Pose
+    relative_to: str = ""
+    attached_to: str = ""
+    scope: Scope | None = None
+
+
+@dataclass(slots=True)
+class Scope:
+    """All frames of one model or world, by name.
+
+    Attributes:
+        owner: Word for the scope's own frame: ``__model__`` or ``world``.
+        canonical: The link that stands for the scope, scoped by ``::``.
+        entries: Links, joints, frames and nested models.
+    """
+
+    owner: str
+    canonical: str = ""
+    entries: dict[str, Entry] = field(default_factory=dict)
+    _resolved: dict[str, Pose] = field(default_factory=dict)
+    _open: list[str] = field(default_factory=list)
+
+    def add(self, name: str, entry: Entry) -> None:
+        """Add a frame; a link, joint and frame may share a name, which means the first.
+
+        Raises:
+            FormatError: Another of the same kind has the name.
+        """
+        taken = self.entries.get(name)
+        if taken is None:
+            self.entries[name] = entry
+            return
+        other = taken.node
+        if other.tag == entry.node.tag or _is_model(other) == _is_model(entry.node) is True:
+            line = other.source.line if other.source else None
+            raise values.fail(
+                entry.node,
+                f"the name '{name}' is already taken by the <{other.tag}> in line {line}",
+            )
+
+    def pose(self, name: str, node: Parameters) -> Pose:
+        """The pose of a frame in the frame of this scope.
+
+        Raises:
+            FormatError: There is no such frame, or its poses lead in a circle.
+        """
+        if name in {"", self.owner, ROOT}:
+            return _IDENTITY
+        known = self._resolved.get(name)
+        if known is not None:
+            return known
+        pose = self._resolved[name] = self._resolve(name, node)
+        return pose
+
+    def _resolve(self, name: str, node: Parameters) -> Pose:
+        entry = self.entries.get(name)
+        if entry is None:
+            return self._resolve_inner(name, node)
+        if name in self._open:
+            circle = " -> ".join([*self._open[self._open.index(name) :], name])
+            raise values.fail(entry.node, f"the poses lead in a circle: {circle}")
+        self._open.append(name)
+        try:
+            base = self.pose(entry.relative_to, entry.node)
+        finally:
+            self._open.pop()
+        return entry.pose if base is _IDENTITY else base * entry.pose
+
+    def _resolve_inner(self, name: str, node: Parameters) -> Pose:
+        """A name scoped by ``::`` leads into a nested model, whose own names may hold ``::``."""
+        parts = name.split("::")
+        for count in range(len(parts) - 1, 0, -1):
+            outer = self.entries.get("::".join(parts[:count]))
+            if outer is not None and outer.scope is not None:
+                inner = outer.scope.pose("::".join(parts[count:]), node)
+                return self.pose("::".join(parts[:count]), node) * inner
+        raise values.fail(
+            node,
+            f"there is no frame '{name}' here",
+            hint=did_you_mean(name, self.entries),
+        )
+
+    def has(self, name: str) -> bool:
+        """Whether the name leads to a frame of this scope or of a nested model."""
+        if name in self.entries:
+            return True
+        head, _, rest = name.partition("::")
+        outer = self.entries.get(head)
+        if outer is not None and outer.scope is not None and rest:
+            return rest == MODEL or outer.scope.has(rest)
+        return False
+
+    def link_of(self, name: str, node: Parameters) -> str:
+        """The link (or nested model's link) that a frame moves with; empty for the scope.
+
+        Raises:
+            FormatError: There is no such frame, or the frames are attached in a circle.
+        """
+        seen: list[str] = []
+        while name not in {"", self.owner, ROOT}:
+            if name in seen:
+                circle = " -> ".join([*seen[seen.index(name) :], name])
+                raise values.fail(node, f"the frames are attached in a circle: {circle}")
+            seen.append(name)
+            entry = self.entries.get(name)
+            if entry is None:
+                self.pose(name, node)
+                return self._inner_link(name, node)
+            if entry.node.tag not in {"frame", "joint"}:
+                return name
+            name = entry.attached_to
+        return ""
+
+    def body_of(self, name: str, node: Parameters) -> str:
+        """Like ``link_of``, but a model is stood for by its canonical link.
+
+        Raises:
+            FormatError: As ``link_of``; or the model has no link.
+        """
+        link = self.link_of(name, node)
+        scope = self.scope_of(link)
+        if scope is None:
+            return link
+        if not scope.canonical:
+            raise values.fail(node, f"the model '{name}' has no link")
+        return f"{link}::{scope.canonical}" if link else scope.canonical
+
+    def scope_of(self, name: str) -> Scope | None:
+        """The scope that a name leads to, if it is that of a model; itself for no name."""
+        if not name:
+            return self
+        entry = self.entries.get(name)
+        if entry is not None:
+            return entry.scope
+        head, _, rest = name.partition("::")
+        outer = self.entries.get(head)
+        return None if outer is None or outer.scope is None else outer.scope.scope_of(rest)
+
+    def _inner_link(self, name: str, node: Parameters) -> str:
+        head, _, rest = name.partition("::")
+        outer = self.entries.get(head)
+        if outer is None or outer.scope is None or not rest:
+            return name
+        inner = outer.scope.link_of(rest, node)
+        return f"{head}::{inner}" if inner else head
+
+
+def _is_model(node: Parameters) -> bool:
+    return node.tag in {"model", "include"}

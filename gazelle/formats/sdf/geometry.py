@@ -1,0 +1,158 @@
+"""``<geometry>``: one reader a shape, in the table ``SHAPES``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Image,
+    Mesh,
+    Parameters,
+    Plane,
+    Polyline,
+    Sphere,
+)
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+
+
+def read_geometry(node: Parameters | None, reading: Reading) -> Geometry:
+    """The first shape in a ``<geometry>``; Empty when there is none."""
+    if node is not None:
+        for child in node.children:
+            reader = SHAPES.get(child.tag)
+            if reader is not None:
+                return reader(child, reading)
+    return Empty()
+
+
+def _size(node: Parameters, path: str, default: float) -> float:
+    return values.positive(node, values.real(node, path, default), f"<{path}>")
+
+
+def read_box(node: Parameters, _: Reading) -> Box:
+    """``<box><size>``."""
+    x, y, z = values.vector(node, "size", (1.0, 1.0, 1.0))
+    if not (min(x, y, z) > 0.0 and math.isfinite(x + y + z)):
+        raise values.fail(node, f"the size of a box must be greater than zero, found {x} {y} {z}")
+    return Box((x, y, z))
+
+
+def read_sphere(node: Parameters, _: Reading) -> Sphere:
+    """``<sphere><radius>``."""
+    return Sphere(_size(node, "radius", 1.0))
+
+
+def read_cylinder(node: Parameters, _: Reading) -> Cylinder:
+    """``<cylinder><radius><length>``."""
+    return Cylinder(_size(node, "radius", 1.0), _size(node, "length", 1.0))
+
+
+def read_capsule(node: Parameters, _: Reading) -> Capsule:
+    """``<capsule><radius><length>``."""
+    return Capsule(_size(node, "radius", 0.5), _size(node, "length", 1.0))
+
+
+def read_cone(node: Parameters, _: Reading) -> Cone:
+    """``<cone><radius><length>``."""
+    return Cone(_size(node, "radius", 1.0), _size(node, "length", 1.0))
+
+
+def read_ellipsoid(node: Parameters, _: Reading) -> Ellipsoid:
+    """``<ellipsoid><radii>``."""
+    x, y, z = values.vector(node, "radii", (1.0, 1.0, 1.0))
+    if not (min(x, y, z) > 0.0 and math.isfinite(x + y + z)):
+        raise values.fail(node, f"the radii must be greater than zero, found {x} {y} {z}")
+    return Ellipsoid((x, y, z))
+
+
+def read_plane(node: Parameters, _: Reading) -> Plane:
+    """``<plane><normal><size>``."""
+    normal = values.vector(node, "normal", (0.0, 0.0, 1.0))
+    size = node.find("size")
+    width, depth = (1.0, 1.0)
+    if size is not None and size.text:
+        width, depth = values.parse_reals(size, size.text, "<size>", 2)
+    return Plane(values.unit(node.find("normal") or node, normal), (width, depth))
+
+
+def read_mesh(node: Parameters, reading: Reading) -> Mesh:
+    """``<mesh><uri><scale><submesh>``; old files have ``<filename>`` for the URI."""
+    uri = values.word(node, "uri") or values.word(node, "filename")
+    if not uri:
+        raise values.fail(node, "a <mesh> needs a <uri>")
+    place = node.find("uri") or node.find("filename") or node
+    return Mesh(
+        uri=uri,
+        path=reading.find(uri, place),
+        scale=values.vector(node, "scale", (1.0, 1.0, 1.0)),
+        submesh=values.word(node, "submesh/name") or None,
+        center_submesh=values.flag(node, "submesh/center", default=False),
+        source=place.source,
+    )
+
+
+def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
+    """``<heightmap><uri><size><pos><sampling>``."""
+    uri = values.word(node, "uri")
+    return Heightmap(
+        uri=uri,
+        path=reading.find(uri, node.find("uri") or node),
+        size=values.vector(node, "size", (1.0, 1.0, 1.0)),
+        position=values.vector(node, "pos", (0.0, 0.0, 0.0)),
+        sampling=values.whole(node, "sampling", 1),
+        source=node.source,
+    )
+
+
+def read_image(node: Parameters, reading: Reading) -> Image:
+    """``<image><uri><scale><threshold><height><granularity>``."""
+    uri = values.word(node, "uri")
+    return Image(
+        uri=uri,
+        path=reading.find(uri, node.find("uri") or node),
+        scale=values.real(node, "scale", 1.0),
+        threshold=values.whole(node, "threshold", 200),
+        height=values.real(node, "height", 1.0),
+        granularity=values.whole(node, "granularity", 1),
+        source=node.source,
+    )
+
+
+def read_polyline(node: Parameters, _: Reading) -> Polyline:
+    """``<polyline><point>...<height>``."""
+    points = []
+    for child in node.find_all("point"):
+        x, y = values.parse_reals(child, child.text, "<point>", 2)
+        points.append((x, y))
+    return Polyline((tuple(points),), values.real(node, "height", 1.0))
+
+
+def read_empty(_: Parameters, __: Reading) -> Empty:
+    """``<empty>``."""
+    return Empty()
+
+
+SHAPES: dict[str, Callable[[Parameters, Reading], Geometry]] = {
+    "box": read_box,
+    "capsule": read_capsule,
+    "cone": read_cone,
+    "cylinder": read_cylinder,
+    "ellipsoid": read_ellipsoid,
+    "empty": read_empty,
+    "heightmap": read_heightmap,
+    "image": read_image,
+    "mesh": read_mesh,
+    "plane": read_plane,
+    "polyline": read_polyline,
+    "sphere": read_sphere,
+}

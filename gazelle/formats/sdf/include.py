@@ -1,0 +1,123 @@
+"""``<include>``: a model, light or actor from another file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.description import Model, Parameters
+from gazelle.formats import urdf, values, xml
+from gazelle.formats.model_config import entry_file
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf import schema
+from gazelle.formats.sdf.draft import Draft, Version, draft_model
+from gazelle.formats.sdf.frames import Entry, Scope
+from gazelle.formats.sdf.pose import frame_of, read_pose
+
+KINDS = ("model", "light", "actor")
+
+
+@dataclass(frozen=True, slots=True)
+class Included:
+    """What an include brings: the element, and the file and version it comes from."""
+
+    node: Parameters
+    file: Path
+    version: Version
+    model: Model | None = None
+
+
+def open_include(node: Parameters, reading: Reading) -> Included | None:
+    """The element that an include names; None when its file is not found.
+
+    Raises:
+        FormatError: It names no file, or a file that holds nothing to include.
+    """
+    uri = values.word(node, "uri")
+    if not uri:
+        raise values.fail(node, "an <include> needs a <uri>")
+    found = reading.find(uri, node.find("uri") or node)
+    if found is None:
+        return None
+    file = entry_file(found)
+    with reading.inside(file, node):
+        root = xml.read_file(file)
+        if root.tag == "robot":
+            model = urdf.read_robot(root, reading)
+            return Included(root, file, (1, 11), model)
+        if root.tag not in {"sdf", "gazebo"}:
+            raise values.fail(root, f"expected <sdf> or <robot>, found <{root.tag}>")
+        schema.check(root, "root", reading)
+        for child in root.children:
+            if child.tag in KINDS:
+                return Included(child, file, version_of(root, reading))
+    raise values.fail(root, "there is no model, light or actor to include")
+
+
+def include_model(node: Parameters, version: Version, reading: Reading) -> Draft | None:
+    """The draft of an included model; None when it is not found."""
+    _ = version  # the included file has its own
+    included = open_include(node, reading)
+    if included is None:
+        return None
+    if included.node.tag not in {"model", "robot"}:
+        raise values.fail(node, f"a model cannot include a <{included.node.tag}>")
+    return draft_included(node, included, reading)
+
+
+def draft_included(node: Parameters, included: Included, reading: Reading) -> Draft:
+    """The draft of a model, with the name, pose and so on that the include gives it."""
+    with reading.inside(included.file, node):
+        if included.model is None:
+            draft = draft_model(included.node, included.version, reading, include_model)
+        else:
+            draft = draft_read(included.node, included.model)
+    draft.file = included.file
+    draft.name = values.word(node, "name", draft.name)
+    # a model's own <pose> holds only in its file's own world: the include's replaces it
+    pose = node.find("pose")
+    if pose is not None:
+        draft.pose, draft.relative_to = read_pose(pose), frame_of(pose)
+        draft.placement_frame = ""
+    draft.placement_frame = values.word(node, "placement_frame", draft.placement_frame)
+    if node.find("static") is not None:
+        draft.static = values.flag(node, "static", default=False)
+    draft.plugins = list(node.find_all("plugin"))
+    return draft
+
+
+def draft_read(node: Parameters, model: Model) -> Draft:
+    """The draft of a model that is already read: its frames under their names."""
+    draft = Draft(node, (1, 11), model.name, model.pose, model=model)
+    _name_frames(draft.scope, node, model)
+    draft.scope.canonical = model.canonical_link or (model.links[0].name if model.links else "")
+    return draft
+
+
+def _name_frames(scope: Scope, node: Parameters, model: Model) -> None:
+    for link in model.links:
+        place = Parameters("link", source=link.source)
+        scope.add(link.name, Entry(place, link.pose))
+    for frame in model.frames:
+        place = Parameters("frame", source=frame.source)
+        entry = Entry(place, frame.pose, frame.attached_to, frame.attached_to)
+        scope.add(frame.name, entry)
+    for joint in model.joints:
+        place = Parameters("joint", source=joint.source)
+        scope.add(joint.name, Entry(place, joint.pose, joint.child, joint.child))
+
+
+def version_of(root: Parameters, reading: Reading) -> Version:
+    """The version of an ``<sdf>`` element.
+
+    Raises:
+        FormatError: It is not of the form 1.6.
+    """
+    text = values.attribute(root, "version")
+    parts = text.split(".")
+    if len(parts) < 2 or not all(part.isdigit() for part in parts[:2]):
+        raise values.fail(root, f"expected a version such as 1.6, found '{text}'")
+    version = (int(parts[0]), int(parts[1]))
+    if version > (1, 12):
+        reading.note(f"SDF {text} is newer than 1.12 and was read as that", root)
+    return version

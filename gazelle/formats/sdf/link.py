@@ -1,0 +1,119 @@
+"""``<link>`` with its collisions and visuals."""
+
+from __future__ import annotations
+
+from gazelle.description import Collision, Inertial, Link, Parameters, Pose, Visual
+from gazelle.errors import FormatError
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.frames import Scope
+from gazelle.formats.sdf.geometry import read_geometry
+from gazelle.formats.sdf.inertial import read_inertial
+from gazelle.formats.sdf.light import read_light
+from gazelle.formats.sdf.material import read_material
+from gazelle.formats.sdf.pose import frame_of, read_pose
+from gazelle.formats.sdf.sensor import Placer, read_sensor
+from gazelle.formats.sdf.surface import read_surface
+
+_EXTRAS = ("audio_sink", "audio_source", "battery", "particle_emitter", "projector")
+
+
+def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool = False) -> Link:
+    """A link, its pose and those of its parts resolved.
+
+    In a static model an inertia that cannot be is noted and left out: it does not matter.
+    """
+    name = values.attribute(node, "name")
+    place = placer(name, scope)
+    self_collide = node.find("self_collide")
+    return Link(
+        name=name,
+        pose=scope.pose(name, node),
+        inertial=_inertial(node.find("inertial"), reading, static=static),
+        collisions=tuple(
+            read_collision(child, place, reading) for child in _named(node, "collision")
+        ),
+        visuals=tuple(read_visual(child, place, reading) for child in _named(node, "visual")),
+        sensors=tuple(read_sensor(child, place) for child in _named(node, "sensor")),
+        lights=tuple(read_light(child, place(child)) for child in _named(node, "light")),
+        gravity=values.flag(node, "gravity", default=True),
+        enable_wind=values.flag(node, "enable_wind", default=False),
+        self_collide=None
+        if self_collide is None or not self_collide.text
+        else values.flag(node, "self_collide", default=False),
+        kinematic=values.flag(node, "kinematic", default=False),
+        velocity_decay_linear=values.real(node, "velocity_decay/linear", 0.0),
+        velocity_decay_angular=values.real(node, "velocity_decay/angular", 0.0),
+        extras=tuple(child for child in node.children if child.tag in _EXTRAS),
+        source=node.source,
+    )
+
+
+def _inertial(node: Parameters | None, reading: Reading, *, static: bool) -> Inertial | None:
+    try:
+        return read_inertial(node)
+    except FormatError as error:
+        if not static or node is None:
+            raise
+        reading.note(f"{error.message}; the model is static, so it was ignored", node)
+        return None
+
+
+def placer(link: str, scope: Scope) -> Placer:
+    """A function that gives the pose of a link's part in the link's frame."""
+
+    def place(part: Parameters) -> Pose:
+        node = part.find("pose")
+        frame = frame_of(node)
+        pose = read_pose(node)
+        if node is None or frame in {"", link}:
+            return pose
+        return scope.pose(link, part).inverse() * scope.pose(frame, node) * pose
+
+    return place
+
+
+def _named(node: Parameters, tag: str) -> list[Parameters]:
+    """The children with a tag, whose names must differ.
+
+    Raises:
+        FormatError: Two have the same name.
+    """
+    children = list(node.find_all(tag))
+    seen: dict[str, Parameters] = {}
+    for child in children:
+        name = child.attributes.get("name", "")
+        if name in seen:
+            raise values.fail(
+                child, f"there is already a <{tag}> named '{name}' in this <{node.tag}>"
+            )
+        seen[name] = child
+    return children
+
+
+def read_collision(node: Parameters, place: Placer, reading: Reading) -> Collision:
+    """``<collision>``."""
+    return Collision(
+        name=values.attribute(node, "name"),
+        geometry=read_geometry(node.find("geometry"), reading),
+        pose=place(node),
+        surface=read_surface(node.find("surface")),
+        laser_retro=values.real(node, "laser_retro", 0.0),
+        max_contacts=values.whole(node, "max_contacts", 10),
+        source=node.source,
+    )
+
+
+def read_visual(node: Parameters, place: Placer, reading: Reading) -> Visual:
+    """``<visual>``."""
+    return Visual(
+        name=values.attribute(node, "name"),
+        geometry=read_geometry(node.find("geometry"), reading),
+        pose=place(node),
+        material=read_material(node.find("material"), reading),
+        transparency=values.real(node, "transparency", 0.0),
+        cast_shadows=values.flag(node, "cast_shadows", default=True),
+        laser_retro=values.real(node, "laser_retro", 0.0),
+        visibility_flags=values.whole(node, "visibility_flags", 0xFFFFFFFF),
+        source=node.source,
+    )

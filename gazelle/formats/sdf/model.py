@@ -1,0 +1,66 @@
+"""``<model>`` from its draft."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext
+from dataclasses import replace
+
+from gazelle.description import Frame, Model, Parameters
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.draft import Draft
+from gazelle.formats.sdf.frames import Scope
+from gazelle.formats.sdf.joint import read_joint
+from gazelle.formats.sdf.link import read_link
+from gazelle.formats.sdf.plugin import read_plugin, read_plugins
+
+_EXTRAS = ("gripper",)
+
+
+def read_model(draft: Draft, outer: Scope, reading: Reading) -> Model:
+    """The model, posed in the scope around it."""
+    pose = draft.placed
+    if draft.relative_to:
+        pose = outer.pose(draft.relative_to, draft.node) * pose
+    with nullcontext() if draft.file is None else reading.inside(draft.file, draft.node):
+        model = _content(draft, reading) if draft.model is None else draft.model
+    return replace(
+        model,
+        name=draft.name,
+        pose=pose,
+        static=model.static if draft.static is None else draft.static,
+        placement_frame=draft.placement_frame,
+        plugins=(*model.plugins, *map(read_plugin, draft.plugins)),
+    )
+
+
+def _content(draft: Draft, reading: Reading) -> Model:
+    node, scope = draft.node, draft.scope
+    static = values.flag(node, "static", default=False) or draft.static is True
+    return Model(
+        name=draft.name,
+        static=static,
+        self_collide=values.flag(node, "self_collide", default=False),
+        allow_auto_disable=values.flag(node, "allow_auto_disable", default=True),
+        enable_wind=values.flag(node, "enable_wind", default=False),
+        canonical_link=node.attributes.get("canonical_link", ""),
+        links=tuple(
+            read_link(child, scope, reading, static=static) for child in node.find_all("link")
+        ),
+        joints=tuple(read_joint(child, scope, draft.version) for child in node.find_all("joint")),
+        models=tuple(read_model(inner, scope, reading) for inner in draft.nested),
+        frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
+        plugins=read_plugins(node),
+        extras=tuple(child for child in node.children if child.tag in _EXTRAS),
+        source=node.source,
+    )
+
+
+def read_frame(node: Parameters, scope: Scope) -> Frame:
+    """An explicit frame, posed in the link that it moves with."""
+    name = values.attribute(node, "name")
+    link = scope.link_of(name, node)
+    pose = scope.pose(name, node)
+    if link:
+        pose = scope.pose(link, node).inverse() * pose
+    return Frame(name=name, attached_to=link, pose=pose, source=node.source)

@@ -1,0 +1,48 @@
+"""``<physics>`` of a world."""
+
+from __future__ import annotations
+
+from gazelle.description import Ode, Parameters, Physics
+from gazelle.formats import values
+
+
+def read_physics(node: Parameters) -> Physics:
+    """One physics profile; defaults are SDF 1.7's.
+
+    Raises:
+        FormatError: The step is not positive.
+    """
+    step = values.real(node, "max_step_size", 0.001)
+    values.positive(node.find("max_step_size") or node, step, "<max_step_size>")
+    default = node.attributes.get("default", "")
+    return Physics(
+        name=node.attributes.get("name", "") or "default_physics",
+        default=bool(default) and values.parse_flag(node, default, "attribute 'default'"),
+        type=node.attributes.get("type", "ode"),
+        max_step_size=step,
+        real_time_factor=values.real(node, "real_time_factor", 1.0),
+        real_time_update_rate=values.real(node, "real_time_update_rate", 1000.0),
+        max_contacts=values.whole(node, "max_contacts", 20),
+        ode=read_ode(node.find("ode")),
+        source=node.source,
+    )
+
+
+def read_ode(node: Parameters | None) -> Ode:
+    """``<ode>``."""
+    if node is None:
+        return Ode()
+    return Ode(
+        solver=values.word(node, "solver/type", "quick"),
+        min_step_size=values.real(node, "solver/min_step_size", 0.0001),
+        iters=values.whole(node, "solver/iters", 50),
+        precon_iters=values.whole(node, "solver/precon_iters", 0),
+        sor=values.real(node, "solver/sor", 1.3),
+        friction_model=values.word(node, "solver/friction_model", "pyramid_model"),
+        cfm=values.real(node, "constraints/cfm", 0.0),
+        erp=values.real(node, "constraints/erp", 0.2),
+        contact_max_correcting_vel=values.real(
+            node, "constraints/contact_max_correcting_vel", 100.0
+        ),
+        contact_surface_layer=values.real(node, "constraints/contact_surface_layer", 0.001),
+    )

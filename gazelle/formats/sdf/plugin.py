@@ -1,0 +1,21 @@
+"""``<plugin>``, kept whole."""
+
+from __future__ import annotations
+
+from gazelle.description import Parameters, Plugin
+
+
+def read_plugin(node: Parameters) -> Plugin:
+    """A plugin with its parameters; one without a name is called after its file."""
+    filename = node.attributes.get("filename", "")
+    return Plugin(
+        name=node.attributes.get("name", "") or filename,
+        filename=filename,
+        parameters=node,
+        source=node.source,
+    )
+
+
+def read_plugins(node: Parameters) -> tuple[Plugin, ...]:
+    """All plugins directly in an element, in file order."""
+    return tuple(map(read_plugin, node.find_all("plugin")))

@@ -1,0 +1,41 @@
+"""``<pose>`` elements: six numbers, or a quaternion, in radians or degrees."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.description import Parameters, Pose
+from gazelle.formats import values
+
+_IDENTITY = Pose()
+
+
+def read_pose(node: Parameters | None) -> Pose:
+    """The pose as written, relative to whatever frame it names.
+
+    Raises:
+        FormatError: It does not hold the numbers that its ``rotation_format`` asks for.
+    """
+    if node is None or not node.text:
+        return _IDENTITY
+    if node.attributes.get("rotation_format", "euler_rpy") == "quat_xyzw":
+        n = values.parse_reals(node, node.text, "<pose>", 7)
+        return Pose.from_quaternion(n[:3], n[3:])
+    x, y, z, roll, pitch, yaw = _finite(node, values.parse_reals(node, node.text, "<pose>", 6))
+    degrees = node.attributes.get("degrees", "")
+    if degrees and values.parse_flag(node, degrees, "attribute 'degrees'"):
+        roll, pitch, yaw = math.radians(roll), math.radians(pitch), math.radians(yaw)
+    return Pose(x, y, z, roll, pitch, yaw)
+
+
+def _finite(node: Parameters, numbers: tuple[float, ...]) -> tuple[float, ...]:
+    if not all(map(math.isfinite, numbers)):
+        raise values.fail(node, f"a pose must be finite, found '{node.text}'")
+    return numbers
+
+
+def frame_of(node: Parameters | None) -> str:
+    """The frame that a pose is written in, or nothing for the usual one."""
+    if node is None:
+        return ""
+    return node.attributes.get("relative_to", "") or node.attributes.get("frame", "")

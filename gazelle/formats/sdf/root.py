@@ -1,0 +1,45 @@
+"""The root element of an SDF file: a world, or models and lights by themselves."""
+
+from __future__ import annotations
+
+from gazelle.description import Model, Parameters, World
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf import schema
+from gazelle.formats.sdf.draft import Version, draft_model
+from gazelle.formats.sdf.frames import WORLD, Scope
+from gazelle.formats.sdf.include import include_model, version_of
+from gazelle.formats.sdf.light import read_light
+from gazelle.formats.sdf.model import read_model
+from gazelle.formats.sdf.pose import read_pose
+from gazelle.formats.sdf.world import read_world
+
+
+def read_sdf(root: Parameters, reading: Reading) -> World:
+    """The first world of a file; one that holds just the models where there is none.
+
+    Raises:
+        FormatError: The file says something that cannot be.
+    """
+    version = version_of(root, reading)
+    schema.check(root, "root", reading)
+    worlds = list(root.find_all("world"))
+    if len(worlds) > 1:
+        reading.note(f"the file has {len(worlds)} worlds: only the first is used", worlds[1])
+    if worlds:
+        return read_world(worlds[0], version, reading)
+    return World(
+        models=tuple(_model(node, version, reading) for node in root.find_all("model")),
+        lights=tuple(
+            read_light(node, read_pose(node.find("pose"))) for node in root.find_all("light")
+        ),
+        actors=tuple(root.find_all("actor")),
+        source=root.source,
+    )
+
+
+def _model(node: Parameters, version: Version, reading: Reading) -> Model:
+    draft = draft_model(node, version, reading, include_model)
+    if draft.relative_to:
+        raise values.fail(node, f"there is no frame '{draft.relative_to}' outside of the model")
+    return read_model(draft, Scope(WORLD), reading)

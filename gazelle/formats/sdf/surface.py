@@ -1,0 +1,80 @@
+"""``<surface>``: friction, contact and bounce."""
+
+from __future__ import annotations
+
+from gazelle.description import (
+    Bounce,
+    Contact,
+    Friction,
+    Parameters,
+    Surface,
+    TorsionalFriction,
+)
+from gazelle.formats import values
+
+
+def read_surface(node: Parameters | None) -> Surface:
+    """All contact properties of a collision; SDF's defaults where the file says nothing."""
+    if node is None:
+        return Surface()
+    return Surface(
+        friction=read_friction(node.find("friction")),
+        contact=read_contact(node.find("contact")),
+        bounce=read_bounce(node.find("bounce")),
+    )
+
+
+def read_friction(node: Parameters | None) -> Friction:
+    """``<friction>``, of which ODE's terms and the torsional ones are kept."""
+    if node is None:
+        return Friction()
+    return Friction(
+        mu=values.real(node, "ode/mu", values.real(node, "bullet/friction", 1.0)),
+        mu2=values.real(node, "ode/mu2", values.real(node, "bullet/friction2", 1.0)),
+        fdir1=values.vector(node, "ode/fdir1", (0.0, 0.0, 0.0)),
+        slip1=values.real(node, "ode/slip1", 0.0),
+        slip2=values.real(node, "ode/slip2", 0.0),
+        torsional=read_torsional(node.find("torsional")),
+    )
+
+
+def read_torsional(node: Parameters | None) -> TorsionalFriction | None:
+    """``<torsional>``."""
+    if node is None:
+        return None
+    return TorsionalFriction(
+        coefficient=values.real(node, "coefficient", 1.0),
+        use_patch_radius=values.flag(node, "use_patch_radius", default=True),
+        patch_radius=values.real(node, "patch_radius", 0.0),
+        surface_radius=values.real(node, "surface_radius", 0.0),
+        slip=values.real(node, "ode/slip", 0.0),
+    )
+
+
+def read_contact(node: Parameters | None) -> Contact:
+    """``<contact>``: masks and ODE's terms (Bullet's where ODE's are missing)."""
+    if node is None:
+        return Contact()
+    own = next((tag for tag in ("ode", "bullet") if tag in node), "ode")
+    return Contact(
+        kp=values.real(node, f"{own}/kp", 1e12),
+        kd=values.real(node, f"{own}/kd", 1.0),
+        soft_cfm=values.real(node, f"{own}/soft_cfm", 0.0),
+        soft_erp=values.real(node, f"{own}/soft_erp", 0.2),
+        max_vel=values.real(node, "ode/max_vel", 0.01),
+        min_depth=values.real(node, "ode/min_depth", 0.0),
+        collide_bitmask=values.whole(node, "collide_bitmask", 0xFFFF),
+        category_bitmask=values.whole(node, "category_bitmask", 0xFFFF),
+        collide_without_contact=values.flag(node, "collide_without_contact", default=False),
+        collide_without_contact_bitmask=values.whole(node, "collide_without_contact_bitmask", 1),
+    )
+
+
+def read_bounce(node: Parameters | None) -> Bounce:
+    """``<bounce>``."""
+    if node is None:
+        return Bounce()
+    return Bounce(
+        restitution_coefficient=values.real(node, "restitution_coefficient", 0.0),
+        threshold=values.real(node, "threshold", 100000.0),
+    )

@@ -1,0 +1,160 @@
+"""``<world>``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description import (
+    Atmosphere,
+    Light,
+    Parameters,
+    Pose,
+    Scene,
+    SphericalCoordinates,
+    Vector3,
+    World,
+)
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf import state
+from gazelle.formats.sdf.draft import Draft, Version, add_model, draft_frame, draft_model
+from gazelle.formats.sdf.frames import WORLD, Scope
+from gazelle.formats.sdf.include import Included, draft_included, include_model, open_include
+from gazelle.formats.sdf.joint import read_joint
+from gazelle.formats.sdf.light import read_light
+from gazelle.formats.sdf.model import read_frame, read_model
+from gazelle.formats.sdf.physics import read_physics
+from gazelle.formats.sdf.plugin import read_plugins
+from gazelle.formats.sdf.pose import frame_of, read_pose
+
+_EXTRAS = ("audio", "gui", "population", "road")
+_GRAVITY = (0.0, 0.0, -9.8)
+_MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+
+
+@dataclass(slots=True)
+class _Contents:
+    """Models, lights and actors of a world, those of includes too, in file order."""
+
+    scope: Scope = field(default_factory=lambda: Scope(WORLD))
+    drafts: list[Draft] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
+    actors: list[Parameters] = field(default_factory=list)
+
+
+def read_world(node: Parameters, version: Version, reading: Reading) -> World:
+    """A world with everything in it; the first ``<state>`` is applied."""
+    contents = _collect(node, version, reading)
+    scope = contents.scope
+    world = World(
+        name=values.attribute(node, "name"),
+        models=tuple(read_model(draft, scope, reading) for draft in contents.drafts),
+        physics=tuple(map(read_physics, node.find_all("physics"))),
+        gravity=_since_1_6(node, "gravity", _GRAVITY),
+        magnetic_field=_since_1_6(node, "magnetic_field", _MAGNETIC),
+        wind=values.vector(node, "wind/linear_velocity", (0.0, 0.0, 0.0)),
+        atmosphere=read_atmosphere(node.find("atmosphere")),
+        spherical_coordinates=read_spherical(node.find("spherical_coordinates")),
+        scene=read_scene(node.find("scene")),
+        lights=tuple(contents.lights),
+        frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
+        joints=tuple(read_joint(child, scope, version) for child in node.find_all("joint")),
+        plugins=read_plugins(node),
+        camera=_camera(node),
+        actors=tuple(contents.actors),
+        states=tuple(node.find_all("state")),
+        extras=tuple(child for child in node.children if child.tag in _EXTRAS),
+        source=node.source,
+    )
+    return state.apply(world, reading)
+
+
+def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
+    contents = _Contents()
+    for child in node.find_all("frame"):
+        draft_frame(child, contents.scope)
+    for child in node.children:
+        if child.tag == "model":
+            _keep(contents, draft_model(child, version, reading, include_model))
+        elif child.tag == "include":
+            included = open_include(child, reading)
+            if included is not None:
+                _keep_included(contents, child, included, reading)
+        elif child.tag == "light":
+            contents.lights.append(_light(child, contents.scope))
+        elif child.tag == "actor":
+            contents.actors.append(child)
+    return contents
+
+
+def _keep(contents: _Contents, draft: Draft) -> None:
+    contents.drafts.append(draft)
+    add_model(contents.scope, draft)
+
+
+def _keep_included(
+    contents: _Contents, node: Parameters, included: Included, reading: Reading
+) -> None:
+    inner = included.node
+    if inner.tag == "light":
+        place = node.find("pose") or inner.find("pose")
+        contents.lights.append(read_light(inner, read_pose(place)))
+    elif inner.tag == "actor":
+        contents.actors.append(inner)
+    else:
+        _keep(contents, draft_included(node, included, reading))
+
+
+def _light(node: Parameters, scope: Scope) -> Light:
+    place = node.find("pose")
+    pose = read_pose(place)
+    frame = frame_of(place)
+    return read_light(node, scope.pose(frame, node) * pose if frame else pose)
+
+
+def _since_1_6(node: Parameters, tag: str, default: Vector3) -> Vector3:
+    """A field of the world, that stood in ``<physics>`` up to SDF 1.5."""
+    return values.vector(node, tag, values.vector(node, f"physics/{tag}", default))
+
+
+def _camera(node: Parameters) -> Pose | None:
+    camera = node.find("gui/camera")
+    return None if camera is None else read_pose(camera.find("pose"))
+
+
+def read_scene(node: Parameters | None) -> Scene:
+    """``<scene>``."""
+    if node is None:
+        return Scene()
+    return Scene(
+        ambient=values.color(node, "ambient", (0.4, 0.4, 0.4, 1.0)),
+        background=values.color(node, "background", (0.7, 0.7, 0.7, 1.0)),
+        shadows=values.flag(node, "shadows", default=True),
+        sky=node.find("sky") is not None,
+        grid=values.flag(node, "grid", default=True),
+    )
+
+
+def read_atmosphere(node: Parameters | None) -> Atmosphere:
+    """``<atmosphere>``."""
+    if node is None:
+        return Atmosphere()
+    return Atmosphere(
+        type=node.attributes.get("type", "adiabatic"),
+        temperature=values.real(node, "temperature", 288.15),
+        temperature_gradient=values.real(node, "temperature_gradient", -0.0065),
+        pressure=values.real(node, "pressure", 101325.0),
+    )
+
+
+def read_spherical(node: Parameters | None) -> SphericalCoordinates | None:
+    """``<spherical_coordinates>``."""
+    if node is None:
+        return None
+    return SphericalCoordinates(
+        surface_model=values.word(node, "surface_model", "EARTH_WGS84"),
+        latitude=values.real(node, "latitude_deg", 0.0),
+        longitude=values.real(node, "longitude_deg", 0.0),
+        elevation=values.real(node, "elevation", 0.0),
+        heading=values.real(node, "heading_deg", 0.0),
+    )

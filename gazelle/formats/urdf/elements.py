@@ -1,0 +1,147 @@
+"""Small elements of URDF: origin, inertial, geometry, material."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Color,
+    Cylinder,
+    Geometry,
+    Inertia,
+    Inertial,
+    Mesh,
+    Parameters,
+    Pose,
+    Sphere,
+)
+from gazelle.errors import did_you_mean
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+
+_MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+
+def read_origin(node: Parameters | None) -> Pose:
+    """``<origin xyz rpy>``; also with a quaternion ``quat_xyzw``, as URDF 1.2 allows."""
+    if node is None:
+        return Pose()
+    x, y, z = values.attribute_vector(node, "xyz", (0.0, 0.0, 0.0))
+    quaternion = node.attributes.get("quat_xyzw", "")
+    if quaternion:
+        numbers = values.parse_reals(node, quaternion, "attribute 'quat_xyzw'", 4)
+        pose = Pose.from_quaternion((x, y, z), numbers)
+    else:
+        pose = Pose(x, y, z, *values.attribute_vector(node, "rpy", (0.0, 0.0, 0.0)))
+    if not all(map(math.isfinite, (*pose.position, *pose.quaternion))):
+        raise values.fail(node, "an origin must be finite")
+    return pose
+
+
+def read_inertial(node: Parameters | None) -> Inertial | None:
+    """``<inertial>``; a mass of zero is allowed here and means "no body of its own".
+
+    Raises:
+        FormatError: The mass is missing, negative or not a number.
+    """
+    if node is None:
+        return None
+    mass_node = node.find("mass")
+    if mass_node is None:
+        raise values.fail(node, "an <inertial> needs a <mass>")
+    mass = values.attribute_real(mass_node, "value")
+    if not (mass >= 0.0 and math.isfinite(mass)):
+        raise values.fail(mass_node, f"the mass must not be negative, found {mass:g}")
+    inertia = node.find("inertia")
+    if inertia is None:
+        raise values.fail(node, "an <inertial> needs an <inertia>")
+    moments = (values.attribute_real(inertia, name) for name in _MOMENTS)
+    return Inertial(mass, read_origin(node.find("origin")), Inertia(*moments), node.source)
+
+
+def _size(node: Parameters, name: str) -> float:
+    return values.positive(node, values.attribute_real(node, name), f"the {name}")
+
+
+def read_box(node: Parameters, _: Reading) -> Box:
+    """``<box size>``."""
+    x, y, z = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
+    for length in (x, y, z):
+        values.positive(node, length, "the size of a box")
+    return Box((x, y, z))
+
+
+def read_sphere(node: Parameters, _: Reading) -> Sphere:
+    """``<sphere radius>``."""
+    return Sphere(_size(node, "radius"))
+
+
+def read_cylinder(node: Parameters, _: Reading) -> Cylinder:
+    """``<cylinder radius length>``."""
+    return Cylinder(_size(node, "radius"), _size(node, "length"))
+
+
+def read_capsule(node: Parameters, _: Reading) -> Capsule:
+    """``<capsule radius length>``, of URDF 1.2."""
+    return Capsule(_size(node, "radius"), _size(node, "length"))
+
+
+def read_mesh(node: Parameters, reading: Reading) -> Mesh:
+    """``<mesh filename scale>``."""
+    uri = values.attribute(node, "filename")
+    return Mesh(
+        uri=uri,
+        path=reading.find(uri, node),
+        scale=values.attribute_vector(node, "scale", (1.0, 1.0, 1.0)),
+        source=node.source,
+    )
+
+
+SHAPES: dict[str, Callable[[Parameters, Reading], Geometry]] = {
+    "box": read_box,
+    "capsule": read_capsule,
+    "cylinder": read_cylinder,
+    "mesh": read_mesh,
+    "sphere": read_sphere,
+}
+
+
+def read_geometry(node: Parameters, reading: Reading) -> Geometry:
+    """The shape in the ``<geometry>`` of a collision or visual.
+
+    Raises:
+        FormatError: There is none, or an unknown one.
+    """
+    geometry = node.find("geometry")
+    if geometry is None or not geometry.children:
+        raise values.fail(geometry or node, f"a <{node.tag}> needs a <geometry> with a shape")
+    for child in geometry.children:
+        reader = SHAPES.get(child.tag)
+        if reader is not None:
+            return reader(child, reading)
+    shape = geometry.children[0]
+    raise values.fail(shape, f"unknown shape <{shape.tag}>", hint=did_you_mean(shape.tag, SHAPES))
+
+
+@dataclass(frozen=True, slots=True)
+class Paint:
+    """A URDF material: colour and texture, either of which may be missing."""
+
+    color: Color | None = None
+    texture: Path | None = None
+
+
+def read_paint(node: Parameters, reading: Reading) -> Paint:
+    """``<material><color rgba><texture filename>``."""
+    color = node.find("color")
+    texture = node.find("texture")
+    rgba = None
+    if color is not None and color.attributes.get("rgba"):
+        rgba = values.parse_color(color, color.attributes["rgba"])
+    uri = "" if texture is None else texture.attributes.get("filename", "")
+    return Paint(rgba, reading.find(uri, node, required=False) if uri else None)

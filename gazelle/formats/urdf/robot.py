@@ -1,0 +1,249 @@
+"""``<robot>``: a URDF as the model that libsdformat would make of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gazelle.description import (
+    Frame,
+    Joint,
+    JointAxis,
+    JointPhysics,
+    Link,
+    Model,
+    Parameters,
+)
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.frames import MODEL, Entry, Scope
+from gazelle.formats.sdf.joint import read_joint as read_sdf_joint
+from gazelle.formats.sdf.joint import read_joint_physics
+from gazelle.formats.sdf.plugin import read_plugin
+from gazelle.formats.sdf.pose import read_pose
+from gazelle.formats.sdf.sensor import read_sensor
+from gazelle.formats.urdf.elements import Paint, read_origin, read_paint
+from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, note_unused, read_extensions
+from gazelle.formats.urdf.lump import body_inertial
+from gazelle.formats.urdf.parts import (
+    Robot,
+    read_collisions,
+    read_lights,
+    read_sensors,
+    read_visuals,
+)
+from gazelle.formats.urdf.transmission import read_transmission
+from gazelle.formats.urdf.tree import WORLD, Body, bodies, read_tree
+
+_LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "projector"}
+
+
+def read_robot(root: Parameters, reading: Reading) -> Model:
+    """The model of a ``<robot>``, links joined by fixed joints lumped into one.
+
+    Each lumped link stays as a ``Frame`` of the model, so that its name can be found.
+
+    Raises:
+        FormatError: The robot is not a tree, has no mass, or an element is wrong.
+    """
+    name = values.attribute(root, "name")
+    tree = read_tree(root, reading)
+    extensions = read_extensions(root)
+    note_unused(extensions, set(tree.links), set(tree.joints), reading)
+    robot = Robot(extensions, _paints(root, reading), reading)
+    kept = _with_mass(bodies(tree, extensions), reading)
+    if not kept:
+        raise values.fail(
+            root, "no link has a mass", hint="add an <inertial> to the links that shall move"
+        )
+    model = Model(
+        name=name,
+        pose=read_origin(root.find("origin")),
+        links=tuple(_link(body, robot) for body in kept),
+        joints=tuple(_joint(body, robot) for body in kept if body.joint is not None),
+        frames=tuple(frame for body in kept for frame in _frames(body)),
+        transmissions=tuple(map(read_transmission, root.find_all("transmission"))),
+        source=root.source,
+    )
+    return _with_model_extensions(model, extensions)
+
+
+def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
+    """Materials by name: those of the robot, and those that a visual defines in passing."""
+    paints: dict[str, Paint] = {}
+    for link in root.find_all("link"):
+        for visual in link.find_all("visual"):
+            node = visual.find("material")
+            if node is not None and node.children:
+                paints.setdefault(node.attributes.get("name", ""), read_paint(node, reading))
+    for node in root.find_all("material"):
+        paints[values.attribute(node, "name")] = read_paint(node, reading)
+    return paints
+
+
+def _with_mass(found: list[Body], reading: Reading) -> list[Body]:
+    """Bodies that have a mass and hang on one that has; the rest is noted and left out."""
+    kept: list[Body] = []
+    gone: set[str] = set()
+    for body in found:
+        if body.parent in gone:
+            gone.add(body.name)
+        elif body_inertial(body) is None:
+            gone.add(body.name)
+            below = f", nor are the {len(body.children)} links below it" if body.children else ""
+            reading.note(
+                f"link '{body.name}' has no mass and is not simulated{below}",
+                body.link.node,
+                "give it an <inertial>, or join it by a fixed joint to a link that has one",
+            )
+        else:
+            kept.append(body)
+    return kept
+
+
+def _link(body: Body, robot: Robot) -> Link:
+    names = [member.link.name for member in body.members]
+    extensions = robot.extensions
+    sdf = _sdf_children(names, extensions)
+    gravity = values.flag(sdf, "gravity", default=True)
+    self_collide: bool | None = None
+    if sdf.find("self_collide") is not None:
+        self_collide = values.flag(sdf, "self_collide", default=False)
+    damping = 0.0
+    for name in names:
+        off = extensions.yes(name, "turnGravityOff")
+        gravity = gravity if off is None else not off
+        own = extensions.yes(name, "selfCollide")
+        self_collide = self_collide if own is None else own
+        damping = extensions.real(name, "dampingFactor", damping)
+    return Link(
+        name=body.name,
+        pose=body.pose,
+        inertial=body_inertial(body),
+        collisions=read_collisions(body, robot),
+        visuals=read_visuals(body, robot),
+        sensors=read_sensors(body, robot),
+        lights=read_lights(body, robot),
+        gravity=gravity,
+        enable_wind=values.flag(sdf, "enable_wind", default=False),
+        self_collide=self_collide,
+        kinematic=values.flag(sdf, "kinematic", default=False),
+        velocity_decay_linear=values.real(sdf, "velocity_decay/linear", damping),
+        velocity_decay_angular=values.real(sdf, "velocity_decay/angular", damping),
+        extras=tuple(child for child in sdf.children if child.tag in _LINK_EXTRAS),
+        source=body.link.node.source,
+    )
+
+
+def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:
+    """Children in SDF's words of all links of a body, as those of one ``<link>``."""
+    children = [child for name in names for child in extensions.of(name) if child.tag in LINK_SDF]
+    return Parameters("link", children=tuple(children))
+
+
+def _frames(body: Body) -> list[Frame]:
+    return [
+        Frame(member.link.name, body.name, member.pose, member.link.node.source)
+        for member in body.members[1:]
+    ]
+
+
+def _joint(body: Body, robot: Robot) -> Joint:
+    joint = body.joint
+    if joint is None:
+        raise values.fail(body.link.node, "the root has no joint")
+    extensions = robot.extensions
+    kind = joint.type
+    axes = () if joint.axis is None else (_axis(joint.axis, joint.name, extensions),)
+    if kind == "fixed" and not extensions.yes(joint.name, "preserveFixedJoint"):
+        if extensions.yes(joint.name, "disableFixedJointLumping"):
+            kind, axes = "revolute", (JointAxis(lower=0.0, upper=0.0),)
+    return Joint(
+        name=joint.name,
+        type=kind,
+        parent=body.parent,
+        child=body.name,
+        axes=axes,
+        physics=_physics(joint.name, extensions),
+        safety=joint.safety,
+        sensors=tuple(
+            read_sensor(node, lambda part: read_pose(part.find("pose")))
+            for node in extensions.of(joint.name)
+            if node.tag == "sensor" and joint.name not in {body.name, body.parent}
+        ),
+        source=joint.node.source,
+    )
+
+
+def _axis(axis: JointAxis, joint: str, extensions: Extensions) -> JointAxis:
+    return replace(
+        axis,
+        spring_reference=extensions.real(joint, "springReference", axis.spring_reference),
+        spring_stiffness=extensions.real(joint, "springStiffness", axis.spring_stiffness),
+    )
+
+
+def _physics(joint: str, extensions: Extensions) -> JointPhysics:
+    physics = read_joint_physics(extensions.last(joint, "physics"))
+    feedback = extensions.yes(joint, "provideFeedback")
+    damper = extensions.yes(joint, "implicitSpringDamper", "cfmDamping")
+    fudge = extensions.last(joint, "fudgeFactor")
+    return replace(
+        physics,
+        provide_feedback=physics.provide_feedback if feedback is None else feedback,
+        implicit_spring_damper=physics.implicit_spring_damper if damper is None else damper,
+        fudge_factor=physics.fudge_factor
+        if fudge is None
+        else extensions.real(joint, "fudgeFactor", 0.0),
+        stop_cfm=extensions.real(joint, "stopCfm", physics.stop_cfm),
+        stop_erp=extensions.real(joint, "stopErp", physics.stop_erp),
+    )
+
+
+def _with_model_extensions(model: Model, extensions: Extensions) -> Model:
+    """Plugins, closing joints and flags of ``<gazebo>`` elements without a reference.
+
+    Plugins on a link become the model's, as Gazebo runs them there.
+    """
+    nodes = list(extensions.of(""))
+    sdf = Parameters("model", children=tuple(reversed(nodes)))
+    scope = _scope(model)
+    static = extensions.yes("", "static")
+    plugins = [node for node in nodes if node.tag == "plugin"]
+    for reference in extensions.by_reference:
+        if reference:
+            plugins += [node for node in extensions.of(reference) if node.tag == "plugin"]
+    return replace(
+        model,
+        static=_fixed_whole(model) if static is None else static,
+        self_collide=values.flag(sdf, "self_collide", default=False),
+        allow_auto_disable=values.flag(sdf, "allow_auto_disable", default=True),
+        enable_wind=values.flag(sdf, "enable_wind", default=False),
+        joints=(
+            *model.joints,
+            *(read_sdf_joint(node, scope, (1, 7)) for node in nodes if node.tag == "joint"),
+        ),
+        plugins=tuple(map(read_plugin, plugins)),
+        extras=tuple(node for node in nodes if node.tag == "gripper"),
+    )
+
+
+def _fixed_whole(model: Model) -> bool:
+    """Whether all links are fixed to the world, so that nothing can move."""
+    held = {WORLD}
+    for joint in model.joints:
+        if joint.type == "fixed" and joint.parent in held:
+            held.add(joint.child)
+    return all(link.name in held for link in model.links)
+
+
+def _scope(model: Model) -> Scope:
+    scope = Scope(MODEL, canonical=model.links[0].name)
+    for link in model.links:
+        scope.add(link.name, Entry(Parameters("link", source=link.source), link.pose))
+    for frame in model.frames:
+        node = Parameters("frame", source=frame.source)
+        scope.add(frame.name, Entry(node, frame.pose, frame.attached_to, frame.attached_to))
+    for extra in model.joints:
+        node = Parameters("joint", source=extra.source)
+        scope.add(extra.name, Entry(node, extra.pose, extra.child, extra.child))
+    return scope

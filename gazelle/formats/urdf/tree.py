@@ -1,0 +1,208 @@
+"""Links and joints of a URDF as a tree, and which links are lumped into which.
+
+A fixed joint holds two links together for good, so libsdformat makes them one body unless
+``<preserveFixedJoint>`` or ``<disableFixedJointLumping>`` says otherwise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description import Inertial, Parameters, Pose
+from gazelle.errors import did_you_mean
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.urdf.elements import read_inertial
+from gazelle.formats.urdf.extensions import Extensions
+from gazelle.formats.urdf.joint import UrdfJoint, read_joint
+
+WORLD = "world"
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfLink:
+    """A link as written."""
+
+    name: str
+    inertial: Inertial | None
+    node: Parameters
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A link that is part of a body, and its pose in the frame of that body."""
+
+    link: UrdfLink
+    pose: Pose
+
+
+@dataclass(slots=True)
+class Body:
+    """Links that move as one.
+
+    Attributes:
+        link: The one that gives name and frame.
+        pose: Of that link in the model.
+        joint: That holds it to its parent body; None for the root.
+        parent: Name of the parent body.
+        origin: Of the joint in the parent body.
+        members: The link itself, then those lumped into it.
+        children: Bodies that hang on it.
+    """
+
+    link: UrdfLink
+    pose: Pose
+    joint: UrdfJoint | None = None
+    parent: str = ""
+    origin: Pose = field(default_factory=Pose)
+    members: list[Member] = field(default_factory=list)
+    children: list[Body] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Name of the body."""
+        return self.link.name
+
+
+@dataclass(slots=True)
+class Tree:
+    """Links, joints and the joints below each link, sorted by name as urdfdom does."""
+
+    links: dict[str, UrdfLink]
+    joints: dict[str, UrdfJoint]
+    below: dict[str, list[UrdfJoint]]
+    root: str
+
+
+def read_tree(root: Parameters, reading: Reading) -> Tree:
+    """The links and joints of a ``<robot>``.
+
+    Raises:
+        FormatError: They are not one tree.
+    """
+    links: dict[str, UrdfLink] = {}
+    for node in root.find_all("link"):
+        name = values.attribute(node, "name")
+        _refuse_twice(node, name, links)
+        links[name] = UrdfLink(name, read_inertial(node.find("inertial")), node)
+    if not links:
+        raise values.fail(root, "a <robot> needs a <link>")
+    joints: dict[str, UrdfJoint] = {}
+    for node in root.find_all("joint"):
+        joint = read_joint(node, reading)
+        _refuse_twice(node, joint.name, joints)
+        _refuse_missing(joint, links)
+        joints[joint.name] = joint
+    below = _below(joints)
+    top = _root(root, links, joints)
+    _refuse_loops(top, links, joints, below)
+    return Tree(links, joints, below, top)
+
+
+def _refuse_twice(node: Parameters, name: str, known: object) -> None:
+    if isinstance(known, dict) and name in known:
+        raise values.fail(node, f"there is already a <{node.tag}> named '{name}'")
+
+
+def _refuse_missing(joint: UrdfJoint, links: dict[str, UrdfLink]) -> None:
+    for tag, name in (("parent", joint.parent), ("child", joint.child)):
+        if name not in links and not (tag == "parent" and name == WORLD):
+            raise values.fail(
+                joint.node.find(tag) or joint.node,
+                f"the joint's {tag} '{name}' is no link of this robot",
+                hint=did_you_mean(name, links),
+            )
+
+
+def _below(joints: dict[str, UrdfJoint]) -> dict[str, list[UrdfJoint]]:
+    below: dict[str, list[UrdfJoint]] = {}
+    holds: dict[str, UrdfJoint] = {}
+    for name in sorted(joints):
+        joint = joints[name]
+        other = holds.setdefault(joint.child, joint)
+        if other is not joint:
+            raise values.fail(
+                joint.node,
+                f"link '{joint.child}' is the child of two joints, '{other.name}' and "
+                f"'{name}': this is a joint loop, which URDF cannot hold",
+                hint="close the loop with an SDF <joint> inside a <gazebo>",
+            )
+        below.setdefault(joint.parent, []).append(joint)
+    return below
+
+
+def _root(root: Parameters, links: dict[str, UrdfLink], joints: dict[str, UrdfJoint]) -> str:
+    children = {joint.child for joint in joints.values()}
+    tops = [name for name in links if name not in children]
+    used = {joint.parent for joint in joints.values()}
+    if WORLD in used and WORLD not in links:
+        tops.append(WORLD)
+    if not tops:
+        raise values.fail(root, "every link is the child of a joint: this is a joint loop")
+    if len(tops) > 1:
+        raise values.fail(
+            links[tops[1]].node if tops[1] in links else root,
+            f"the robot has {len(tops)} roots: {', '.join(tops)}",
+            hint="a joint must hold each of them but one",
+        )
+    return tops[0]
+
+
+def _refuse_loops(
+    top: str,
+    links: dict[str, UrdfLink],
+    joints: dict[str, UrdfJoint],
+    below: dict[str, list[UrdfJoint]],
+) -> None:
+    reached = {top}
+    waiting = [top]
+    while waiting:
+        for joint in below.get(waiting.pop(), ()):
+            reached.add(joint.child)
+            waiting.append(joint.child)
+    for joint in joints.values():
+        if joint.child not in reached:
+            circle = ", ".join(name for name in links if name not in reached)
+            raise values.fail(joint.node, f"these links form a joint loop: {circle}")
+
+
+def lumps(joint: UrdfJoint, extensions: Extensions) -> bool:
+    """Whether the joint's child becomes part of the parent's body."""
+    if joint.type != "fixed" or joint.parent == WORLD:
+        return False
+    return not (
+        extensions.yes(joint.name, "preserveFixedJoint")
+        or extensions.yes(joint.name, "disableFixedJointLumping")
+    )
+
+
+def bodies(tree: Tree, extensions: Extensions) -> list[Body]:
+    """All bodies, parents before children; the world is none."""
+    done: list[Body] = []
+    if tree.root == WORLD:
+        waiting = [
+            _hung(tree, joint, Body(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
+            for joint in tree.below.get(WORLD, ())
+        ]
+    else:
+        waiting = [Body(tree.links[tree.root], Pose())]
+    while waiting:
+        body = waiting.pop(0)
+        _gather(tree, body, body.link, Pose(), extensions)
+        done.append(body)
+        waiting = [*body.children, *waiting]
+    return done
+
+
+def _hung(tree: Tree, joint: UrdfJoint, parent: Body, link_pose: Pose) -> Body:
+    origin = link_pose * joint.origin
+    return Body(tree.links[joint.child], parent.pose * origin, joint, parent.name, origin)
+
+
+def _gather(tree: Tree, body: Body, link: UrdfLink, pose: Pose, extensions: Extensions) -> None:
+    body.members.append(Member(link, pose))
+    for joint in tree.below.get(link.name, ()):
+        if lumps(joint, extensions):
+            _gather(tree, body, tree.links[joint.child], pose * joint.origin, extensions)
+        else:
+            body.children.append(_hung(tree, joint, body, pose))

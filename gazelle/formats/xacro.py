@@ -1,0 +1,220 @@
+"""Xacro files, through the ``xacro`` package, with no ROS.
+
+Each element of the result knows the file and line it was written in, also when it came
+out of a macro: elements carry their place through xacro's DOM.
+"""
+
+from __future__ import annotations
+
+import builtins
+import contextlib
+import io
+import threading
+import xml.dom.minidom as dom
+from collections.abc import Iterator
+from pathlib import Path
+from types import MappingProxyType, TracebackType
+from typing import Any
+from xml.dom import expatbuilder
+from xml.parsers.expat import ExpatError
+
+import xacro as engine
+from xacro import substitution_args
+
+from gazelle.description import Parameters, Source
+from gazelle.errors import Error, FormatError
+from gazelle.formats import xml
+from gazelle.formats.reading import Reading
+
+_LOCK = threading.Lock()  # the package keeps its state in module globals
+_PREFIX = "xacro:"
+_NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "xacro")
+
+
+class PlacedElement(dom.Element):
+    """A DOM element that knows where it was written, and tells its copies."""
+
+    place: tuple[str, int] | None = None
+
+    def cloneNode(self, deep: bool) -> Any:  # noqa: N802, FBT001  # the name is the DOM's
+        """A copy with the same places."""
+        copy = super().cloneNode(deep)
+        _copy_places(self, copy)
+        return copy
+
+
+def _copy_places(source: Any, target: Any) -> None:
+    if isinstance(source, PlacedElement):
+        target.__class__ = PlacedElement
+        target.place = source.place
+    for one, other in zip(source.childNodes, target.childNodes, strict=False):
+        if one.nodeType == one.ELEMENT_NODE:
+            _copy_places(one, other)
+
+
+def is_xacro(root: Parameters) -> bool:
+    """Whether an XML file is meant for xacro: it names the namespace or uses the prefix."""
+    if any(key == "xmlns:xacro" for key in root.attributes):
+        return True
+    return any(child.tag.startswith(_PREFIX) for child in root.children)
+
+
+def expand(path: Path, reading: Reading) -> Parameters:
+    """The root element of a xacro file, all macros expanded.
+
+    Raises:
+        FormatError: The file, or one that it includes, is not valid xacro.
+    """
+    return _run(str(path), xml.read_bytes(path), reading)
+
+
+def expand_text(text: str | bytes, name: str, reading: Reading) -> Parameters:
+    """The root element of xacro text; ``name`` stands for the file in errors."""
+    return _run(name, text.encode() if isinstance(text, str) else text, reading)
+
+
+def _run(name: str, data: bytes, reading: Reading) -> Parameters:
+    with _LOCK, _patched(reading) as said:
+        engine.init_stacks(name)
+        try:
+            document = _parse(data, name)
+            engine.process_doc(document, mappings=dict(reading.xacro_args))
+        except Error:
+            raise
+        except RecursionError:
+            raise FormatError("the macros call each other without end", file=name) from None
+        except Exception as error:  # expressions in a file may raise anything
+            raise _explain(error, name) from error
+    root: Any = document.documentElement
+    for text in dict.fromkeys(said.getvalue().splitlines()):
+        if text.strip().startswith(("warning", "Warning")) or "deprecated" in text:
+            reading.note(f"xacro: {text.strip()}", Parameters("robot", source=Source(name, 1)))
+    return _convert(root, name, None, {})
+
+
+class _Builder(expatbuilder.ExpatBuilderNS):
+    """Builds a DOM whose elements know their places."""
+
+    def __init__(self, file: str) -> None:
+        super().__init__()
+        self._file = file
+
+    def start_element_handler(self, name: str, attributes: Any) -> None:
+        """Mark the element that has just begun."""
+        super().start_element_handler(name, attributes)
+        element: Any = self.curNode
+        element.__class__ = PlacedElement
+        element.place = (self._file, self.getParser().CurrentLineNumber)
+
+
+def _parse(data: bytes, name: str) -> Any:
+    """A DOM whose elements know their lines; entities are refused as elsewhere."""
+    xml.parse(data, name=name)
+    return _Builder(name).parseString(data)
+
+
+@contextlib.contextmanager
+def _patched(reading: Reading) -> Iterator[io.StringIO]:
+    """Let the package find packages and open files only through the resolver."""
+
+    def find(package: str) -> str:
+        folder = reading.resolver.package(package)
+        if folder is None:
+            looked = reading.resolver.looked_in(f"package://{package}")
+            raise FormatError(
+                f"there is no package '{package}'", hint=f"{looked}; give its folder as a path"
+            )
+        return str(folder)
+
+    def parse(given: Any, filename: str | None = None) -> Any:
+        if given is not None or filename is None:
+            return given
+        return _parse(xml.read_bytes(_checked(filename)), filename)
+
+    def _checked(filename: str) -> Path:
+        path = Path(filename)
+        if path.exists() and not reading.resolver.readable(path):
+            raise FormatError(f"'{filename}' lies outside of the folders that may be read")
+        return path
+
+    def guarded_open(filename: str) -> Any:
+        return builtins.open(_checked(filename), encoding="utf-8")  # noqa: PTH123
+
+    said = io.StringIO()
+    package: Any = engine
+    old = (package.parse, substitution_args._eval_find, substitution_args._eval_dict["find"])  # noqa: SLF001
+    package.parse, package.open = parse, guarded_open
+    substitution_args._eval_find = find  # noqa: SLF001  # the package has no other way
+    substitution_args._eval_dict["find"] = find  # noqa: SLF001
+    try:
+        with contextlib.redirect_stderr(said):
+            yield said
+    finally:
+        package.parse, substitution_args._eval_find = old[:2]  # noqa: SLF001
+        substitution_args._eval_dict["find"] = old[2]  # noqa: SLF001
+        del package.open
+
+
+def _explain(error: Exception, name: str) -> FormatError:
+    """The error with the place of the element that xacro was at."""
+    root: BaseException = error
+    while isinstance(root, engine.XacroException) and isinstance(root.exc, BaseException):
+        root = root.exc
+    if isinstance(root, FormatError) and root.file is not None:
+        return root
+    file, line, element = _place(error.__traceback__) or (_current(name), None, None)
+    if isinstance(root, ExpatError):
+        return FormatError(f"this is not well-formed XML: {root}", file=_current(name))
+    if isinstance(root, FormatError):
+        return FormatError(root.message, file=file, line=line, element=element, hint=root.hint)
+    text = " ".join(str(error).split()) or type(error).__name__
+    return FormatError(f"xacro: {text}", file=file, line=line, element=element)
+
+
+def _current(name: str) -> str:
+    stack = engine.filestack
+    return str(stack[-1]) if stack and stack[-1] else name
+
+
+def _place(trace: TracebackType | None) -> tuple[str, int, str] | None:
+    """The innermost element in the local variables of xacro's functions."""
+    found = None
+    while trace is not None:
+        for variable in ("node", "elt", "tag"):
+            element = trace.tb_frame.f_locals.get(variable)
+            if isinstance(element, PlacedElement) and element.place is not None:
+                label = xml.label(element.tagName, dict(element.attributes.items()))
+                found = (*element.place, label)
+        trace = trace.tb_next
+    return found
+
+
+def _convert(node: Any, file: str, outer: Source | None, counts: dict[str, int]) -> Parameters:
+    """A DOM element as ``Parameters``; one that xacro made stands where its parent does."""
+    attributes = {
+        key: value for key, value in node.attributes.items() if not key.startswith("xmlns")
+    }
+    place = getattr(node, "place", None)
+    if place is None:
+        place = (file, 0) if outer is None else (outer.file or file, outer.line or 0)
+    step = xml.label(node.tagName, attributes)
+    if step == node.tagName and outer is not None:
+        number = counts[step] = counts.get(step, 0) + 1
+        step = step if number == 1 else f"{step}[{number}]"
+    path = step if outer is None else f"{outer.element}/{step}"
+    source = Source(place[0], place[1] or None, path)
+    text: list[str] = []
+    children: list[Parameters] = []
+    inner: dict[str, int] = {}
+    for child in node.childNodes:
+        if child.nodeType == child.ELEMENT_NODE:
+            children.append(_convert(child, file, source, inner))
+        elif child.nodeType in {child.TEXT_NODE, child.CDATA_SECTION_NODE} and not children:
+            text.append(child.data)
+    return Parameters(
+        node.tagName,
+        "".join(text).strip(),
+        MappingProxyType(attributes),
+        tuple(children),
+        source,
+    )

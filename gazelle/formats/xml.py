@@ -1,0 +1,172 @@
+"""XML files as trees of ``Parameters``, each element with its file and line.
+
+Prefixes are kept in the names (``xacro:if``): robot files use them without declaring
+them. Entities, document types and anything on the network are refused or ignored, and
+size, depth and number of elements are limited, so that no file can exhaust the machine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from xml.parsers import expat
+
+from gazelle.description import Parameters, Source
+from gazelle.errors import FormatError
+
+MAX_BYTES = 64 * 2**20
+MAX_DEPTH = 256
+MAX_ELEMENTS = 1_000_000
+
+_NAMED = ("name", "reference", "filename")
+_NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
+
+
+def read_bytes(path: Path) -> bytes:
+    """The content of a description file.
+
+    Raises:
+        FormatError: The file is missing, unreadable or larger than ``MAX_BYTES``.
+    """
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise FormatError(f"the file is larger than {MAX_BYTES} bytes", file=str(path))
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise FormatError("there is no such file", file=str(path)) from None
+    except (OSError, ValueError) as error:
+        raise FormatError(f"the file cannot be read: {error}", file=str(path)) from error
+
+
+def read_file(path: Path) -> Parameters:
+    """The root element of an XML file.
+
+    Raises:
+        FormatError: The file cannot be read, or is not well-formed XML.
+    """
+    return parse(read_bytes(path), name=str(path))
+
+
+def parse(text: str | bytes, *, name: str) -> Parameters:
+    """The root element of XML text; ``name`` stands for the file in errors.
+
+    Raises:
+        FormatError: The text is not well-formed XML, or exceeds a limit.
+    """
+    data = text.encode() if isinstance(text, str) else text
+    if len(data) > MAX_BYTES:
+        raise FormatError(f"the XML is larger than {MAX_BYTES} bytes", file=name)
+    if not data.strip():
+        raise FormatError("the file is empty", file=name)
+    builder = _Builder(name, encoding="utf-8" if isinstance(text, str) else None)
+    return builder.read(data)
+
+
+@dataclass(slots=True)
+class _Open:
+    """An element whose end has not been reached."""
+
+    tag: str
+    attributes: dict[str, str]
+    source: Source
+    text: list[str] = field(default_factory=list)
+    children: list[Parameters] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=dict)
+
+
+class _Builder:
+    """Turns expat's events into a tree."""
+
+    def __init__(self, name: str, encoding: str | None) -> None:
+        self._name = name
+        self._open: list[_Open] = []
+        self._root: Parameters | None = None
+        self._count = 0
+        parser = self._parser = expat.ParserCreate(encoding)
+        parser.buffer_text = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._characters
+        parser.EntityDeclHandler = self._entity
+
+    def read(self, data: bytes) -> Parameters:
+        try:
+            self._parser.Parse(data, True)
+        except expat.ExpatError as error:
+            reason = expat.ErrorString(error.code)
+            element = self._open[-1].source.element if self._open else None
+            raise FormatError(
+                f"this is not well-formed XML: {reason}",
+                file=self._name,
+                line=error.lineno,
+                element=element,
+            ) from None
+        except (LookupError, ValueError) as error:
+            raise FormatError(f"the encoding cannot be read: {error}", file=self._name) from None
+        if self._root is None:
+            raise FormatError("the file has no element", file=self._name)
+        return self._root
+
+    def _entity(self, entity: str, *_: object) -> None:
+        raise FormatError(
+            f"the file defines the entity '{entity}', which is not allowed",
+            file=self._name,
+            line=self._parser.CurrentLineNumber,
+            hint="write its value where it is used",
+        )
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        line = self._parser.CurrentLineNumber
+        self._count += 1
+        if len(self._open) >= MAX_DEPTH or self._count > MAX_ELEMENTS:
+            what = (
+                f"more than {MAX_ELEMENTS} elements"
+                if self._count > MAX_ELEMENTS
+                else f"elements nested more than {MAX_DEPTH} deep"
+            )
+            raise FormatError(f"the file has {what}", file=self._name, line=line)
+        parent = self._open[-1] if self._open else None
+        self._open.append(
+            _Open(tag, attributes, Source(self._name, line, _place(tag, attributes, parent)))
+        )
+
+    def _characters(self, text: str) -> None:
+        current = self._open[-1]
+        if not current.children:
+            current.text.append(text)
+
+    def _end(self, _: str) -> None:
+        done = self._open.pop()
+        element = Parameters(
+            done.tag,
+            "".join(done.text).strip(),
+            MappingProxyType(done.attributes) if done.attributes else _NO_ATTRIBUTES,
+            tuple(done.children),
+            done.source,
+        )
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self._root = element
+
+
+def _place(tag: str, attributes: dict[str, str], parent: _Open | None) -> str:
+    """The path of an element: by name where it has one, else by number from the second on."""
+    step = label(tag, attributes)
+    if parent is None:
+        return step
+    if step == tag:
+        number = parent.counts[tag] = parent.counts.get(tag, 0) + 1
+        step = tag if number == 1 else f"{tag}[{number}]"
+    outer = parent.source.element
+    return f"{outer}/{step}"
+
+
+def label(tag: str, attributes: dict[str, str]) -> str:
+    """One step of an element path, such as ``link[@name='base']``."""
+    for key in _NAMED:
+        value = attributes.get(key)
+        if value:
+            return f"{tag}[@{key}='{value}']"
+    return tag
