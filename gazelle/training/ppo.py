@@ -97,7 +97,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             rollout_buffer.valid[row] = step.valid
             self._note_cut_off(row, step, cut_off)
             self._last_obs = step.obs
-            self._last_episode_starts = step.terminated | step.truncated | ~step.valid
+            self._last_episode_starts = step.terminated | step.truncated
         rollout_buffer.log_probs[:] = _log_probs(actor, outputs, rollout_buffer.actions)
         self._finish(rollout_buffer, cut_off)
         callback.on_rollout_end()
