@@ -14,7 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle import description, formats
 from gazelle.description import Model, Pose, World
 from gazelle.engines import make_engine
+from gazelle.engines.tracer import Tracer, make_tracer
 from gazelle.errors import SimulationError, did_you_mean
+from gazelle.sensors import View, render
 from gazelle.simulation import pacing, registry, saving
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.plugin import ModelPlugin, SensorPlugin, WorldPlugin
@@ -68,6 +70,7 @@ class Simulation:
         self.paused = False
         self._robots: dict[str, Robot] = {}
         self._closed = False
+        self._tracer: tuple[World, Tracer] | None = None
         for plugin in loaded.plugins:
             self._load_world_plugin(plugin)
         for model in loaded.models:
@@ -283,6 +286,28 @@ class Simulation:
         owner: str,
     ) -> None:
         self.plugins.append(make_scheduled(loaded, plugin.name, owner))
+
+    # -- seeing ------------------------------------------------------------------------
+
+    def render(self, view: View, world: int = 0) -> NDArray[np.uint8]:
+        """A picture of one world, shape (height, width, 3), made without a graphics card.
+
+        Args:
+            view: From where and how; ``gazelle.sensors.look_at`` helps.
+            world: Which world.
+        """
+        if self._tracer is None or self._tracer[0] is not self.engine.world:
+            self._tracer = (self.engine.world, make_tracer(self.engine.world))
+        chosen = np.array([world])
+        places = {name: self.engine.link_placement(name, chosen) for name in self.engine.link_names}
+        tracer = self._tracer[1]
+        tracer.place(
+            {
+                name: Pose.from_quaternion(tuple(p.position[0]), tuple(p.quaternion[0]))
+                for name, p in places.items()
+            }
+        )
+        return render(tracer, self.engine.world, view)
 
     # -- saving and ending -------------------------------------------------------------
 

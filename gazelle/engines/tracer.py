@@ -1,0 +1,58 @@
+"""What rays see: the visible shapes of a world, apart from what collides.
+
+A tracer knows no physics. It is told where the links are and follows rays to the nearest
+visual, on the processor, with no graphics card and no screen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Pose, Visual, World
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What rays met.
+
+    Attributes:
+        distance: [m], shape (rays,); infinite for nothing.
+        normal: Of the surface, away from it, shape (rays, 3); zero for nothing.
+        visual: Index into ``Tracer.visuals``, shape (rays,); -1 for nothing.
+    """
+
+    distance: Floats
+    normal: Floats
+    visual: NDArray[np.intp]
+
+
+class Tracer(Protocol):
+    """Follows rays through the visuals of one world."""
+
+    @property
+    def visuals(self) -> tuple[Visual, ...]:
+        """All visuals that can be met."""
+
+    def place(self, poses: Mapping[str, Pose]) -> None:
+        """Put links, by scoped name, at poses in the world."""
+
+    def trace(self, origins: Floats, directions: Floats) -> Sight:
+        """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
+
+
+def make_tracer(world: World) -> Tracer:
+    """A tracer of a world, its links where the description puts them.
+
+    Raises:
+        EngineError: A shape cannot be built.
+    """
+    from gazelle.engines.mujoco.tracer import MujocoTracer
+
+    return MujocoTracer(world)
