@@ -61,7 +61,7 @@ class Pose:
         pose = cls(*position)
         if norm > 0.0:
             x, y, z, w = (float(q) / norm for q in quaternion)
-            pose._quaternion = (x, y, z, w)
+            pose._quaternion = (x, y, z, w)  # noqa: SLF001  # its own class
         return pose
 
     @classmethod
@@ -148,8 +148,8 @@ class Pose:
     def is_close(self, other: Pose, *, position: float = 1e-9, angle: float = 1e-9) -> bool:
         """Whether two poses agree within a distance [m] and an angle [rad]."""
         delta = self.inverse() * other
-        sine = math.sqrt(sum(q * q for q in delta._quaternion[:3]))
-        turned = 2.0 * math.atan2(sine, abs(delta._quaternion[3]))
+        sine = math.sqrt(sum(q * q for q in delta.quaternion[:3]))
+        turned = 2.0 * math.atan2(sine, abs(delta.quaternion[3]))
         return math.dist(self._position, other._position) <= position and turned <= angle
 
     def __eq__(self, other: object) -> bool:

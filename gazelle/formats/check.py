@@ -57,10 +57,8 @@ def check(
         problems.append(
             Problem("error", error.message, file, error.line, error.element, error.hint)
         )
-    for miss in reading.misses:
-        problems.append(_warning(f"'{miss.uri}' is not found", miss.source, miss.looked))
-    for note in reading.notes:
-        problems.append(_warning(note.message, note.source, note.hint))
+    problems += [_warning(f"'{m.uri}' is not found", m.source, m.looked) for m in reading.misses]
+    problems += [_warning(note.message, note.source, note.hint) for note in reading.notes]
     return problems
 
 

@@ -12,7 +12,7 @@ from gazelle.description import Color, Material
 
 _PREFIX = "Gazebo/"
 
-# name: (ambient, diffuse)
+# ambient and diffuse colour of each
 _PLAIN: dict[str, tuple[Color, Color]] = {
     "Grey": ((0.3, 0.3, 0.3, 1.0), (0.7, 0.7, 0.7, 1.0)),
     "Gray": ((0.3, 0.3, 0.3, 1.0), (0.7, 0.7, 0.7, 1.0)),

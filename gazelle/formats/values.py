@@ -15,7 +15,9 @@ from gazelle.errors import FormatError
 INFINITE = 1e16
 """SDF writes "no limit" as a number at least this large."""
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?|inf(inity)?)", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?|inf(inity)?)", re.IGNORECASE
+)
 _TRUE = {"true", "1"}
 _FALSE = {"false", "0"}
 

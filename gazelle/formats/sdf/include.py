@@ -89,12 +89,13 @@ def draft_included(node: Parameters, included: Included, reading: Reading) -> Dr
 def draft_read(node: Parameters, model: Model) -> Draft:
     """The draft of a model that is already read: its frames under their names."""
     draft = Draft(node, (1, 11), model.name, model.pose, model=model)
-    _name_frames(draft.scope, node, model)
+    name_frames(draft.scope, model)
     draft.scope.canonical = model.canonical_link or (model.links[0].name if model.links else "")
     return draft
 
 
-def _name_frames(scope: Scope, node: Parameters, model: Model) -> None:
+def name_frames(scope: Scope, model: Model) -> None:
+    """Put the links, frames and joints of a model that is already read into a scope."""
     for link in model.links:
         place = Parameters("link", source=link.source)
         scope.add(link.name, Entry(place, link.pose))

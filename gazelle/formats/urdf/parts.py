@@ -21,7 +21,7 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.material import read_material
 from gazelle.formats.sdf.pose import read_pose
-from gazelle.formats.sdf.sensor import read_sensor
+from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.sdf.surface import read_surface
 from gazelle.formats.urdf.elements import Paint, read_geometry, read_origin, read_paint
 from gazelle.formats.urdf.extensions import Extensions, text
@@ -165,11 +165,13 @@ def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
     for member in body.members:
         for node in robot.extensions.of(member.link.name):
             if node.tag == "sensor":
-                sensor = read_sensor(
-                    node, lambda part, at=member.pose: at * read_pose(part.find("pose"))
-                )
+                sensor = read_sensor(node, _placer(member))
                 sensors.append(_renamed(sensor, renamed))
     return tuple(sensors)
+
+
+def _placer(member: Member) -> Placer:
+    return lambda part: member.pose * read_pose(part.find("pose"))
 
 
 def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:

@@ -154,9 +154,10 @@ def _joint(body: Body, robot: Robot) -> Joint:
     extensions = robot.extensions
     kind = joint.type
     axes = () if joint.axis is None else (_axis(joint.axis, joint.name, extensions),)
-    if kind == "fixed" and not extensions.yes(joint.name, "preserveFixedJoint"):
-        if extensions.yes(joint.name, "disableFixedJointLumping"):
-            kind, axes = "revolute", (JointAxis(lower=0.0, upper=0.0),)
+    preserved = extensions.yes(joint.name, "preserveFixedJoint")
+    unlumped = extensions.yes(joint.name, "disableFixedJointLumping")
+    if kind == "fixed" and unlumped and not preserved:
+        kind, axes = "revolute", (JointAxis(lower=0.0, upper=0.0),)
     return Joint(
         name=joint.name,
         type=kind,

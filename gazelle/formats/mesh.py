@@ -1,0 +1,204 @@
+"""Mesh files as vertices and faces: STL, DAE, OBJ and what else trimesh reads.
+
+The result is in the frame of the description's ``<mesh>``: the file's unit, up-axis and
+node transforms are applied, then the scale. Files are read once: the last ones stay in
+memory, found by their content.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Mesh, Source, Vector3
+from gazelle.errors import FormatError
+from gazelle.formats import collada, stl, wavefront
+
+MAX_BYTES = 512 * 2**20
+CACHED = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A named piece of a mesh file.
+
+    Attributes:
+        name: Of the node or object in the file; may be empty.
+        vertices: Positions [m], shape (n, 3).
+        faces: Corners of each triangle, shape (m, 3).
+    """
+
+    name: str
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshData:
+    """Triangles.
+
+    Attributes:
+        vertices: Positions [m] in the frame of the mesh, shape (n, 3); not writable.
+        faces: Corners of each triangle, counter-clockwise from outside, shape (m, 3).
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Smallest and largest coordinates [m], shape (2, 3)."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+
+def load_mesh(mesh: Mesh) -> MeshData:
+    """The triangles of a description's mesh, scaled.
+
+    Raises:
+        FormatError: The file was not found, cannot be read, or holds no triangle or not
+            the submesh asked for. It names the place in the description.
+    """
+    if mesh.path is None:
+        raise FormatError(f"the mesh '{mesh.uri}' was not found", source=mesh.source)
+    try:
+        parts = load_parts(mesh.path)
+    except FormatError as error:
+        raise FormatError(
+            f"the mesh '{mesh.path}' cannot be used: {error.message}",
+            source=mesh.source or Source(str(mesh.path)),
+            hint=error.hint,
+        ) from error
+    data = _joined(_chosen(parts, mesh))
+    vertices = data.vertices * np.asarray(mesh.scale, dtype=np.float64)
+    if mesh.center_submesh:
+        vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0
+    mirrored = np.prod(mesh.scale) < 0.0
+    vertices.setflags(write=False)
+    return MeshData(vertices, data.faces[:, ::-1] if mirrored else data.faces)
+
+
+def bounds(mesh: Mesh) -> tuple[Vector3, Vector3]:
+    """Smallest and largest corner of a mesh [m], in its frame.
+
+    Raises:
+        FormatError: As ``load_mesh``.
+    """
+    low, high = load_mesh(mesh).bounds.tolist()
+    return ((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def load_parts(path: Path) -> tuple[Part, ...]:
+    """The pieces of a mesh file, unscaled, in the file's frame turned z up, in metres.
+
+    Raises:
+        FormatError: The file cannot be read, or holds no triangle.
+    """
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise FormatError(f"the file is larger than {MAX_BYTES} bytes", file=str(path))
+        data = path.read_bytes()
+    except OSError as error:
+        raise FormatError(f"the file cannot be read: {error}", file=str(path)) from error
+    digest = hashlib.blake2b(data, digest_size=16).hexdigest()
+    return _parse_cached(digest, _Content(data, path))
+
+
+class _Content:
+    """File content that the cache tells apart by its digest alone."""
+
+    def __init__(self, data: bytes, path: Path) -> None:
+        self.data: bytes | None = data
+        self.path = path
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Content) and self.path.suffix == other.path.suffix
+
+    def __hash__(self) -> int:
+        return hash(self.path.suffix)
+
+
+@lru_cache(maxsize=CACHED)
+def _parse_cached(_: str, content: _Content) -> tuple[Part, ...]:
+    data, path = content.data or b"", content.path
+    content.data = None  # the cache keeps the key, and need not keep the file
+    try:
+        parts = [part for part in _parse(data, path) if len(part.faces)]
+    except FormatError:
+        raise
+    except Exception as error:  # mesh libraries raise anything on a broken file
+        raise FormatError(f"{type(error).__name__}: {error}", file=str(path)) from error
+    if not parts:
+        raise FormatError("the file holds no triangle", file=str(path))
+    for part in parts:
+        _check(part, path)
+    return tuple(parts)
+
+
+def _check(part: Part, path: Path) -> None:
+    if not np.isfinite(part.vertices).all():
+        raise FormatError("the file holds coordinates that are not finite", file=str(path))
+    if part.faces.min() < 0 or part.faces.max() >= len(part.vertices):
+        raise FormatError("a face names a vertex that is not there", file=str(path))
+    part.vertices.setflags(write=False)
+    part.faces.setflags(write=False)
+
+
+def _parse(data: bytes, path: Path) -> list[Part]:
+    kind = path.suffix.lower().lstrip(".")
+    if kind in {"stl", "stlb"}:
+        return [Part("", *stl.parse(data))]
+    if kind == "dae":
+        return [Part(*piece) for piece in collada.parse(data)]
+    if kind == "obj":
+        return [Part(*piece) for piece in wavefront.parse(data)]
+    return _parse_with_trimesh(data, kind)
+
+
+def _parse_with_trimesh(data: bytes, kind: str) -> list[Part]:
+    import io
+
+    import trimesh
+
+    logging.getLogger("trimesh").setLevel(logging.ERROR)
+    if kind not in trimesh.available_formats():
+        raise FormatError(
+            f"mesh files of kind '.{kind}' cannot be read", hint="use STL, DAE or OBJ"
+        )
+    scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
+    return [
+        Part(name, np.asarray(piece.vertices, np.float64), np.asarray(piece.faces, np.int32))
+        for name, piece in ((m.metadata.get("name", ""), m) for m in scene.dump())
+        if hasattr(piece, "faces")
+    ]
+
+
+def _chosen(parts: tuple[Part, ...], mesh: Mesh) -> list[Part]:
+    if mesh.submesh is None:
+        return list(parts)
+    chosen = [part for part in parts if part.name == mesh.submesh]
+    if not chosen:
+        names = ", ".join(sorted({part.name for part in parts if part.name})) or "none with a name"
+        raise FormatError(
+            f"the mesh has no submesh '{mesh.submesh}'",
+            source=mesh.source,
+            hint=f"there are: {names}",
+        )
+    return chosen
+
+
+def _joined(parts: list[Part]) -> MeshData:
+    if len(parts) == 1:
+        return MeshData(parts[0].vertices, parts[0].faces)
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])
+    return MeshData(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate(
+            [part.faces + np.int32(start) for part, start in zip(parts, starts, strict=True)]
+        ),
+    )
