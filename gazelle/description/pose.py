@@ -61,7 +61,7 @@ class Pose:
         pose = cls(*position)
         if norm > 0.0:
             x, y, z, w = (float(q) / norm for q in quaternion)
-            pose._quaternion = (x, y, z, w)  # noqa: SLF001  # its own class
+            pose._quaternion = (x, y, z, w)  # its own class
         return pose
 
     @classmethod

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,9 +31,7 @@ def parse(data: bytes) -> list[Piece]:
                 vertices.append((float(words[1]), float(words[2]), float(words[3])))
             elif words[0] == "f":
                 corners = [_corner(word, len(vertices)) for word in words[1:]]
-                faces.extend(
-                    (corners[0], b, c) for b, c in zip(corners[1:], corners[2:], strict=False)
-                )
+                faces.extend((corners[0], b, c) for b, c in itertools.pairwise(corners[1:]))
             elif words[0] in {"o", "g"}:
                 faces = groups.setdefault(" ".join(words[1:]), [])
         except (ValueError, IndexError):
@@ -46,7 +46,7 @@ def parse(data: bytes) -> list[Piece]:
 
 def _corner(word: str, count: int) -> int:
     """Index from 0 of ``7``, ``7/1``, ``7/1/2`` or ``-1``, which counts from the end."""
-    index = int(word.split("/")[0])
+    index = int(word.split("/", maxsplit=1)[0])
     corner = index - 1 if index > 0 else count + index
     if not 0 <= corner < count:
         raise ValueError(word)
