@@ -1,5 +1,6 @@
-"""The main job from end to end: load the TurtleBot3 burger and its first world from
-their files, train a policy on many copies at once, and evaluate it on 100 goals.
+"""The main job from end to end: load the TurtleBot3 burger and its first world
+from their files, train a policy on many copies at once, and evaluate it on 100
+fresh goals.
 
   gazelle demo
   gazelle demo --world my.world --robot my_burger.urdf.xacro

@@ -123,9 +123,8 @@ def _complain(message: str, hint: str | None) -> None:
 def _one_line_warnings(*, show_all: bool) -> Iterator[None]:
     """Gazelle's warnings as one line each, others not at all unless all are asked for."""
     with warnings.catch_warnings():
-        if not show_all:
-            warnings.simplefilter("ignore")
-        warnings.simplefilter("always", GazelleWarning)
+        warnings.simplefilter("default" if show_all else "ignore")
+        warnings.simplefilter("default", GazelleWarning)
         warnings.showwarning = _show_warning
         yield
 

@@ -1,5 +1,5 @@
-"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, or the name
-of a bundled world (see 'gazelle worlds').
+"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, a model's
+folder, or a bundled name (see 'gazelle worlds').
 
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
@@ -10,11 +10,9 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.cli.parsing import positive_float
-from gazelle.errors import ResolveError
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation
@@ -52,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
     from gazelle.simulation import Simulation
 
-    with Simulation(resolve(args.file), args.engine, seed=args.seed) as sim:
+    with Simulation(args.file, args.engine, seed=args.seed) as sim:
         models = ", ".join(sim.robots) or "no models"
         sys.stdout.write(f"world '{sim.world.name}': {models}\n")
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
@@ -67,23 +65,6 @@ def run(args: argparse.Namespace) -> int:
             return 130
         status.show(final=True)
     return 0
-
-
-def resolve(name: str) -> Path:
-    """A file by its path, or a bundled world by its name.
-
-    Raises:
-        ResolveError: There is neither.
-    """
-    from gazelle import assets
-
-    path = Path(name)
-    if path.exists():
-        return path
-    if path.suffix or len(path.parts) > 1:
-        hint = "check the path; 'gazelle worlds' lists what comes with Gazelle"
-        raise ResolveError("there is no such file", file=name, hint=hint)
-    return assets.world(name)
 
 
 class _Status:

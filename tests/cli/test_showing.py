@@ -1,0 +1,40 @@
+from __future__ import annotations
+
+import pytest
+
+from gazelle.cli import showing
+from gazelle.training import Evaluation, Rate
+
+
+def test_tables_wrap_their_last_column_and_break_no_path():
+    path = "/a" * 60
+    text = showing.table([("NAME", "WHAT"), ("x", "word " * 40), ("longer", path)])
+    lines = text.splitlines()
+    assert lines[0] == "NAME    WHAT"
+    assert all(len(line) <= 80 for line in lines if path not in line)
+    assert any(path in line for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(45, "45.0 s"), (750, "12.5 min"), (100_000, "27.8 h")]
+)
+def test_durations_are_in_a_fitting_unit(seconds, text):
+    assert showing.duration(seconds) == text
+
+
+def test_rates_come_with_their_interval():
+    text = showing.rate(Rate(97, 100))
+    assert "97.0 %" in text
+    assert "91.5 % to 99.0 %" in text
+    assert "(97 of 100)" in text
+
+
+def test_evaluation_fits_80_columns():
+    result = Evaluation(
+        "gazelle/T-v0", 10_000, 1, Rate(9_900, 10_000), None, Rate(100, 10_000),
+        -123456.789, 499.9, 1234.5, 1e7,
+    )  # fmt: skip
+    text = showing.evaluation(result)
+    assert max(len(line) for line in text.splitlines()) <= 80
+    assert "not told by this task" in text
+    assert f"RTF {1e7 / 1234.5:,.0f}" in text

@@ -1,0 +1,113 @@
+"""`gazelle run`, `check` and the lists."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+
+def test_run_simulates_for_a_time(cli):
+    code, out, err = cli("run", "turtlebot3_stage_1", "--for", 0.5, "--rate", "max")
+    assert code == 0
+    assert "turtlebot3_square" in out
+    assert re.search(r"simulated 0\.50 s in [\d.]+ s, RTF [\d.]+", err)
+
+
+def test_run_keeps_to_the_wall_clock(cli):
+    start = time.monotonic()
+    code, _, err = cli("run", "empty", "--for", 0.6, "--rate", 2.0)
+    assert code == 0
+    assert 0.28 < time.monotonic() - start < 3.0
+    factor = float(re.search(r"RTF ([\d.]+)", err).group(1))
+    assert factor == pytest.approx(2.0, abs=0.3)
+
+
+def test_run_of_an_unknown_world_suggests_the_closest(cli):
+    code, _, err = cli("run", "turtlebot3_stage_l")
+    assert code == 1
+    assert "did you mean 'turtlebot3_stage_" in err
+
+
+def test_run_with_an_unknown_engine_is_an_error(cli):
+    code, _, err = cli("run", "empty", "--engine", "mujoko")
+    assert code == 1
+    assert "did you mean 'mujoco'" in err
+
+
+@pytest.mark.parametrize(
+    "arguments", [("--for", "-1"), ("--rate", "slow"), ("--paused", "--for", "1")]
+)
+def test_run_refuses_what_makes_no_sense(cli, arguments):
+    assert cli("run", "empty", *arguments)[0] == 2
+
+
+@pytest.mark.parametrize("extra", [[], ["--paused"]])
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
+def test_interrupt_ends_a_run_cleanly(extra):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "gazelle.cli.main", "run", "empty", *extra],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert "world" in process.stdout.readline()
+    time.sleep(0.5)
+    os.kill(process.pid, signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "Traceback" not in err
+    assert "simulated" in err
+
+
+def test_check_of_a_good_file(cli):
+    code, out, _ = cli("check", "turtlebot3_stage_1", "turtlebot3_burger")
+    assert (code, out) == (0, "turtlebot3_stage_1: ok\nturtlebot3_burger: ok\n")
+
+
+def test_check_names_file_and_line_and_fails(cli, tmp_path):
+    file = tmp_path / "bad.urdf"
+    file.write_text(
+        '<robot name="r">\n  <link name="a">\n    <inertial>\n      <mass value="x"/>\n'
+    )
+    code, out, _ = cli("check", file)
+    assert code == 1
+    assert re.search(rf"error: {re.escape(str(file))}:\d+: ", out)
+    assert out.endswith("bad.urdf: 1 error, 0 warnings\n")
+
+
+def test_check_warns_of_an_unsupported_plugin_without_failing(cli, tmp_path):
+    file = tmp_path / "odd.world"
+    file.write_text(
+        '<sdf version="1.6"><world name="w">'
+        '<plugin name="p" filename="libmakes_coffee.so"/></world></sdf>'
+    )
+    code, out, _ = cli("check", file)
+    assert code == 0
+    assert "warning: " in out
+    assert "libmakes_coffee.so" in out
+    assert "0 errors, 1 warning\n" in out
+    assert "0 errors, 1 warning" not in cli("check", "--files-only", file)[1]
+
+
+@pytest.mark.parametrize(
+    ("command", "entry"),
+    [
+        ("robots", "turtlebot3_burger"),
+        ("worlds", "turtlebot3_stage_4"),
+        ("plugins", "libgazebo_ros_diff_drive.so"),
+    ],
+)
+def test_lists_name_what_there_is(cli, command, entry):
+    code, out, _ = cli(command)
+    assert code == 0
+    assert any(line.startswith(entry) for line in out.splitlines())
+
+
+def test_unknown_benchmark_is_an_error(cli):
+    code, _, err = cli("bench", "no_such_benchmark")
+    assert code == 1
+    assert "there is no benchmark 'no_such_benchmark'" in err
