@@ -1,0 +1,32 @@
+"""Gymnasium environments. Importing this registers them::
+
+    import gymnasium as gym
+    import gazelle.envs
+
+    env = gym.make("gazelle/TurtleBot3Stage1-v0")
+    many = gym.make_vec(
+        "gazelle/TurtleBot3Stage1-v0", num_envs=64, vectorization_mode="vector_entry_point"
+    )
+
+The batched tasks are the implementation: arrays with a leading axis over worlds. A vector
+environment wraps one with many worlds, a single environment one with one world.
+"""
+
+from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
+from gazelle.envs.goals import GoalTable
+from gazelle.envs.registry import register_all, task_ids
+from gazelle.envs.single_env import TaskEnv
+from gazelle.envs.vector_env import TaskVectorEnv
+
+__all__ = [
+    "BatchedTask",
+    "GoalTable",
+    "TaskEnv",
+    "TaskVectorEnv",
+    "Transition",
+    "Verdict",
+    "register_all",
+    "task_ids",
+]
+
+register_all()

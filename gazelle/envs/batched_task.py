@@ -1,0 +1,163 @@
+"""A task in many worlds at once: what the single and the vector environments wrap."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.errors import TaskError
+
+Bool = NDArray[np.bool_]
+Float32 = NDArray[np.float32]
+Float64 = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+Info = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """What one control step brought, all arrays with a leading axis over worlds.
+
+    Attributes:
+        observation: Shape (nworld, size).
+        reward: Shape (nworld,).
+        terminated: Whether the episode came to its end, shape (nworld,).
+        truncated: Whether the episode reached its step limit, shape (nworld,).
+        info: More arrays, shape (nworld, ...).
+    """
+
+    observation: Float32
+    reward: Float64
+    terminated: Bool
+    truncated: Bool
+    info: Info
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A transition before the step limit is applied; see `Transition`."""
+
+    observation: Float32
+    reward: Float64
+    terminated: Bool
+    info: Info
+
+
+class BatchedTask(ABC):
+    """One task in ``nworld`` worlds.
+
+    A subclass says what happens in ``_seed``, ``_begin``, ``_look``, ``_act`` and in
+    ``_state`` and ``_set_state``; this class counts steps and episodes.
+
+    Args:
+        nworld: Number of worlds.
+        max_episode_steps: Control steps until an episode is truncated; None for no limit.
+
+    Attributes:
+        observation_space: Of one world.
+        action_space: Of one world.
+        control_period: Simulated time of one control step [s].
+        elapsed: Control steps of the current episode, shape (nworld,).
+    """
+
+    observation_space: gym.spaces.Box
+    action_space: gym.Space[Any]
+    control_period: float
+
+    def __init__(self, nworld: int, max_episode_steps: int | None) -> None:
+        self.nworld = nworld
+        self.max_episode_steps = max_episode_steps
+        self.elapsed = np.zeros(nworld, dtype=np.int64)
+
+    def seed(self, seed: int) -> None:
+        """Start all random numbers over, as in a task just made with this seed."""
+        self._seed(seed)
+
+    def begin(self, worlds: Worlds) -> tuple[Float32, Info]:
+        """Start new episodes.
+
+        Args:
+            worlds: Indices of the worlds, shape (n,).
+
+        Returns:
+            First observations, shape (n, size), and their info.
+        """
+        self.elapsed[worlds] = 0
+        self._begin(worlds)
+        observation, info = self._look(worlds)
+        if self.max_episode_steps is not None:
+            info["is_timeout"] = np.zeros(len(worlds), dtype=np.bool_)
+        return observation, info
+
+    def advance(self, actions: ArrayLike) -> Transition:
+        """Make one control step in every world; nothing is reset.
+
+        Args:
+            actions: Shape (nworld, ...).
+
+        Raises:
+            TaskError: The actions have the wrong shape or values.
+        """
+        verdict = self._act(actions)
+        self.elapsed += 1
+        truncated = np.zeros(self.nworld, dtype=np.bool_)
+        if self.max_episode_steps is not None:
+            truncated = self.elapsed >= self.max_episode_steps
+            verdict.info["is_timeout"] = truncated & ~verdict.terminated
+        return Transition(
+            verdict.observation, verdict.reward, verdict.terminated, truncated, verdict.info
+        )
+
+    def get_state(self) -> dict[str, Any]:
+        """The whole state, simulation and random numbers included: a dict of arrays and bytes."""
+        return {"elapsed": self.elapsed.copy(), **self._state()}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Go on from what ``get_state`` returned.
+
+        Raises:
+            TaskError: The state is of another task or number of worlds.
+        """
+        try:
+            elapsed = np.asarray(state["elapsed"], dtype=np.int64)
+        except KeyError as error:
+            raise TaskError(f"this is not a state of this task: there is no {error}") from error
+        if elapsed.shape != (self.nworld,):
+            raise TaskError(
+                f"the state is of {elapsed.size} worlds, and this task has {self.nworld}"
+            )
+        self._set_state(state)
+        self.elapsed[:] = elapsed
+
+    @abstractmethod
+    def close(self) -> None:
+        """Free what the task holds; a second call does nothing."""
+
+    @abstractmethod
+    def _seed(self, seed: int) -> None:
+        """Start all random numbers over."""
+
+    @abstractmethod
+    def _begin(self, worlds: Worlds) -> None:
+        """Put these worlds into the starting state of a new episode."""
+
+    @abstractmethod
+    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+        """Observation, shape (n, size), and info of these worlds at their start."""
+
+    @abstractmethod
+    def _act(self, actions: ArrayLike) -> Verdict:
+        """Make one control step."""
+
+    @abstractmethod
+    def _state(self) -> dict[str, Any]:
+        """The subclass's part of ``get_state``."""
+
+    @abstractmethod
+    def _set_state(self, state: dict[str, Any]) -> None:
+        """Put back what ``_state`` gave."""

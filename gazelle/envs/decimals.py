@@ -1,0 +1,35 @@
+"""Rounding of whole arrays exactly as Python's ``round`` does it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_SPLIT = 2.0**27 + 1.0
+_SCALE = 100.0
+
+
+def round2(values: ArrayLike) -> NDArray[np.float64]:
+    """Round to two decimals, bit for bit as ``round(value, 2)`` would.
+
+    ``numpy.round`` multiplies by 100 first, and that product can land on a tie which the
+    number itself is not on. Here the error of the product (T. J. Dekker, "A floating-point
+    technique for extending the available precision", 1971) settles such ties.
+
+    Args:
+        values: Finite numbers below 1e15, any shape.
+
+    Returns:
+        Rounded numbers, same shape.
+    """
+    x = np.asarray(values, dtype=np.float64)
+    product = x * _SCALE
+    high = x * _SPLIT
+    high -= high - x
+    error = (high * _SCALE - product) + (x - high) * _SCALE
+    below = np.floor(product)
+    on_tie = product - below == 0.5  # exact: both are multiples of 0.5 here
+    settled = np.where(error > 0.0, below + 1.0, below)
+    whole = np.where(on_tie & (error != 0.0), settled, np.rint(product))
+    rounded: NDArray[np.float64] = whole / _SCALE
+    return rounded

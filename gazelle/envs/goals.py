@@ -1,0 +1,89 @@
+"""Goals drawn from a finite list of places, one uniform number a goal, without rejection."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.errors import TaskError
+
+Float64 = NDArray[np.float64]
+Index = NDArray[np.intp]
+Bool = NDArray[np.bool_]
+
+
+class GoalTable:
+    """Places a goal can be at, and which of them may follow which.
+
+    Drawing again until a rule is met and drawing once among the places that meet it give
+    the same distribution; the second needs one number, so a world's goals do not depend on
+    how often it had to try.
+
+    Args:
+        points: Places in the world frame [m], shape (m, 2).
+        follows: ``follows[i, j]``: place j may come after place i, shape (m, m); by default
+            any other place. A row without any place lets the goal stay.
+        start: Index of the place of the very first goal, where a task wants a fixed one.
+
+    Raises:
+        TaskError: No points, or points that are not pairs of finite numbers.
+    """
+
+    def __init__(
+        self,
+        points: Sequence[tuple[float, float]] | Float64,
+        follows: Bool | None = None,
+        *,
+        start: int = 0,
+    ) -> None:
+        self.points = _checked(points)
+        self.start = start
+        count = len(self.points)
+        allowed = ~np.eye(count, dtype=np.bool_) if follows is None else follows.copy()
+        stuck = ~allowed.any(axis=1)
+        allowed[stuck, stuck] = True
+        self._counts = allowed.sum(axis=1)
+        # The allowed places of each row come first, in their order: row i, columns < counts[i].
+        self._successors = np.argsort(~allowed, axis=1, kind="stable")
+
+    def first(self, uniform: Float64) -> Index:
+        """Any place.
+
+        Args:
+            uniform: Numbers in [0, 1), shape (n,).
+
+        Returns:
+            Indices into ``points``, shape (n,).
+        """
+        return (uniform * len(self.points)).astype(np.intp)
+
+    def after(self, last: Index, uniform: Float64) -> Index:
+        """Any place that may follow the last one.
+
+        Args:
+            last: Indices of the last goals, shape (n,).
+            uniform: Numbers in [0, 1), shape (n,).
+
+        Returns:
+            Indices into ``points``, shape (n,).
+        """
+        choice = (uniform * self._counts[last]).astype(np.intp)
+        following: Index = self._successors[last, choice]
+        return following
+
+
+def _checked(points: Sequence[tuple[float, float]] | Float64) -> Float64:
+    """The points as an array of their own, or an error that says what is wrong."""
+    try:
+        array = np.array(points, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise TaskError(
+            f"goals must be pairs of numbers (x, y) in metres, not {points!r}"
+        ) from error
+    if array.ndim != 2 or array.shape[1] != 2 or not len(array) or not np.isfinite(array).all():
+        raise TaskError(
+            f"goals must be one or more pairs of finite numbers (x, y) in metres, not {points!r}"
+        )
+    return array

@@ -1,0 +1,142 @@
+"""Options of tasks: their types, their defaults, and errors that name the closest one."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, TypedDict, TypeVar
+
+from gazelle.description import Model, World
+from gazelle.engines import ENGINES
+from gazelle.errors import TaskError, did_you_mean
+
+Settings = TypeVar("Settings", bound="TaskSettings")
+
+
+class TaskOptions(TypedDict, total=False):
+    """What every task takes; see `TaskSettings`."""
+
+    engine: str
+    seed: int | None
+    max_episode_steps: int | None
+    render_mode: str | None
+    threads: int | None
+    time_step: float | None
+
+
+class NavigationOptions(TaskOptions, total=False):
+    """What navigation tasks take as well; see `NavigationSettings`."""
+
+    lidar_samples: int
+    world: str | Path | World | None
+    robot: str | Path | Model | None
+    goals: Sequence[tuple[float, float]] | None
+    respawn: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskSettings:
+    """Options of every task, checked.
+
+    Attributes:
+        engine: Name of the physics engine.
+        seed: Of the first episode when ``reset`` gets none; None draws one.
+        max_episode_steps: Control steps until an episode is truncated; None for no limit.
+        render_mode: One of the task's render modes, or None.
+        threads: Native threads of the engine; None for all processors.
+        time_step: Physics step [s]; None for the task's own.
+
+    Raises:
+        TaskError: A value cannot be.
+    """
+
+    engine: str = "mujoco"
+    seed: int | None = None
+    max_episode_steps: int | None = None
+    render_mode: str | None = None
+    threads: int | None = None
+    time_step: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.engine not in ENGINES:
+            raise TaskError(
+                f"there is no engine '{self.engine}'", hint=did_you_mean(str(self.engine), ENGINES)
+            )
+        for name, least in (("seed", 0), ("max_episode_steps", 1), ("threads", 1)):
+            value = getattr(self, name)
+            if value is not None:
+                check_whole(name, value, least)
+        if self.time_step is not None:
+            _check_time_step(self.time_step)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NavigationSettings(TaskSettings):
+    """Options of a task in which a robot with a lidar drives to goals, checked.
+
+    Attributes:
+        lidar_samples: Ranges in the observation, 2 or more.
+        world: World file, bundled name or description; None for the task's own.
+        robot: Robot file, bundled name or description; None for the task's own.
+        goals: Places in the world frame [m] that goals are drawn from; None for the task's own.
+        respawn: Whether the episode goes on to another goal when one is reached.
+    """
+
+    lidar_samples: int = 24
+    world: str | Path | World | None = None
+    robot: str | Path | Model | None = None
+    goals: Sequence[tuple[float, float]] | None = None
+    respawn: bool = True
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_whole("lidar_samples", self.lidar_samples, 2)
+        if not isinstance(self.respawn, bool):
+            raise TaskError(f"respawn must be True or False, not {self.respawn!r}")
+        _check_kind("world", self.world, World)
+        _check_kind("robot", self.robot, Model)
+
+
+def read_options(settings: type[Settings], options: Mapping[str, Any]) -> Settings:
+    """Turn keyword arguments into checked settings.
+
+    Raises:
+        TaskError: There is no option of that name (the hint names the closest), or a value
+            cannot be.
+    """
+    known = [field.name for field in fields(settings)]
+    for name in options:
+        check_name("option", name, known)
+    return settings(**options)
+
+
+def check_name(kind: str, name: str, known: Iterable[str]) -> None:
+    """Raise TaskError unless the name is one of those known; the hint names the closest."""
+    names = list(known)
+    if name not in names:
+        raise TaskError(f"there is no {kind} '{name}'", hint=did_you_mean(name, names))
+
+
+def check_whole(name: str, value: object, least: int) -> None:
+    """Raise TaskError unless the value is a whole number that is not too small."""
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]  # that is what is tested
+    except TypeError:
+        number = least - 1
+    if isinstance(value, bool) or number < least:
+        raise TaskError(f"{name} must be a whole number, {least} or more, not {value!r}")
+
+
+def _check_time_step(value: object) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < 1.0:
+        raise TaskError(f"time_step must be a number of seconds between 0 and 1, not {value!r}")
+
+
+def _check_kind(name: str, value: object, description: type) -> None:
+    if value is not None and not isinstance(value, str | Path | description):
+        raise TaskError(
+            f"{name} must be a file, a bundled name or a {description.__name__}, not {value!r}"
+        )

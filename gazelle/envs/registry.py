@@ -1,0 +1,63 @@
+"""The tasks that there are, and how Gymnasium makes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import gymnasium as gym
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One task.
+
+    Attributes:
+        id: As Gymnasium knows it, such as ``gazelle/NAME-v0``.
+        env: ``module:Class`` of the single environment; imported when it is made.
+        vector_env: ``module:Class`` of the vector environment.
+        max_episode_steps: Control steps until an episode is truncated.
+        kwargs: Fixed arguments of both.
+    """
+
+    id: str
+    env: str
+    vector_env: str
+    max_episode_steps: int
+    kwargs: dict[str, Any] = field(default_factory=dict)
+
+
+def _turtlebot3() -> list[Entry]:
+    home = "gazelle.envs.turtlebot3.envs"
+    return [
+        Entry(
+            id=f"gazelle/TurtleBot3Stage{stage}{twin}-v0",
+            env=f"{home}:TurtleBot3{twin}Env",
+            vector_env=f"{home}:TurtleBot3{twin}VectorEnv",
+            max_episode_steps=500,
+            kwargs={"stage": stage},
+        )
+        for stage in (1, 2, 3, 4)
+        for twin in ("", "Continuous")
+    ]
+
+
+ENTRIES = tuple(_turtlebot3())
+
+
+def register_all() -> None:
+    """Tell Gymnasium of every task that it does not know yet."""
+    for entry in ENTRIES:
+        if entry.id not in gym.registry:
+            gym.register(
+                id=entry.id,
+                entry_point=entry.env,
+                vector_entry_point=entry.vector_env,
+                max_episode_steps=entry.max_episode_steps,
+                kwargs=dict(entry.kwargs),
+            )
+
+
+def task_ids() -> tuple[str, ...]:
+    """The ids of all tasks, in the order of the table."""
+    return tuple(entry.id for entry in ENTRIES)

@@ -1,0 +1,100 @@
+"""A batched task of one world as a Gymnasium environment."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.envs.batched_task import BatchedTask, Float32, Info
+from gazelle.envs.options import check_name
+from gazelle.envs.vector_env import TaskVectorEnv
+
+
+class TaskEnv(gym.Env[Float32, Any]):
+    """A batched task of one world as a Gymnasium environment.
+
+    It is world 0 of the vector environment: the same seed and actions give the same bits.
+
+    Args:
+        task: A task of one world; the environment closes it.
+        seed: Of the first episode when ``reset`` gets none.
+        render_mode: Kept as an attribute.
+
+    Attributes:
+        control_period: Simulated time of one step [s].
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]  # as there
+
+    def __init__(
+        self, task: BatchedTask, *, seed: int | None = None, render_mode: str | None = None
+    ) -> None:
+        self._vector = TaskVectorEnv(task, seed=seed)
+        self.task = task
+        self.observation_space = task.observation_space
+        self.action_space = task.action_space
+        self.control_period = task.control_period
+        self.render_mode = render_mode
+        self.metadata = {**type(self).metadata, "render_fps": 1.0 / task.control_period}  # type: ignore[misc]
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Float32, dict[str, Any]]:
+        """Start a new episode.
+
+        Args:
+            seed: Starts all random numbers over.
+            options: There are none yet.
+
+        Raises:
+            TaskError: An option that does not exist.
+        """
+        for name in options or {}:
+            check_name("reset option", name, [])
+        if seed is not None:
+            super().reset(seed=seed)
+        observation, info = self._vector.reset(seed=seed)
+        if self._np_random is None:
+            super().reset(seed=self._vector.np_random_seed)
+        return observation[0], _of_world_0(info)
+
+    def step(self, action: Any) -> tuple[Float32, float, bool, bool, dict[str, Any]]:
+        """Make one control step.
+
+        Raises:
+            TaskError: The action has the wrong shape or value.
+        """
+        result = self.task.advance(np.asarray(action)[None])
+        return (
+            result.observation[0],
+            float(result.reward[0]),
+            bool(result.terminated[0]),
+            bool(result.truncated[0]),
+            _of_world_0(result.info),
+        )
+
+    def get_state(self) -> dict[str, Any]:
+        """See `TaskVectorEnv.get_state`."""
+        return self._vector.get_state()
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """See `TaskVectorEnv.set_state`."""
+        self._vector.set_state(state)
+        if self._np_random is None:
+            super().reset(seed=self._vector.np_random_seed)
+
+    def close(self) -> None:
+        """Free the simulation; a second call does nothing."""
+        self._vector.close()
+
+
+def _of_world_0(info: Info) -> dict[str, Any]:
+    """Plain numbers and arrays of world 0, without the masks."""
+    return {name: _plain(values[0]) for name, values in info.items() if not name.startswith("_")}
+
+
+def _plain(value: NDArray[Any]) -> Any:
+    return value.copy() if value.ndim else value.item()

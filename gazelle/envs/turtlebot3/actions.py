@@ -1,0 +1,79 @@
+"""What the actions of the TurtleBot3 tasks mean as velocities.
+
+Discrete: always 0.15 m/s ahead, and one of five yaw rates, 1.5 (left) to -1.5 rad/s (right).
+
+Continuous: two numbers in [-1, 1]. The first spans 0 to 0.22 m/s, the burger's top speed.
+The second spans -1.5 to 1.5 rad/s: the span of the five discrete rates, on which alone the
+published reward is defined, although the burger could turn at 2.84 rad/s.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.errors import TaskError
+
+Float64 = NDArray[np.float64]
+
+ACTIONS = 5
+LINEAR = 0.15
+ANGULAR_STEP = 0.75
+LINEAR_MAX = 0.22
+ANGULAR_MAX = 1.5
+
+
+def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float64]:
+    """Velocities of discrete actions.
+
+    Args:
+        actions: Whole numbers 0 to 4, shape (nworld,).
+        nworld: Number of worlds.
+
+    Returns:
+        Linear velocity [m/s] and yaw rate [rad/s], each of shape (nworld,).
+
+    Raises:
+        TaskError: Wrong shape, or a number that is not an action.
+    """
+    chosen = np.asarray(actions)
+    if chosen.shape != (nworld,):
+        raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
+    if chosen.dtype.kind not in "iu" or ((chosen < 0) | (chosen >= ACTIONS)).any():
+        raise TaskError(f"actions must be whole numbers from 0 to {ACTIONS - 1}")
+    angular = ((ACTIONS - 1) / 2 - chosen.astype(np.float64)) * ANGULAR_STEP
+    return np.full(nworld, LINEAR), angular
+
+
+def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float64]:
+    """Velocities of continuous actions; numbers outside [-1, 1] are clipped.
+
+    Args:
+        actions: Shape (nworld, 2).
+        nworld: Number of worlds.
+
+    Returns:
+        Linear velocity [m/s] and yaw rate [rad/s], each of shape (nworld,).
+
+    Raises:
+        TaskError: Wrong shape, or NaN.
+    """
+    chosen = np.asarray(actions, dtype=np.float64)
+    if chosen.shape != (nworld, 2):
+        raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld}, 2)")
+    if np.isnan(chosen).any():
+        raise TaskError("actions must be numbers in [-1, 1], not NaN")
+    clipped = np.clip(chosen, -1.0, 1.0)
+    return (clipped[:, 0] + 1.0) * (LINEAR_MAX / 2.0), clipped[:, 1] * ANGULAR_MAX
+
+
+def turn_index(angular: Float64) -> Float64:
+    """Which discrete action turns at this yaw rate, as a real number.
+
+    Args:
+        angular: Yaw rates [rad/s], shape (n,).
+
+    Returns:
+        0 at 1.5 rad/s, 4 at -1.5 rad/s, linear between, shape (n,).
+    """
+    return (ACTIONS - 1) / 2 - angular / ANGULAR_STEP

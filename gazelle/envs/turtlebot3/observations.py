@@ -1,0 +1,95 @@
+"""What a policy of the TurtleBot3 tasks sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+
+from gazelle.envs.decimals import round2
+from gazelle.envs.polar import distance_to, heading_to
+from gazelle.envs.scans import clean_ranges, nearest_obstacle
+from gazelle.envs.turtlebot3.rules import Rules
+
+Float32 = NDArray[np.float32]
+Float64 = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """What n worlds look like to their robots at one moment.
+
+    Attributes:
+        ranges: Cleaned ranges [m], shape (n, samples).
+        nearest: Shortest of them [m], shape (n,).
+        ray: Its index, shape (n,).
+        distance: To the goal, rounded to 0.01 m, shape (n,).
+        heading: Of the goal, rounded to 0.01 rad, shape (n,).
+    """
+
+    ranges: Float64
+    nearest: Float64
+    ray: NDArray[np.intp]
+    distance: Float64
+    heading: Float64
+
+
+def sight(
+    rules: Rules,
+    *,
+    ranges: Float64,
+    range_min: float,
+    position: Float64,
+    yaw: Float64,
+    goal: Float64,
+) -> Sight:
+    """Work out what the robots see.
+
+    Args:
+        rules: Of the stage.
+        ranges: As the lidar reports them [m], shape (n, samples).
+        range_min: The lidar's nearest distance [m].
+        position: Of the robots in the world frame [m], shape (n, 3).
+        yaw: Of the robots [rad], shape (n,).
+        goal: In the world frame [m], shape (n, 2).
+    """
+    cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
+    nearest, ray = nearest_obstacle(cleaned)
+    return Sight(
+        ranges=cleaned,
+        nearest=nearest,
+        ray=ray,
+        distance=round2(distance_to(position, goal)),
+        heading=round2(heading_to(position, yaw, goal)),
+    )
+
+
+def observation(rules: Rules, seen: Sight) -> Float32:
+    """The state: ranges, heading, distance and, if the stage has it, the nearest obstacle.
+
+    Returns:
+        Shape (n, samples + 2) or (n, samples + 4).
+    """
+    columns: list[NDArray[Any]] = [seen.ranges, seen.heading[:, None], seen.distance[:, None]]
+    if rules.sees_obstacle:
+        columns += [round2(seen.nearest)[:, None], seen.ray[:, None]]
+    return np.concatenate(columns, axis=1, dtype=np.float32)
+
+
+def observation_space(rules: Rules, samples: int, *, distance_max: float) -> Box:
+    """The bounds of ``observation``.
+
+    Args:
+        rules: Of the stage.
+        samples: Rays of the lidar.
+        distance_max: Longest distance to a goal [m].
+    """
+    low = [0.0] * samples + [-np.pi, 0.0]
+    high = [rules.range_max] * samples + [np.pi, distance_max]
+    if rules.sees_obstacle:
+        low += [0.0, 0.0]
+        high += [rules.range_max, samples - 1.0]
+    return Box(np.array(low, dtype=np.float32), np.array(high, dtype=np.float32))

@@ -1,0 +1,68 @@
+"""Rewards of the TurtleBot3 DQN tasks (``turtlebot3_machine_learning``, ROS 1)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.envs.decimals import round2
+from gazelle.envs.turtlebot3.rules import Rules
+
+Float64 = NDArray[np.float64]
+Bool = NDArray[np.bool_]
+
+
+def turning_reward(heading: Float64, index: Float64) -> Float64:
+    """How well a turn fits the direction of the goal.
+
+    A triangle wave of ``phi = heading + pi/4 + index * pi/8`` with period 2 pi: 1 where the
+    action turns the robot right at the goal, -1 where it turns it away. The published code
+    knows five whole indices; the formula holds between them as well.
+
+    Args:
+        heading: Of the goal [rad], shape (n,).
+        index: Of the action, 0 (left) to 4 (right), see ``turn_index``, shape (n,).
+
+    Returns:
+        Numbers in [-1, 1], shape (n,).
+    """
+    phi = -np.pi / 4 + heading + np.pi / 8 * index + np.pi / 2
+    turns = 0.25 + np.mod(0.5 * phi, 2.0 * np.pi) / np.pi
+    wave: Float64 = 1.0 - 4.0 * np.abs(0.5 - np.mod(turns, 1.0))
+    return wave
+
+
+def travelling_reward(
+    rules: Rules,
+    *,
+    heading: Float64,
+    index: Float64,
+    distance: Float64,
+    start_distance: Float64,
+    nearest: Float64,
+) -> Float64:
+    """The reward of a step that neither collides nor arrives.
+
+    Args:
+        rules: Of the stage.
+        heading: Of the goal, rounded [rad], shape (n,).
+        index: Of the action, see ``turn_index``, shape (n,).
+        distance: To the goal, rounded [m], shape (n,).
+        start_distance: To this goal when it was set, rounded [m], shape (n,).
+        nearest: Shortest range, rounded [m], shape (n,).
+
+    Returns:
+        ``round(5 * turning_reward, 2) * 2 ** (distance / start_distance)`` plus the obstacle
+        term, shape (n,).
+    """
+    turning = round2(turning_reward(heading, index) * 5.0)
+    rate = np.exp2(distance / start_distance)
+    near = np.where(nearest < rules.obstacle_range, rules.obstacle_reward, 0.0)
+    reward: Float64 = turning * rate + near
+    return reward
+
+
+def overrule(rules: Rules, reward: Float64, *, collided: Bool, reached: Bool) -> Float64:
+    """Put the collision's reward in place of the step's, then the goal's in place of both."""
+    crashed = np.where(collided, rules.collision_reward, reward)
+    return np.where(reached, rules.goal_reward, crashed)

@@ -1,0 +1,193 @@
+"""The TurtleBot3 DQN tasks in many worlds at once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
+from gazelle.envs.decimals import round2
+from gazelle.envs.goals import GoalTable
+from gazelle.envs.options import NavigationSettings, check_name
+from gazelle.envs.polar import distance_to
+from gazelle.envs.turtlebot3.actions import (
+    ACTIONS,
+    continuous_command,
+    discrete_command,
+    turn_index,
+)
+from gazelle.envs.turtlebot3.observations import Sight, observation, observation_space, sight
+from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
+from gazelle.envs.turtlebot3.rules import STAGES, Rules, stage_goals
+from gazelle.envs.turtlebot3.scene import COMMAND, Scene
+from gazelle.envs.turtlebot3.terminations import collided, reached
+from gazelle.errors import TaskError
+from gazelle.rotations import yaw_of
+from gazelle.streams import Stream
+
+_NOT_YET = -1
+_SHORTEST = 0.01
+
+
+class TurtleBot3Task(BatchedTask):
+    """One stage of the TurtleBot3 DQN tasks in ``nworld`` worlds.
+
+    Args:
+        stage: 1 to 4.
+        nworld: Number of worlds.
+        continuous: Whether actions are two real numbers instead of one of five.
+        settings: What the user asks for.
+
+    Raises:
+        TaskError: The stage, the robot or an option does not fit.
+        FormatError: A file cannot be read.
+        EngineError: The world or the robot cannot be simulated.
+    """
+
+    def __init__(
+        self, stage: int, nworld: int, *, continuous: bool, settings: NavigationSettings
+    ) -> None:
+        super().__init__(nworld, settings.max_episode_steps)
+        check_name("stage", str(stage), [str(known) for known in STAGES])
+        if settings.render_mode is not None:
+            raise TaskError(f"there is no render mode '{settings.render_mode}' in this task yet")
+        self.rules = STAGES[stage]
+        self.goals = stage_goals(stage) if settings.goals is None else GoalTable(settings.goals)
+        self.respawn = settings.respawn
+        self.continuous = continuous
+        self.control_period = self.rules.control_period
+        self.scene = Scene(self.rules, settings, nworld)
+        self.observation_space = observation_space(
+            self.rules,
+            settings.lidar_samples,
+            distance_max=_distance_max(self.rules, settings, self.goals),
+        )
+        self.action_space = _action_space(continuous=continuous)
+        self._goal = np.full(nworld, _NOT_YET, dtype=np.intp)
+        self._start_distance = np.ones(nworld)
+        self._goals_reached = np.zeros(nworld, dtype=np.int64)
+        self._seed(self.scene.simulation.seed)
+
+    def close(self) -> None:
+        """Free the simulation; a second call does nothing."""
+        self.scene.simulation.close()
+
+    def _seed(self, seed: int) -> None:
+        self.scene.restart(seed)
+        self._stream = Stream(seed, "turtlebot3/goals", self.nworld)
+        self._goal[:] = _NOT_YET
+
+    def _begin(self, worlds: Worlds) -> None:
+        self.scene.simulation.reset(worlds)
+        self._goals_reached[worlds] = 0
+        if self.respawn:
+            # As published: a goal stays until it is reached, over collisions and time-outs.
+            fresh = worlds[self._goal[worlds] == _NOT_YET]
+            self._goal[fresh] = self.goals.start
+        else:
+            self._goal[worlds] = self.goals.first(self._draw(worlds))
+
+    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+        seen = self._see(worlds)
+        self._start_distance[worlds] = np.maximum(seen.distance, _SHORTEST)
+        no = np.zeros(len(worlds), dtype=np.bool_)
+        return observation(self.rules, seen), self._info(seen, worlds, arrived=no, crashed=no)
+
+    def _act(self, actions: ArrayLike) -> Verdict:
+        linear, angular = self._command(actions)
+        self.scene.robot.inputs[COMMAND].send(linear, angular)
+        self.scene.simulation.run(self.control_period)
+        seen = self._see(None)
+        crashed = collided(self.rules, seen.nearest)
+        arrived = reached(self.rules, seen.distance)
+        reward = travelling_reward(
+            self.rules,
+            heading=seen.heading,
+            index=turn_index(angular),
+            distance=seen.distance,
+            start_distance=self._start_distance,
+            nearest=seen.nearest,
+        )
+        reward = overrule(self.rules, reward, collided=crashed, reached=arrived)
+        self._goals_reached += arrived
+        if self.respawn and arrived.any():
+            self._next_goals(np.flatnonzero(arrived))
+        terminated = crashed if self.respawn else crashed | arrived
+        everywhere = np.arange(self.nworld)
+        info = self._info(seen, everywhere, arrived=arrived, crashed=crashed & ~arrived)
+        return Verdict(observation(self.rules, seen), reward, terminated, info)
+
+    def _command(self, actions: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        if self.continuous:
+            return continuous_command(actions, self.nworld)
+        return discrete_command(actions, self.nworld)
+
+    def _see(self, worlds: Worlds | None) -> Sight:
+        scene = self.scene
+        place = scene.robot.placement(worlds)
+        rows = slice(None) if worlds is None else worlds
+        return sight(
+            self.rules,
+            ranges=scene.robot.sensors[scene.lidar.sensor].measure(worlds),
+            range_min=scene.lidar.lidar.range_min,
+            position=place.position,
+            yaw=yaw_of(place.quaternion),
+            goal=self.goals.points[self._goal[rows]],
+        )
+
+    def _next_goals(self, worlds: Worlds) -> None:
+        self._goal[worlds] = self.goals.after(self._goal[worlds], self._draw(worlds))
+        self._start_distance[worlds] = np.maximum(self._see_distance(worlds), _SHORTEST)
+
+    def _see_distance(self, worlds: Worlds) -> NDArray[np.float64]:
+        position = self.scene.robot.placement(worlds).position
+        return round2(distance_to(position, self.goals.points[self._goal[worlds]]))
+
+    def _draw(self, worlds: Worlds) -> NDArray[np.float64]:
+        """One number a goal: goal k of a world depends on the seed, the world and k alone."""
+        return self._stream.uniform(1, worlds)[:, 0]
+
+    def _info(self, seen: Sight, worlds: Worlds, *, arrived: Bool, crashed: Bool) -> Info:
+        return {
+            "is_success": arrived.copy(),
+            "is_collision": crashed.copy(),
+            "distance": seen.distance,
+            "heading": seen.heading,
+            "goal": self.goals.points[self._goal[worlds]],
+            "goals_reached": self._goals_reached[worlds],
+        }
+
+    def _state(self) -> dict[str, Any]:
+        return {
+            "seed": np.array(self.scene.simulation.seed),
+            "goal": self._goal.copy(),
+            "goal_draws": self._stream.counters.copy(),
+            "goals_reached": self._goals_reached.copy(),
+            "start_distance": self._start_distance.copy(),
+            "simulation": self.scene.simulation.snapshot(),
+        }
+
+    def _set_state(self, state: dict[str, Any]) -> None:
+        self._seed(int(state["seed"]))
+        self.scene.simulation.restore(bytes(state["simulation"]))
+        self._stream.counters[:] = state["goal_draws"]
+        self._goal[:] = state["goal"]
+        self._goals_reached[:] = state["goals_reached"]
+        self._start_distance[:] = state["start_distance"]
+
+
+def _action_space(*, continuous: bool) -> gym.Space[Any]:
+    if continuous:
+        return gym.spaces.Box(-1.0, 1.0, (2,), np.float32)
+    return gym.spaces.Discrete(ACTIONS)
+
+
+def _distance_max(rules: Rules, settings: NavigationSettings, goals: GoalTable) -> float:
+    """The longest distance to a goal [m]; without bound in a world of the user's."""
+    if settings.world is not None:
+        return float("inf")
+    farthest = float(np.hypot(*goals.points.T).max())
+    return max(rules.arena_diagonal, farthest + rules.arena_diagonal / 2.0)

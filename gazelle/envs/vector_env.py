@@ -1,0 +1,199 @@
+"""A batched task as a Gymnasium vector environment."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from gymnasium.vector.utils import batch_space
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Float64, Info, Worlds
+from gazelle.envs.options import check_name
+from gazelle.errors import TaskError
+
+
+class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
+    """A batched task as a Gymnasium vector environment.
+
+    An episode that ends is followed by the next one in the same step
+    (``AutoresetMode.SAME_STEP``): the step returns the first observation of the new episode,
+    ``info["final_obs"]`` the last one of the old, and ``info["final_info"]`` its info, each
+    with a mask (``_final_obs``, ``_final_info``) of the worlds it holds for.
+
+    Args:
+        task: What to wrap; the environment closes it.
+        seed: Of the first episodes when ``reset`` gets none.
+        render_mode: Kept as an attribute.
+
+    Attributes:
+        control_period: Simulated time of one step [s].
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]  # Gymnasium leaves out ClassVar
+        "render_modes": [],
+        "autoreset_mode": AutoresetMode.SAME_STEP,
+    }
+
+    def __init__(
+        self, task: BatchedTask, *, seed: int | None = None, render_mode: str | None = None
+    ) -> None:
+        self.task = task
+        self.num_envs = task.nworld
+        self.single_observation_space = task.observation_space
+        self.single_action_space = task.action_space
+        self.observation_space = batch_space(task.observation_space, task.nworld)
+        self.action_space = batch_space(task.action_space, task.nworld)
+        self.control_period = task.control_period
+        self.render_mode = render_mode
+        self.metadata = {**type(self).metadata, "render_fps": 1.0 / task.control_period}  # type: ignore[misc]
+        self._first_seed = seed
+        self._observation = np.zeros((task.nworld, *task.observation_space.shape), np.float32)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Float32, dict[str, Any]]:
+        """Start new episodes.
+
+        Args:
+            seed: Starts all random numbers over. What world i meets depends on the seed, on i
+                and on what was done in world i alone, never on ``num_envs``.
+            options: ``{"reset_mask": mask}``, booleans of shape (num_envs,), resets only some.
+
+        Raises:
+            TaskError: An option that does not exist, or a mask of the wrong shape.
+        """
+        given = options or {}
+        for name in given:
+            check_name("reset option", name, ["reset_mask"])
+        worlds = _masked(given.get("reset_mask"), self.num_envs)
+        if seed is None and self._np_random is None:
+            seed = self._first_seed if self._first_seed is not None else _fresh_seed()
+        if seed is not None:
+            number = _whole_seed(seed)
+            super().reset(seed=number)
+            self.task.seed(number)
+        observation, info = self.task.begin(worlds)
+        self._observation[worlds] = observation
+        return self._observation.copy(), self._spread(info, worlds)
+
+    def step(self, actions: ArrayLike) -> tuple[Float32, Float64, Bool, Bool, dict[str, Any]]:
+        """Make one control step in every world, and start over where an episode ended.
+
+        Args:
+            actions: Shape (num_envs, ...).
+
+        Raises:
+            TaskError: The actions have the wrong shape or values.
+        """
+        result = self.task.advance(actions)
+        self._observation[:] = result.observation
+        info = dict(result.info)
+        extra: dict[str, Any] = {}
+        done = result.terminated | result.truncated
+        if done.any():
+            worlds = np.flatnonzero(done)
+            extra = _finals(result.observation, result.info, done)
+            first, start = self.task.begin(worlds)
+            self._observation[worlds] = first
+            info = {name: _merged(info[name], start[name], worlds) for name in info}
+        masks = {f"_{name}": np.ones(self.num_envs, dtype=np.bool_) for name in info}
+        return (
+            self._observation.copy(),
+            result.reward,
+            result.terminated,
+            result.truncated,
+            {**info, **masks, **extra},
+        )
+
+    def get_state(self) -> dict[str, Any]:
+        """The whole state, as a dict of arrays and bytes: `set_state` continues from it exactly."""
+        return self.task.get_state()
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Go on from what ``get_state`` returned, in an environment made with the same options.
+
+        Raises:
+            TaskError: The state is of another task or number of worlds.
+        """
+        self.task.set_state(state)
+        if self._np_random is None:
+            super().reset(seed=int(state["seed"]) if "seed" in state else 0)
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Free the simulation."""
+        del kwargs
+        self.task.close()
+
+    def _spread(self, info: Info, worlds: Worlds) -> dict[str, Any]:
+        """Info of some worlds as arrays over all, each with the mask of its worlds."""
+        if len(worlds) == self.num_envs:
+            mask = np.ones(self.num_envs, dtype=np.bool_)
+            return {**info, **{f"_{name}": mask.copy() for name in info}}
+        spread: dict[str, Any] = {}
+        for name, values in info.items():
+            whole = np.zeros((self.num_envs, *values.shape[1:]), dtype=values.dtype)
+            whole[worlds] = values
+            spread[name] = whole
+            spread[f"_{name}"] = np.zeros(self.num_envs, dtype=np.bool_)
+            spread[f"_{name}"][worlds] = True
+        return spread
+
+
+def _finals(observation: Float32, info: Info, done: Bool) -> dict[str, Any]:
+    """``final_obs`` and ``final_info`` as Gymnasium's vector environments give them."""
+    worlds = np.flatnonzero(done)
+    final_obs = np.full(len(done), None, dtype=np.object_)
+    final_obs[worlds] = np.fromiter(observation[worlds], dtype=np.object_, count=len(worlds))
+    final_info: dict[str, Any] = {}
+    for name, values in info.items():
+        kept = np.zeros_like(values)
+        kept[worlds] = values[worlds]
+        final_info[name] = kept
+        final_info[f"_{name}"] = done.copy()
+    return {
+        "final_obs": final_obs,
+        "_final_obs": done.copy(),
+        "final_info": final_info,
+        "_final_info": done.copy(),
+    }
+
+
+def _merged(values: NDArray[Any], start: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
+    """The values with those of the new episodes in their places."""
+    merged = values.copy()
+    merged[worlds] = start
+    return merged
+
+
+def _masked(mask: object, nworld: int) -> Worlds:
+    """The worlds of a reset mask; all without one."""
+    if mask is None:
+        return np.arange(nworld)
+    array = np.asarray(mask)
+    if array.shape != (nworld,) or array.dtype != np.bool_ or not array.any():
+        raise TaskError(
+            f"reset_mask must hold {nworld} booleans, at least one of them True, not {mask!r}"
+        )
+    return np.flatnonzero(array)
+
+
+def _whole_seed(seed: object) -> int:
+    try:
+        number = operator.index(seed)  # type: ignore[arg-type]  # that is what is tested
+    except TypeError as error:
+        raise TaskError(
+            f"seed must be one whole number, not {seed!r}",
+            hint="every world derives its own random numbers from it",
+        ) from error
+    if number < 0:
+        raise TaskError(f"seed must not be negative: {number}")
+    return number
+
+
+def _fresh_seed() -> int:
+    """A seed from the operating system's entropy."""
+    return int(np.random.SeedSequence().generate_state(1)[0])
