@@ -1,0 +1,35 @@
+"""Everything bundled loads through the readers; a warning fails the test (see pyproject.toml)."""
+
+from __future__ import annotations
+
+import pytest
+
+import gazelle
+from gazelle import assets
+
+
+@pytest.mark.parametrize("name", sorted(assets.worlds()))
+def test_worlds_load(name):
+    world = gazelle.load(assets.world(name))
+    assert world.name == "default"
+    assert [light.name for light in world.lights] == ["sun"]
+    assert "ground_plane" in {model.name for model in world.models}
+    assert world.camera is not None
+    assert world.profile.ode.iters == 150
+
+
+@pytest.mark.parametrize("name", sorted(assets.models()))
+def test_models_load(name):
+    world = gazelle.load(assets.models()[name])
+    assert world.models or name == "sun"
+
+
+@pytest.mark.parametrize("name", sorted(assets.robots()))
+def test_robots_load(name):
+    (model,) = gazelle.load(assets.robot(name)).models
+    assert model.name == name
+    joints = {joint.name for joint in model.joints}
+    assert {"wheel_left_joint", "wheel_right_joint"} <= joints
+    assert len(model.plugins) >= 2
+    sensors = {sensor.name for link in model.links for sensor in link.sensors}
+    assert {"imu", "lds_lfcd_sensor"} <= sensors
