@@ -191,6 +191,8 @@ def read_root(root: Parameters, reading: Reading) -> World:
         return World(models=(urdf.read_robot(root, reading),), source=root.source)
     if root.tag in {"sdf", "gazebo"}:
         return sdf.read_sdf(root, reading)
+    if root.tag == "gazebo:world":
+        raise FormatError("worlds of Gazebo before 1.0 cannot be read", source=root.source)
     raise FormatError(
         f"expected <sdf> or <robot>, found <{root.tag}>",
         source=root.source,

@@ -47,7 +47,7 @@ def parse_integer(node: Parameters, text: str, what: str) -> int:
     """Text as a whole number; hexadecimal and a fraction of zero are accepted."""
     word = text.strip()
     try:
-        return int(word, 16) if word.lower().startswith("0x") else int(word)
+        return int(word, 16) if word.lower().startswith("0x") else int(word.rstrip("uU"))
     except ValueError:
         value = parse_real(node, word, what)
     if not math.isfinite(value):

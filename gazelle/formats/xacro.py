@@ -22,7 +22,7 @@ import xacro as engine
 from xacro import substitution_args
 
 from gazelle.description import Parameters, Source
-from gazelle.errors import Error, FormatError
+from gazelle.errors import FormatError
 from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 
@@ -79,8 +79,6 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
         try:
             document = _parse(data, name)
             engine.process_doc(document, mappings=dict(reading.xacro_args))
-        except Error:
-            raise
         except RecursionError:
             raise FormatError("the macros call each other without end", file=name) from None
         except Exception as error:  # expressions in a file may raise anything
@@ -133,7 +131,9 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
 
     def _checked(filename: str) -> Path:
         path = Path(filename)
-        if path.exists() and not reading.resolver.readable(path):
+        if not path.is_file():
+            raise FormatError(f"there is no file '{filename}' to include")
+        if not reading.resolver.readable(path):
             raise FormatError(f"'{filename}' lies outside of the folders that may be read")
         return path
 

@@ -7,6 +7,7 @@ size, depth and number of elements are limited, so that no file can exhaust the 
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -20,6 +21,9 @@ MAX_DEPTH = 256
 MAX_ELEMENTS = 1_000_000
 
 _NAMED = ("name", "reference", "filename")
+_BLANK = b" \t\r\n\xef\xbb\xbf\xff\xfe\x00"
+_FIRST = {b"<"}
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
 
 
@@ -59,8 +63,20 @@ def parse(text: str | bytes, *, name: str) -> Parameters:
         raise FormatError(f"the XML is larger than {MAX_BYTES} bytes", file=name)
     if not data.strip():
         raise FormatError("the file is empty", file=name)
+    if data.lstrip(_BLANK)[:1] not in _FIRST:
+        raise FormatError("this is not XML: it does not begin with '<'", file=name, line=1)
+    data = _declaration_first(data)
     builder = _Builder(name, encoding="utf-8" if isinstance(text, str) else None)
     return builder.read(data)
+
+
+def _declaration_first(data: bytes) -> bytes:
+    """Blanks and comments before the XML declaration moved behind it: Gazebo allows them."""
+    start = data.find(b"<?xml")
+    if start <= 0 or _COMMENT.sub(b"", data[:start]).strip(_BLANK):
+        return data
+    end = data.find(b"?>", start) + 2
+    return data[start:end] + data[:start] + data[end:] if end > 1 else data
 
 
 @dataclass(slots=True)

@@ -87,11 +87,20 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
                 if child.tag == "model"
                 else include(child, version, reading)
             )
-            if inner is not None:
+            if inner is None:
+                draft.scope.missing |= missing_names(child)
+            else:
                 draft.nested.append(inner)
                 add_model(draft.scope, inner)
     draft.scope.canonical = _canonical(draft)
+    draft.scope.name = draft.name
     return draft
+
+
+def missing_names(node: Parameters) -> set[str]:
+    """What an include that was not found may be called; empty stands for any name."""
+    name = values.word(node, "name")
+    return {name} if name else {"", values.word(node, "uri").rstrip("/").rpartition("/")[2]}
 
 
 def add_model(scope: Scope, draft: Draft) -> None:

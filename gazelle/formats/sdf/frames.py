@@ -45,11 +45,16 @@ class Scope:
     Attributes:
         owner: Word for the scope's own frame: ``__model__`` or ``world``.
         canonical: The link that stands for the scope, scoped by ``::``.
+        name: Of the model.
+        missing: Names of included models that were not found; an empty one where the
+            include gives no name, so that it could be any.
         entries: Links, joints, frames and nested models.
     """
 
     owner: str
     canonical: str = ""
+    name: str = ""
+    missing: set[str] = field(default_factory=set)
     entries: dict[str, Entry] = field(default_factory=dict)
     _resolved: dict[str, Pose] = field(default_factory=dict)
     _open: list[str] = field(default_factory=list)
@@ -80,6 +85,9 @@ class Scope:
         """
         if name in {"", self.owner, ROOT}:
             return _IDENTITY
+        name = self.own(name)
+        if self.lacks(name):
+            return _IDENTITY  # the missing include is already reported
         known = self._resolved.get(name)
         if known is not None:
             return known
@@ -114,8 +122,22 @@ class Scope:
             hint=did_you_mean(name, self.entries),
         )
 
+    def lacks(self, name: str) -> bool:
+        """Whether the name leads into an included model that was not found."""
+        head, _, rest = name.partition("::")
+        if not self.missing or head in self.entries:
+            return False
+        unnamed = "" in self.missing and bool(rest) and head != self.name
+        return head in self.missing or unnamed or (head == self.name and self.lacks(rest))
+
+    def own(self, name: str) -> str:
+        """The name without that of this model before it, which old files write."""
+        head, separator, rest = name.partition("::")
+        return rest if separator and head == self.name and head not in self.entries else name
+
     def has(self, name: str) -> bool:
         """Whether the name leads to a frame of this scope or of a nested model."""
+        name = self.own(name)
         if name in self.entries:
             return True
         head, _, rest = name.partition("::")
@@ -130,6 +152,7 @@ class Scope:
         Raises:
             FormatError: There is no such frame, or the frames are attached in a circle.
         """
+        name = self.own(name)
         seen: list[str] = []
         while name not in {"", self.owner, ROOT}:
             if name in seen:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.description import Model, Parameters
+from gazelle.errors import FormatError
 from gazelle.formats import urdf, values, xml
 from gazelle.formats.model_config import entry_file
-from gazelle.formats.reading import Reading
+from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
 from gazelle.formats.sdf.draft import Draft, Version, draft_model
 from gazelle.formats.sdf.frames import Entry, Scope
@@ -39,7 +40,10 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
     found = reading.find(uri, node.find("uri") or node)
     if found is None:
         return None
-    file = entry_file(found)
+    file = _file_of(found)
+    if file is None:
+        reading.misses.append(Miss(uri, node.source, f"the folder {found} names no model file"))
+        return None
     with reading.inside(file, node):
         root = xml.read_file(file)
         if root.tag == "robot":
@@ -52,6 +56,14 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
             if child.tag in KINDS:
                 return Included(child, file, version_of(root, reading))
     raise values.fail(root, "there is no model, light or actor to include")
+
+
+def _file_of(found: Path) -> Path | None:
+    try:
+        file = entry_file(found)
+    except FormatError:
+        return None
+    return file if file.is_file() else None
 
 
 def include_model(node: Parameters, version: Version, reading: Reading) -> Draft | None:

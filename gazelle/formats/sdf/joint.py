@@ -17,12 +17,28 @@ from gazelle.description import (
 )
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
+from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.frames import MODEL, WORLD, Scope
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
 _TYPES: tuple[JointType, ...] = get_args(JointType)
 _AXES: dict[str, int] = {"ball": 0, "fixed": 0, "universal": 2, "revolute2": 2, "gearbox": 2}
+
+
+def read_joints(
+    node: Parameters, scope: Scope, version: tuple[int, int], reading: Reading
+) -> tuple[Joint, ...]:
+    """The joints of a model or world; those of an include that was not found are left out."""
+    joints = []
+    for child in node.find_all("joint"):
+        ends = (values.word(child, "parent"), values.word(child, "child"))
+        lost = next((end for end in ends if scope.lacks(end)), None)
+        if lost is None:
+            joints.append(read_joint(child, scope, version))
+        else:
+            reading.note(f"'{lost}' is of a model that was not found: the joint is left out", child)
+    return tuple(joints)
 
 
 def read_joint(node: Parameters, scope: Scope, version: tuple[int, int]) -> Joint:

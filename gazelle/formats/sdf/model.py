@@ -10,7 +10,7 @@ from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.draft import Draft
 from gazelle.formats.sdf.frames import Scope
-from gazelle.formats.sdf.joint import read_joint
+from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.plugin import read_plugin, read_plugins
 
@@ -47,7 +47,7 @@ def _content(draft: Draft, reading: Reading) -> Model:
         links=tuple(
             read_link(child, scope, reading, static=static) for child in node.find_all("link")
         ),
-        joints=tuple(read_joint(child, scope, draft.version) for child in node.find_all("joint")),
+        joints=read_joints(node, scope, draft.version, reading),
         models=tuple(read_model(inner, scope, reading) for inner in draft.nested),
         frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
         plugins=read_plugins(node),

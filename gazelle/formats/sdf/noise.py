@@ -21,6 +21,8 @@ def read_noise(node: Parameters | None, default: NoiseType = "none") -> Noise:
     if node is None:
         return Noise()
     text = node.attributes.get("type", "") or values.word(node, "type", default)
+    if text == "custom":  # made by a plugin
+        return Noise()
     if text not in _TYPES:
         raise values.fail(
             node, f"unknown noise '{text}'", hint=f"there are: {', '.join(sorted(_TYPES))}"

@@ -17,10 +17,23 @@ from gazelle.description import (
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf import state
-from gazelle.formats.sdf.draft import Draft, Version, add_model, draft_frame, draft_model
+from gazelle.formats.sdf.draft import (
+    Draft,
+    Version,
+    add_model,
+    draft_frame,
+    draft_joint,
+    draft_model,
+    missing_names,
+)
 from gazelle.formats.sdf.frames import WORLD, Scope
-from gazelle.formats.sdf.include import Included, draft_included, include_model, open_include
-from gazelle.formats.sdf.joint import read_joint
+from gazelle.formats.sdf.include import (
+    Included,
+    draft_included,
+    include_model,
+    open_include,
+)
+from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.model import read_frame, read_model
 from gazelle.formats.sdf.physics import read_physics
@@ -58,7 +71,7 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
         scene=read_scene(node.find("scene")),
         lights=tuple(contents.lights),
         frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
-        joints=tuple(read_joint(child, scope, version) for child in node.find_all("joint")),
+        joints=read_joints(node, scope, version, reading),
         plugins=read_plugins(node),
         camera=_camera(node),
         actors=tuple(contents.actors),
@@ -73,12 +86,16 @@ def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
     contents = _Contents()
     for child in node.find_all("frame"):
         draft_frame(child, contents.scope)
+    for child in node.find_all("joint"):
+        draft_joint(child, contents.scope)
     for child in node.children:
         if child.tag == "model":
             _keep(contents, draft_model(child, version, reading, include_model))
         elif child.tag == "include":
             included = open_include(child, reading)
-            if included is not None:
+            if included is None:
+                contents.scope.missing |= missing_names(child)
+            else:
                 _keep_included(contents, child, included, reading)
         elif child.tag == "light":
             contents.lights.append(_light(child, contents.scope))

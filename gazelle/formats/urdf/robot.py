@@ -32,7 +32,7 @@ from gazelle.formats.urdf.parts import (
     read_visuals,
 )
 from gazelle.formats.urdf.transmission import read_transmission
-from gazelle.formats.urdf.tree import WORLD, Body, bodies, read_tree
+from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, bodies, read_tree
 
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "projector"}
 
@@ -45,16 +45,14 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     Raises:
         FormatError: The robot is not a tree, has no mass, or an element is wrong.
     """
-    name = values.attribute(root, "name")
+    name = root.attributes.get("name", "")
+    if not name:
+        raise values.fail(root, "the attribute 'name' is required in <robot>", hint=ONLY_MACROS)
     tree = read_tree(root, reading)
     extensions = read_extensions(root)
     note_unused(extensions, set(tree.links), set(tree.joints), reading)
     robot = Robot(extensions, _paints(root, reading), reading)
-    kept = _with_mass(bodies(tree, extensions), reading)
-    if not kept:
-        raise values.fail(
-            root, "no link has a mass", hint="add an <inertial> to the links that shall move"
-        )
+    kept = _with_mass(bodies(tree, extensions), root, reading)
     model = Model(
         name=name,
         pose=read_origin(root.find("origin")),
@@ -80,8 +78,18 @@ def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
     return paints
 
 
-def _with_mass(found: list[Body], reading: Reading) -> list[Body]:
-    """Bodies that have a mass and hang on one that has; the rest is noted and left out."""
+def _with_mass(found: list[Body], root: Parameters, reading: Reading) -> list[Body]:
+    """Bodies that have a mass and hang on one that has; the rest is noted and left out.
+
+    A robot with no mass at all is kept whole: it can still be shown and planned for.
+    """
+    if all(body_inertial(body) is None for body in found):
+        reading.note(
+            "no link has a mass: the robot can be shown and planned for, but not simulated",
+            root,
+            "add an <inertial> to each link that shall move",
+        )
+        return found
     kept: list[Body] = []
     gone: set[str] = set()
     for body in found:

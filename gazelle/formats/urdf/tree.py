@@ -17,6 +17,7 @@ from gazelle.formats.urdf.extensions import Extensions
 from gazelle.formats.urdf.joint import UrdfJoint, read_joint
 
 WORLD = "world"
+ONLY_MACROS = "a xacro file that only defines macros is meant to be included by another"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +87,7 @@ def read_tree(root: Parameters, reading: Reading) -> Tree:
         _refuse_twice(node, name, links)
         links[name] = UrdfLink(name, read_inertial(node.find("inertial")), node)
     if not links:
-        raise values.fail(root, "a <robot> needs a <link>")
+        raise values.fail(root, "a <robot> needs a <link>", hint=ONLY_MACROS)
     joints: dict[str, UrdfJoint] = {}
     for node in root.find_all("joint"):
         joint = read_joint(node, reading)
