@@ -12,6 +12,7 @@ import argparse
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from gazelle.cli import showing
 from gazelle.cli.parsing import (
@@ -74,11 +75,16 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _tell_files(options: dict[str, object]) -> None:
+def _tell_files(options: dict[str, Any]) -> None:
     """Say which files are loaded."""
     from gazelle import assets
 
-    world = options.get("world") or assets.world(_WORLD)
-    robot = options.get("robot") or assets.robot(_ROBOT)
+    world = _file(options.get("world", _WORLD), assets.worlds())
+    robot = _file(options.get("robot", _ROBOT), assets.robots())
     sys.stdout.write(f"world:    {world}\nrobot:    {robot}\n")
     sys.stdout.flush()
+
+
+def _file(name: str, bundled: dict[str, Path]) -> str:
+    """The file that a name or path means."""
+    return str(bundled.get(name, name))

@@ -6,6 +6,7 @@ import argparse
 import json
 import shutil
 import sys
+from pathlib import Path
 from typing import Any, NoReturn
 
 from gazelle.errors import did_you_mean
@@ -98,7 +99,9 @@ def environment_options(args: argparse.Namespace) -> dict[str, Any]:
     for name in ("engine", "world", "robot"):
         value = getattr(args, name, None)
         if value is not None:
-            options[name] = value
+            # A run must find its files again, wherever it is evaluated from.
+            file = name != "engine" and Path(value).exists()
+            options[name] = str(Path(value).resolve()) if file else value
     return options
 
 

@@ -88,7 +88,8 @@ def evaluate(
         seed: Seed of the environment.
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
-        options: Options of the environment that differ from the run's.
+        options: Options of the environment that differ from the run's and from its
+            recipe's ``evaluation_options``.
 
     Raises:
         TaskError: A number is below 1, no task is given, or the policy does not fit it.
@@ -177,7 +178,8 @@ def _resolve(
     if isinstance(run_or_policy, str | Path) and Path(run_or_policy).suffix != ".npz":
         run = Run.open(Path(run_or_policy))
         given = {key: value for key, value in options.items() if value is not None}
-        return load_actor(run.policy_file()), task or run.config.task, run.config.options | given
+        known = run.config.options | dict(run.config.recipe.evaluation_options)
+        return load_actor(run.policy_file()), task or run.config.task, known | given
     if task is None:
         raise TaskError("a policy alone does not tell its task", hint="give the task as well")
     if isinstance(run_or_policy, Actor):

@@ -7,7 +7,8 @@ recipe, its seed and the options of its environment.
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from gazelle.errors import TaskError, did_you_mean
@@ -87,6 +88,8 @@ class Recipe:
     """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
     scale_observations: bool = True
     """Whether observations with finite bounds are mapped to [-1, 1] before the first layer."""
+    evaluation_options: Mapping[str, Any] = field(default_factory=dict)
+    """Options of the environment that evaluations set differently from the training."""
     settings: PPOSettings | OffPolicySettings = PPOSettings()
     """What only this algorithm knows."""
 
@@ -106,7 +109,8 @@ class Recipe:
             raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")
 
 
-_NAVIGATION = Recipe(reward_scale=0.02)
+# An evaluation counts how the way to one goal ends, so it must not go on to the next.
+_NAVIGATION = Recipe(reward_scale=0.02, evaluation_options={"respawn": False})
 
 RECIPES: dict[str, Recipe] = {
     "CartPole": Recipe(
@@ -186,7 +190,12 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     base = _OFF_POLICY[algo]
     if own is None:
         return base
-    return dataclasses.replace(base, gamma=own.gamma, reward_scale=own.reward_scale)
+    return dataclasses.replace(
+        base,
+        gamma=own.gamma,
+        reward_scale=own.reward_scale,
+        evaluation_options=own.evaluation_options,
+    )
 
 
 def task_name(task: str) -> str:

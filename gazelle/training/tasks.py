@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -99,12 +100,25 @@ def control_period(env: VectorEnv[Any, Any, Any]) -> float | None:
 
 
 def plain_options(options: dict[str, Any]) -> dict[str, Any]:
-    """Options as values that JSON can hold: paths become absolute, those that are None go."""
-    return {
+    """Options as values that JSON can hold: paths become absolute, those that are None go.
+
+    Raises:
+        TaskError: A value cannot be written to a run's configuration.
+    """
+    plain = {
         key: str(value.resolve()) if isinstance(value, Path) else value
         for key, value in options.items()
         if value is not None
     }
+    for key, value in plain.items():
+        try:
+            json.dumps(value)
+        except (TypeError, ValueError) as error:
+            raise TaskError(
+                f"the option {key} is a {type(value).__name__}, which no run can keep",
+                hint="give numbers, text, lists or the path of a file",
+            ) from error
+    return plain
 
 
 def _register() -> None:

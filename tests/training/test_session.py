@@ -197,6 +197,18 @@ def test_an_unknown_option_is_refused(tmp_path):
         train("test/Corridor-v0", out=tmp_path, lidar_samples=24)
 
 
+def test_an_option_that_no_file_can_hold_is_refused(tmp_path):
+    with pytest.raises(TaskError, match="option tell is a object"):
+        train("test/Corridor-v0", out=tmp_path, tell=object())
+
+
+def test_evaluations_use_the_recipes_own_options(tmp_path, tiny):
+    recipe = dataclasses.replace(tiny, evaluation_options={"limit": 3})
+    result = train("test/Corridor-v0", recipe=recipe, out=tmp_path)
+    assert evaluate(result.run.folder, episodes=20).mean_length <= 3
+    assert evaluate(result.run.folder, episodes=20, limit=25).mean_length > 3
+
+
 def test_an_unknown_task_suggests_the_closest():
     with pytest.raises(TaskError, match="there is no task"):
         train("Coridor")
