@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gazelle.description import Inertial, Model, World
+from gazelle.description import Inertial, Model, Pose, World
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.surfaces import ContactTerms, friction_ranks, surface_options
@@ -140,6 +140,10 @@ class _Builder:
             self._exclude_own(self._bodies[model.name])
 
     def _add_body(self, parent: Any, body: Body) -> Any:
+        if body.root == "static":
+            # Shapes of the world itself: one body is faster than hundreds that never move.
+            self._add_shapes(parent, body, body.pose)
+            return parent
         x, y, z, w = body.pose.quaternion
         handle = parent.add_body(name=body.name, pos=list(body.pose.position), quat=[w, x, y, z])
         if body.root == "kinematic":
@@ -148,13 +152,18 @@ class _Builder:
             handle.add_freejoint(name=body.name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
         if body.joint is not None:
             add_joint(handle, body.joint_name, body.joint, self._time_step)
-        if body.root not in ("static", "kinematic"):
+        if body.root != "kinematic":
             _set_inertial(handle, body)
+        self._add_shapes(handle, body, Pose())
+        return handle
+
+    def _add_shapes(self, handle: Any, body: Body, pose: Pose) -> None:
+        """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
             surface = surface_options(collision, self._terms, self._ranks)
-            for shape in self._shapes.options(collision.geometry, collision.pose, collision.source):
+            placed = pose * collision.pose
+            for shape in self._shapes.options(collision.geometry, placed, collision.source):
                 handle.add_geom(group=COLLISION_GROUP, mass=0.0, **surface, **shape)
-        return handle
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""

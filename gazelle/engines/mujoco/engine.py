@@ -149,6 +149,11 @@ class MujocoEngine:
             position = self._batch.mocap_pos[rows, slot.mocap].copy()
             q = self._batch.mocap_quat[rows, slot.mocap]
             return Placement(position, xyzw_from_wxyz(q))
+        if slot.root == "static":
+            count = self._nworld if worlds is None else len(worlds)
+            return Placement(
+                np.tile(slot.pose.position, (count, 1)), np.tile(slot.pose.quaternion, (count, 1))
+            )
         self._refresh()
         position = self._batch.xpos[rows, slot.body].copy()
         return Placement(position, xyzw_from_wxyz(self._batch.xquat[rows, slot.body]))
@@ -161,6 +166,9 @@ class MujocoEngine:
             v = self._batch.qvel[rows, slot.free.velocity]
             turned = rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
             return Motion(v[:, :3].copy(), turned)
+        if slot.root is not None:
+            still = np.zeros((self._nworld if worlds is None else len(worlds), 3))
+            return Motion(still, still.copy())
         self._refresh()
         # MuJoCo's cvel is about the centre of mass of the whole tree.
         spatial = self._batch.cvel[rows, slot.body]

@@ -36,7 +36,7 @@ class LinkSlot:
     """One link.
 
     Attributes:
-        body: MuJoCo's body index.
+        body: MuJoCo's body index; the world's for a static link.
         root: How it moves, if it is the root of its tree.
         free: Columns of its free joint, if it has one.
         mocap: Row in ``mocap_pos``, if it is kinematic.
@@ -133,7 +133,7 @@ def layout_of(compiled: Compiled) -> Layout:
 
 
 def _link_slot(model: mujoco.MjModel, body: Body) -> LinkSlot:
-    index = model.body(body.name).id
+    index = 0 if body.root == "static" else model.body(body.name).id
     free = _slot(model, model.joint(body.name).id) if body.root == "free" else None
     mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
     return LinkSlot(index, body.root, free, mocap, body.pose)

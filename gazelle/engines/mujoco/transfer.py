@@ -29,7 +29,8 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
             pose = old.qpos[:, former.free.position]
             new.mocap_pos[:, link.mocap] = pose[:, :3]
             new.mocap_quat[:, link.mocap] = pose[:, 3:]
-        new.xfrc_applied[:, link.body] = old.xfrc_applied[:, former.body]
+        if link.body and former.body:
+            new.xfrc_applied[:, link.body] = old.xfrc_applied[:, former.body]
     for name, column in new_layout.motors.items():
         if name in old_layout.motors:
             new.ctrl[:, column] = old.ctrl[:, old_layout.motors[name]]
