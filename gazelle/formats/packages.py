@@ -11,7 +11,7 @@ from gazelle.errors import FormatError
 from gazelle.formats import xml
 
 MAX_DEPTH = 5
-MAX_FOLDERS = 20_000
+MAX_FOLDERS = 5_000
 
 _SKIPPED = {"node_modules", "__pycache__", "site-packages", "build", "install", "log", "venv"}
 

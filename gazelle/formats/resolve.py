@@ -1,6 +1,8 @@
 """Where the files behind ``model://``, ``package://``, ``file://`` and relative names are.
 
-Nothing is ever fetched from a network, and only files below folders that the user gave
+For a model the folders given are searched, then those around the file that name it
+directly, then what comes with Gazelle, and last all folders around the file; for a package
+what comes with Gazelle is last. Nothing is ever fetched from a network, and only files below folders that the user gave
 (as arguments or in the environment), below the folders around the file being read, and
 those that come with Gazelle are opened.
 """
@@ -173,12 +175,12 @@ class Resolver:
             for folder in (root, root / name, root / "src" / name):
                 if (folder / "package.xml").is_file() and packages.package_name(folder) == name:
                     return folder
-        for root in self._scan_roots():
-            found = self._index(root).packages.get(name)
-            if found is not None:
-                return found
         bundled = self.assets / name
-        return bundled if (bundled / "package.xml").is_file() else None
+        return (
+            self._scanned(self._given_roots(), "packages", name)
+            or self._scanned(self._around[::-1], "packages", name)
+            or (bundled if (bundled / "package.xml").is_file() else None)
+        )
 
     def _find_model(self, name: str) -> Path | None:
         if not _plain_name(name):
@@ -187,12 +189,21 @@ class Resolver:
             for folder in (root / name, root / "models" / name, root):
                 if folder.name == name and (folder / "model.config").is_file():
                     return folder
-        for root in self._scan_roots():
-            found = self._index(root).models.get(name)
+        bundled = self.assets / "models" / name
+        return (
+            self._scanned(self._given_roots(), "models", name)
+            or (bundled if (bundled / "model.config").is_file() else None)
+            or self._scanned(self._around[::-1], "models", name)
+        )
+
+    def _scanned(self, roots: list[Path], kind: str, name: str) -> Path | None:
+        """A package or model anywhere below the roots: the dearest search, so the last."""
+        for root in roots:
+            index = self._index(root)
+            found = (index.models if kind == "models" else index.packages).get(name)
             if found is not None:
                 return found
-        bundled = self.assets / "models" / name
-        return bundled if (bundled / "model.config").is_file() else None
+        return None
 
     def _index(self, root: Path) -> packages.Index:
         if root not in self._indices:
@@ -224,8 +235,8 @@ class Resolver:
         ]
         return [*self.paths, *self._variable_roots, *exported, *self._around]
 
-    def _scan_roots(self) -> list[Path]:
-        return [*self.paths, *self._split(PACKAGE_VARIABLE), *self._around[::-1]]
+    def _given_roots(self) -> list[Path]:
+        return [*self.paths, *self._split(PACKAGE_VARIABLE)]
 
     def _readable_roots(self) -> list[Path]:
         roots = [*self._model_roots(), *self._split(PACKAGE_VARIABLE), self.assets]

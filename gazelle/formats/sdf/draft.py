@@ -78,10 +78,8 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
         node.attributes.get("placement_frame", ""),
     )
     for child in node.children:
-        drafter = _DRAFTERS.get(child.tag)
-        if drafter is not None:
-            drafter(child, draft.scope)
-        elif child.tag in {"model", "include"}:
+        draft_part(child, draft.scope)
+        if child.tag in {"model", "include"}:
             inner = (
                 draft_model(child, version, reading, include)
                 if child.tag == "model"
@@ -108,6 +106,13 @@ def add_model(scope: Scope, draft: Draft) -> None:
     scope.add(draft.name, Entry(draft.node, draft.placed, draft.relative_to, scope=draft.scope))
 
 
+def draft_part(node: Parameters, scope: Scope) -> None:
+    """The frame of a link, joint or frame; nothing for other elements."""
+    drafter = _DRAFTERS.get(node.tag)
+    if drafter is not None:
+        drafter(node, scope)
+
+
 def draft_link(node: Parameters, scope: Scope) -> None:
     """A link's frame."""
     pose = node.find("pose")
@@ -129,6 +134,20 @@ def draft_frame(node: Parameters, scope: Scope) -> None:
     attached = node.attributes.get("attached_to", "")
     name = values.attribute(node, "name")
     scope.add(name, Entry(node, read_pose(pose), frame_of(pose) or attached, attached))
+
+
+def name_frames(scope: Scope, model: Model) -> None:
+    """Put the links, frames and joints of a model that is already read into a scope."""
+    for link in model.links:
+        place = Parameters("link", source=link.source)
+        scope.add(link.name, Entry(place, link.pose))
+    for frame in model.frames:
+        place = Parameters("frame", source=frame.source)
+        entry = Entry(place, frame.pose, frame.attached_to, frame.attached_to)
+        scope.add(frame.name, entry)
+    for joint in model.joints:
+        place = Parameters("joint", source=joint.source)
+        scope.add(joint.name, Entry(place, joint.pose, joint.child, joint.child))
 
 
 _DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {

@@ -11,8 +11,7 @@ from gazelle.formats import urdf, values, xml
 from gazelle.formats.model_config import entry_file
 from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
-from gazelle.formats.sdf.draft import Draft, Version, draft_model
-from gazelle.formats.sdf.frames import Entry, Scope
+from gazelle.formats.sdf.draft import Draft, Version, draft_model, name_frames
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
 KINDS = ("model", "light", "actor")
@@ -104,20 +103,6 @@ def draft_read(node: Parameters, model: Model) -> Draft:
     name_frames(draft.scope, model)
     draft.scope.canonical = model.canonical_link or (model.links[0].name if model.links else "")
     return draft
-
-
-def name_frames(scope: Scope, model: Model) -> None:
-    """Put the links, frames and joints of a model that is already read into a scope."""
-    for link in model.links:
-        place = Parameters("link", source=link.source)
-        scope.add(link.name, Entry(place, link.pose))
-    for frame in model.frames:
-        place = Parameters("frame", source=frame.source)
-        entry = Entry(place, frame.pose, frame.attached_to, frame.attached_to)
-        scope.add(frame.name, entry)
-    for joint in model.joints:
-        place = Parameters("joint", source=joint.source)
-        scope.add(joint.name, Entry(place, joint.pose, joint.child, joint.child))
 
 
 def version_of(root: Parameters, reading: Reading) -> Version:

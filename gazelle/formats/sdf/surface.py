@@ -12,6 +12,8 @@ from gazelle.description import (
 )
 from gazelle.formats import values
 
+NO_SLIP = 1e9
+
 
 def read_surface(node: Parameters | None) -> Surface:
     """All contact properties of a collision; SDF's defaults where the file says nothing."""
@@ -29,13 +31,19 @@ def read_friction(node: Parameters | None) -> Friction:
     if node is None:
         return Friction()
     return Friction(
-        mu=values.real(node, "ode/mu", values.real(node, "bullet/friction", 1.0)),
-        mu2=values.real(node, "ode/mu2", values.real(node, "bullet/friction2", 1.0)),
+        mu=_coefficient(node, "ode/mu", "bullet/friction"),
+        mu2=_coefficient(node, "ode/mu2", "bullet/friction2"),
         fdir1=values.vector(node, "ode/fdir1", (0.0, 0.0, 0.0)),
         slip1=values.real(node, "ode/slip1", 0.0),
         slip2=values.real(node, "ode/slip2", 0.0),
         torsional=read_torsional(node.find("torsional")),
     )
+
+
+def _coefficient(node: Parameters, ode: str, bullet: str) -> float:
+    """A coefficient of friction; Gazebo takes a negative one as "no slip"."""
+    value = values.real(node, ode, values.real(node, bullet, 1.0))
+    return NO_SLIP if value < 0.0 else value
 
 
 def read_torsional(node: Parameters | None) -> TorsionalFriction | None:

@@ -36,7 +36,7 @@ JOINT = {
 """Children on a joint."""
 
 MODEL = {
-    "allow_auto_disable", "canonicalBody", "enable_wind", "gripper", "joint", "plugin",
+    "allow_auto_disable", "canonicalBody", "enable_wind", "gripper", "joint", "link", "plugin",
     "self_collide", "static",
 }  # fmt: skip
 """Children of a ``<gazebo>`` without a reference."""

@@ -15,9 +15,10 @@ from gazelle.description import (
 )
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
-from gazelle.formats.sdf.frames import MODEL, Entry, Scope
-from gazelle.formats.sdf.joint import read_joint as read_sdf_joint
-from gazelle.formats.sdf.joint import read_joint_physics
+from gazelle.formats.sdf.draft import draft_part, name_frames
+from gazelle.formats.sdf.frames import MODEL, Scope
+from gazelle.formats.sdf.joint import read_joint_physics, read_joints
+from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
@@ -62,7 +63,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
         transmissions=tuple(map(read_transmission, root.find_all("transmission"))),
         source=root.source,
     )
-    return _with_model_extensions(model, extensions)
+    return _with_model_extensions(model, robot)
 
 
 def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
@@ -208,14 +209,18 @@ def _physics(joint: str, extensions: Extensions) -> JointPhysics:
     )
 
 
-def _with_model_extensions(model: Model, extensions: Extensions) -> Model:
-    """Plugins, closing joints and flags of ``<gazebo>`` elements without a reference.
+def _with_model_extensions(model: Model, robot: Robot) -> Model:
+    """Plugins, SDF links and joints, and flags of ``<gazebo>`` elements without a reference.
 
     Plugins on a link become the model's, as Gazebo runs them there.
     """
+    extensions = robot.extensions
     nodes = list(extensions.of(""))
     sdf = Parameters("model", children=tuple(reversed(nodes)))
-    scope = _scope(model)
+    scope = Scope(MODEL, canonical=model.links[0].name)
+    name_frames(scope, model)
+    for node in nodes:
+        draft_part(node, scope)
     static = extensions.yes("", "static")
     plugins = [node for node in nodes if node.tag == "plugin"]
     for reference in extensions.by_reference:
@@ -227,9 +232,13 @@ def _with_model_extensions(model: Model, extensions: Extensions) -> Model:
         self_collide=values.flag(sdf, "self_collide", default=False),
         allow_auto_disable=values.flag(sdf, "allow_auto_disable", default=True),
         enable_wind=values.flag(sdf, "enable_wind", default=False),
+        links=(
+            *model.links,
+            *(read_link(node, scope, robot.reading) for node in nodes if node.tag == "link"),
+        ),
         joints=(
             *model.joints,
-            *(read_sdf_joint(node, scope, (1, 7)) for node in nodes if node.tag == "joint"),
+            *read_joints(Parameters("model", children=tuple(nodes)), scope, (1, 7), robot.reading),
         ),
         plugins=tuple(map(read_plugin, plugins)),
         extras=tuple(node for node in nodes if node.tag == "gripper"),
@@ -243,16 +252,3 @@ def _fixed_whole(model: Model) -> bool:
         if joint.type == "fixed" and joint.parent in held:
             held.add(joint.child)
     return all(link.name in held for link in model.links)
-
-
-def _scope(model: Model) -> Scope:
-    scope = Scope(MODEL, canonical=model.links[0].name)
-    for link in model.links:
-        scope.add(link.name, Entry(Parameters("link", source=link.source), link.pose))
-    for frame in model.frames:
-        node = Parameters("frame", source=frame.source)
-        scope.add(frame.name, Entry(node, frame.pose, frame.attached_to, frame.attached_to))
-    for extra in model.joints:
-        node = Parameters("joint", source=extra.source)
-        scope.add(extra.name, Entry(node, extra.pose, extra.child, extra.child))
-    return scope
