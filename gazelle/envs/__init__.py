@@ -1,4 +1,6 @@
-"""Gymnasium environments. Importing this registers them::
+"""Gymnasium environments, registered when this is imported.
+
+::
 
     import gymnasium as gym
     import gazelle.envs

@@ -13,7 +13,7 @@ from gazelle.envs.options import check_name
 from gazelle.envs.vector_env import TaskVectorEnv
 
 
-class TaskEnv(gym.Env[Float32, Any]):
+class TaskEnv(gym.Env[Any, Any]):
     """A batched task of one world as a Gymnasium environment.
 
     It is world 0 of the vector environment: the same seed and actions give the same bits.

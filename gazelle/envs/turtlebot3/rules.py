@@ -35,7 +35,7 @@ class Rules:
     world: str
     start: tuple[float, float] = (0.0, 0.0)
     control_period: float = 0.2
-    time_step: float = 0.001
+    time_step: float = 0.02
     range_max: float = 3.5
     collision_range: float = 0.13
     goal_distance: float = 0.2

@@ -1,0 +1,26 @@
+"""Whole arrays round as Python rounds single numbers."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gazelle.envs.decimals import round2
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=20))
+def test_is_python_round_bit_for_bit(values):
+    assert round2(values).tolist() == [round(value, 2) for value in values]
+
+
+@given(st.integers(-100_000, 100_000))
+def test_is_python_round_next_to_ties(thousandths):
+    near = np.nextafter(thousandths / 1000, [-np.inf, np.inf])
+    values = [thousandths / 1000, *near.tolist()]
+    assert round2(values).tolist() == [round(value, 2) for value in values]
+
+
+def test_settles_what_numpy_gets_wrong():
+    values = np.arange(100_000) / 1000
+    wrong = np.flatnonzero(np.round(values, 2) != [round(value, 2) for value in values.tolist()])
+    assert len(wrong) > 0
+    assert round2(values[wrong]).tolist() == [round(v, 2) for v in values[wrong].tolist()]
