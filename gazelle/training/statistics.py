@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.training.stepper import OUTCOMES, Episodes
+from gazelle.training.stepper import Episodes
 
 _Z_95 = 1.959963984540054
+_COLUMNS = ("return", "length", "goals", "attempts", "collision_rate", "timeout_rate")
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,28 +68,40 @@ class EpisodeLog:
     def __init__(self, window: int = 200) -> None:
         self.window = window
         self.total = 0
-        self._rows: npt.NDArray[np.float64] = np.zeros((0, 2 + len(OUTCOMES)))
+        self._rows: npt.NDArray[np.float64] = np.zeros((0, len(_COLUMNS)))
 
     def add(self, episodes: Episodes) -> None:
         """Take in the episodes that ended in one step."""
-        missing = np.full(len(episodes.slots), np.nan)
-        columns = [episodes.returns, episodes.lengths]
-        columns += [episodes.outcomes.get(name, missing) for name in OUTCOMES]
-        rows = np.column_stack([np.asarray(column, dtype=np.float64) for column in columns])
+        unknown = np.full(len(episodes.slots), np.nan)
+        known = {name: values.astype(np.float64) for name, values in episodes.outcomes.items()}
+        success = known.get("is_success", unknown)
+        columns = {
+            "return": episodes.returns,
+            "length": episodes.lengths,
+            "goals": np.where(np.isnan(success), np.nan, episodes.goals),
+            "attempts": episodes.goals + 1.0 - success,
+            "collision_rate": known.get("is_collision", unknown),
+            "timeout_rate": known.get("is_timeout", unknown),
+        }
+        rows = np.column_stack([columns[name] for name in _COLUMNS])
         self._rows = np.concatenate([self._rows, rows])[-self.window :]
         self.total += len(rows)
 
     def summary(self) -> dict[str, float]:
-        """Means over the window: ``return``, ``length``, and a rate for each known outcome."""
+        """What the window shows, as far as the environment tells it.
+
+        ``return`` and ``length`` are means over episodes, ``collision_rate`` and
+        ``timeout_rate`` shares of episodes. ``success_rate`` is the share of goals that
+        were reached: every goal reached is a success, every episode that ends without
+        reaching its last goal is a failure. With one goal an episode that is the share
+        of episodes.
+        """
         if not len(self._rows):
             return {}
-        names = ["return", "length", "success_rate", "collision_rate", "timeout_rate"]
-        means = self._rows.mean(axis=0)
-        return {
-            name: float(mean)
-            for name, mean in zip(names, means, strict=True)
-            if not math.isnan(mean)
-        }
+        means = dict(zip(_COLUMNS, self._rows.mean(axis=0).tolist(), strict=True))
+        goals, attempts = means.pop("goals"), means.pop("attempts")
+        means["success_rate"] = goals / attempts
+        return {name: mean for name, mean in means.items() if not math.isnan(mean)}
 
     def get_state(self) -> dict[str, Any]:
         """The account, for a checkpoint."""

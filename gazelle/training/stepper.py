@@ -43,7 +43,9 @@ class Episodes:
     lengths: npt.NDArray[np.int64]
     """Control steps."""
     outcomes: dict[str, Bools]
-    """For each name in `OUTCOMES` that the environment reports: whether it holds."""
+    """For each name in `OUTCOMES` that the environment reports: whether it holds at the end."""
+    goals: npt.NDArray[np.int64]
+    """Steps with ``is_success``: more than one where an episode goes on to the next goal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +89,7 @@ class Stepper:
         self._resetting = np.zeros(self.num_envs, dtype=np.bool_)
         self._returns = np.zeros(self.num_envs)
         self._lengths = np.zeros(self.num_envs, dtype=np.int64)
+        self._goals = np.zeros(self.num_envs, dtype=np.int64)
 
     def reset(self, *, seed: int | None = None) -> Floats:
         """Start all episodes anew and return the first observations, shape (N, ...)."""
@@ -94,6 +97,7 @@ class Stepper:
         self._resetting[:] = False
         self._returns[:] = 0.0
         self._lengths[:] = 0
+        self._goals[:] = 0
         self.obs = np.array(obs, dtype=np.float32)
         return self.obs
 
@@ -111,6 +115,8 @@ class Stepper:
         done = terminated | truncated
         self._returns += rewards
         self._lengths += valid
+        if "is_success" in info:
+            self._goals += np.asarray(info["is_success"], dtype=np.bool_) & valid & ~done
         obs = np.array(obs, dtype=np.float32)
         final_obs, ended = None, None
         if done.any():
@@ -130,6 +136,7 @@ class Stepper:
             "resetting": self._resetting,
             "returns": self._returns,
             "lengths": self._lengths,
+            "goals": self._goals,
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
@@ -138,6 +145,7 @@ class Stepper:
         self._resetting = np.array(state["resetting"], dtype=np.bool_)
         self._returns = np.array(state["returns"], dtype=np.float64)
         self._lengths = np.array(state["lengths"], dtype=np.int64)
+        self._goals = np.array(state["goals"], dtype=np.int64)
 
     def _last(
         self, obs: Floats, info: dict[str, Any], slots: npt.NDArray[np.intp]
@@ -161,7 +169,9 @@ class Stepper:
             for name in OUTCOMES
             if name in info
         }
-        ended = Episodes(slots, self._returns[slots], self._lengths[slots], outcomes)
+        goals = self._goals[slots] + outcomes.get("is_success", np.zeros(len(slots), np.bool_))
+        ended = Episodes(slots, self._returns[slots], self._lengths[slots], outcomes, goals)
         self._returns[slots] = 0.0
         self._lengths[slots] = 0
+        self._goals[slots] = 0
         return ended

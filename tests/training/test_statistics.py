@@ -22,13 +22,15 @@ def test_nothing_counted_means_nothing_known():
     assert Rate(0, 0).value == 0.0
 
 
-def episodes(returns, **outcomes):
+def episodes(returns, goals=None, **outcomes):
     count = len(returns)
+    reached = outcomes.get("is_success", [False] * count)
     return Episodes(
         np.arange(count),
         np.array(returns, dtype=float),
         np.full(count, 7),
         {name: np.array(values) for name, values in outcomes.items()},
+        np.array(reached if goals is None else goals).astype(np.int64),
     )
 
 
@@ -49,3 +51,9 @@ def test_log_continues_from_its_state():
 
 def test_log_without_episodes_has_nothing_to_say():
     assert EpisodeLog().summary() == {}
+
+
+def test_success_is_the_share_of_goals_where_episodes_go_on_to_the_next():
+    log = EpisodeLog()
+    log.add(episodes([1.0, 2.0, 3.0], goals=[0, 4, 3], is_success=[False, False, True]))
+    assert log.summary()["success_rate"] == pytest.approx(7 / 9)

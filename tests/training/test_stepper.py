@@ -72,6 +72,25 @@ def test_outcomes_are_told_apart(mode):
         assert (outcomes["is_timeout"] == step.truncated[step.ended.slots]).all()
 
 
+def test_goals_reached_on_the_way_are_counted():
+    """Every third step reaches a goal; the flags of a new episode's start must not count."""
+    env = Corridor(4, limit=9)
+    step = env.step
+
+    def on_to_the_next(actions):
+        *rest, info = step(actions)
+        if "final_info" in info:
+            info["final_info"]["is_success"] = np.zeros(4, dtype=bool)
+        return (*rest, info | {"is_success": env.steps % 3 == 0})
+
+    env.step = on_to_the_next
+    ended = [step.ended for step in play(Stepper(env), 60) if step.ended is not None]
+    lengths = np.concatenate([episodes.lengths for episodes in ended])
+    goals = np.concatenate([episodes.goals for episodes in ended])
+    np.testing.assert_array_equal(goals, (lengths - 1) // 3)
+    assert goals.max() == 2
+
+
 def test_stable_under_gymnasiums_own_same_step_layout():
     """SyncVectorEnv gives final observations as an array of objects with gaps."""
     env = gym.make_vec(
