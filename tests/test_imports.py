@@ -1,0 +1,236 @@
+"""The house keeps its order: who may import whom, how fast it opens, what files may hold."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import gazelle
+
+PACKAGE = Path(gazelle.__file__).parent
+ORDER = (
+    "assets",
+    "description",
+    "formats",
+    "engines",
+    "sensors",
+    "control",
+    "simulation",
+    "plugins",
+    "planning",
+    "navigation",
+    "ros",
+    "bridges",
+    "clients",
+    "builders",
+    "envs",
+    "training",
+    "viewer",
+    "cli",
+)
+"""Rooms; each may import those before it. Data and paths (assets) are at the bottom."""
+
+SIMULATION = {"engines", "sensors", "control", "simulation", "plugins", "planning", "navigation"}
+WIRE = {"ros", "bridges", "clients"}
+STRANGERS = {
+    "assets": {"description"},
+    "ros": SIMULATION,
+    "clients": SIMULATION | {"bridges"},
+    "builders": WIRE,
+    "envs": WIRE,
+}
+"""Rooms that are lower in the order, and yet unknown to a room."""
+
+HEAVY = {"gymnasium", "lxml", "mujoco", "stable_baselines3", "torch", "trimesh"}
+FRONT_DOOR = "gazelle"
+"""The package's ``__init__`` names what all rooms offer, and imports it when it is used."""
+
+
+@dataclass(frozen=True)
+class Import:
+    """``module`` imports ``target`` at a line; ``lazy`` when in a function."""
+
+    module: str
+    target: str
+    line: int
+    lazy: bool
+
+
+def modules():
+    """Source of every module by dotted name."""
+    found = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        parts = ("gazelle", *path.relative_to(PACKAGE).with_suffix("").parts)
+        found[".".join(parts).removesuffix(".__init__")] = path
+    return found
+
+
+def imports_of(module, text, *, is_package=False):
+    """Imports of Gazelle's own modules, those for types too."""
+    tree = ast.parse(text)
+    lazy = {
+        id(node)
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef)
+        for node in ast.walk(function)
+    }
+    return [
+        Import(module, target, node.lineno, id(node) in lazy)
+        for node in ast.walk(tree)
+        for target in targets(node, module, is_package=is_package)
+        if target.split(".")[0] == "gazelle"
+    ]
+
+
+def targets(node, module, *, is_package):
+    """The dotted names that one statement imports."""
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    if not isinstance(node, ast.ImportFrom):
+        return []
+    base = node.module or ""
+    if node.level:
+        home = module.split(".")
+        home = home[: len(home) - node.level + is_package]
+        base = ".".join([*home, base] if base else home)
+    if base != "gazelle":
+        return [base]
+    # Names of the front door count as imports of the rooms that they come from.
+    return [gazelle._HOMES.get(alias.name, f"gazelle.{alias.name}") for alias in node.names]
+
+
+def room(module):
+    """The room of a module; None for the modules at the top, which are below all rooms."""
+    parts = module.split(".")
+    return parts[1] if len(parts) > 1 and parts[1] in ORDER else None
+
+
+def faults(found):
+    """What is wrong with imports, one line each."""
+    return [
+        f"{each.module}:{each.line} imports {each.target}: {reason}"
+        for each in found
+        if (reason := fault(each))
+    ]
+
+
+def fault(each):
+    """Why an import is wrong, or an empty text."""
+    here, there = room(each.module), room(each.target)
+    if each.module == FRONT_DOOR or there is None or here == there:
+        return ""
+    if here is None:
+        # Errors say where in a file they are, with description's Source.
+        return "" if there == "description" else "modules at the top are below all rooms"
+    if there in STRANGERS.get(here, set()):
+        return f"{here} knows nothing of {there}"
+    if here == "cli" and there == "viewer":
+        return "" if each.lazy else "the viewer is imported when it is used"
+    if there == "viewer":
+        return "only the command line opens the viewer"
+    return "" if ORDER.index(there) < ORDER.index(here) else "this points up"
+
+
+def test_no_import_points_up():
+    found = []
+    for module, path in modules().items():
+        text = path.read_text(encoding="utf-8")
+        found += imports_of(module, text, is_package=path.name == "__init__.py")
+    assert len(found) > 100
+    assert faults(found) == []
+
+
+def test_every_folder_is_a_room():
+    folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert folders <= set(ORDER)
+
+
+@pytest.mark.parametrize(
+    ("module", "text"),
+    [
+        ("gazelle.formats.sdf.world", "from gazelle.engines import Engine"),
+        ("gazelle.formats.sdf.world", "import gazelle.engines.mujoco"),
+        ("gazelle.formats.sdf.world", "from gazelle import engines"),
+        ("gazelle.formats.sdf.world", "from ...engines import Engine"),
+        ("gazelle.formats.sdf.world", "from gazelle import Simulation"),
+        ("gazelle.formats.sdf.world", "def f():\n    from gazelle.cli import main"),
+        (
+            "gazelle.engines.engine",
+            "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import gazelle.simulation",
+        ),
+        ("gazelle.ros.master", "from gazelle.simulation import Simulation"),
+        ("gazelle.envs.maze", "from gazelle.bridges import serve"),
+        ("gazelle.training.runs", "def f():\n    import gazelle.viewer"),
+        ("gazelle.cli.run", "import gazelle.viewer"),
+        ("gazelle.errors", "import gazelle.formats"),
+        ("gazelle.assets", "import gazelle.description"),
+    ],
+)
+def test_an_import_that_points_up_is_caught(module, text):
+    assert len(faults(imports_of(module, text))) == 1
+
+
+@pytest.mark.parametrize(
+    ("module", "text"),
+    [
+        ("gazelle.simulation.clock", "from gazelle.description import World"),
+        ("gazelle.formats.resolve", "def f():\n    from gazelle import assets"),
+        ("gazelle.cli.run", "def f():\n    from gazelle.viewer import open_viewer"),
+        ("gazelle.formats.sdf.world", "from .. import values\nfrom ...errors import Error"),
+        ("gazelle.description", "import numpy as np"),
+    ],
+)
+def test_an_import_that_points_down_is_allowed(module, text):
+    assert faults(imports_of(module, text)) == []
+
+
+def test_names_of_a_package_are_relative_to_itself():
+    (found,) = imports_of("gazelle.formats", "from .sdf import read", is_package=True)
+    assert found.target == "gazelle.formats.sdf"
+
+
+def fresh(code):
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    return done.stdout
+
+
+def test_import_is_fast():
+    timed = "import time; t = time.perf_counter(); import gazelle; print(time.perf_counter() - t)"
+    # The best of a few, as the machine may be busy.
+    best, tries = float("inf"), 0
+    while best >= 0.3 and tries < 5:
+        best, tries = min(best, float(fresh(timed))), tries + 1
+        time.sleep(0.0 if best < 0.3 else 0.5)
+    assert best < 0.3
+
+
+def test_import_brings_nothing_heavy():
+    loaded = fresh("import sys, gazelle; print(*{name.split('.')[0] for name in sys.modules})")
+    assert HEAVY.isdisjoint(loaded.split())
+
+
+def test_files_are_short():
+    lengths = {
+        module: len(path.read_text(encoding="utf-8").splitlines())
+        for module, path in modules().items()
+    }
+    assert {module: length for module, length in lengths.items() if length > 450} == {}
+
+
+def test_only_the_command_line_prints():
+    printing = [
+        f"{module}:{node.lineno}"
+        for module, path in modules().items()
+        if room(module) != "cli"
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id == "print"
+    ]
+    assert printing == []
