@@ -7,6 +7,7 @@ size, depth and number of elements are limited, so that no file can exhaust the 
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -65,7 +66,7 @@ def parse(text: str | bytes, *, name: str) -> Parameters:
         raise FormatError("the file is empty", file=name)
     if data.lstrip(_BLANK)[:1] not in _FIRST:
         raise FormatError("this is not XML: it does not begin with '<'", file=name, line=1)
-    data = _declaration_first(data)
+    data = _declaration_first(data.removeprefix(codecs.BOM_UTF8))
     builder = _Builder(name, encoding="utf-8" if isinstance(text, str) else None)
     return builder.read(data)
 
