@@ -135,6 +135,10 @@ class BatchedTask(ABC):
         self.elapsed[:] = elapsed
 
     @abstractmethod
+    def render(self, world: int) -> NDArray[np.uint8]:
+        """A picture of one world, shape (height, width, 3)."""
+
+    @abstractmethod
     def close(self) -> None:
         """Free what the task holds; a second call does nothing."""
 

@@ -12,6 +12,8 @@ from gazelle.description import Model, World
 from gazelle.engines import ENGINES
 from gazelle.errors import TaskError, did_you_mean
 
+RENDER_MODES = ("rgb_array",)
+
 Settings = TypeVar("Settings", bound="TaskSettings")
 
 
@@ -44,7 +46,7 @@ class TaskSettings:
         engine: Name of the physics engine.
         seed: Of the first episode when ``reset`` gets none; None draws one.
         max_episode_steps: Control steps until an episode is truncated; None for no limit.
-        render_mode: One of the task's render modes, or None.
+        render_mode: ``rgb_array``, or None.
         threads: Native threads of the engine; None for all processors.
         time_step: Physics step [s]; None for the task's own.
 
@@ -64,6 +66,8 @@ class TaskSettings:
             raise TaskError(
                 f"there is no engine '{self.engine}'", hint=did_you_mean(str(self.engine), ENGINES)
             )
+        if self.render_mode is not None:
+            check_name("render mode", self.render_mode, RENDER_MODES)
         for name, least in (("seed", 0), ("max_episode_steps", 1), ("threads", 1)):
             value = getattr(self, name)
             if value is not None:

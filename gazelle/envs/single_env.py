@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.envs.batched_task import BatchedTask, Float32, Info
-from gazelle.envs.options import check_name
+from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.envs.vector_env import TaskVectorEnv
 
 
@@ -21,13 +21,13 @@ class TaskEnv(gym.Env[Any, Any]):
     Args:
         task: A task of one world; the environment closes it.
         seed: Of the first episode when ``reset`` gets none.
-        render_mode: Kept as an attribute.
+        render_mode: ``rgb_array``, or None.
 
     Attributes:
         control_period: Simulated time of one step [s].
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]  # as there
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES)}  # type: ignore[misc]  # as there
 
     def __init__(
         self, task: BatchedTask, *, seed: int | None = None, render_mode: str | None = None
@@ -75,6 +75,10 @@ class TaskEnv(gym.Env[Any, Any]):
             bool(result.truncated[0]),
             _of_world_0(result.info),
         )
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """A picture, shape (height, width, 3); None without render mode."""
+        return None if self.render_mode is None else self.task.render(0)
 
     def get_state(self) -> dict[str, Any]:
         """See `TaskVectorEnv.get_state`."""

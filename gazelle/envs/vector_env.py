@@ -12,7 +12,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Float64, Info, Worlds
-from gazelle.envs.options import check_name
+from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
 
@@ -27,14 +27,14 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
     Args:
         task: What to wrap; the environment closes it.
         seed: Of the first episodes when ``reset`` gets none.
-        render_mode: Kept as an attribute.
+        render_mode: ``rgb_array``, or None.
 
     Attributes:
         control_period: Simulated time of one step [s].
     """
 
     metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]  # Gymnasium leaves out ClassVar
-        "render_modes": [],
+        "render_modes": list(RENDER_MODES),
         "autoreset_mode": AutoresetMode.SAME_STEP,
     }
 
@@ -108,6 +108,12 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
             result.truncated,
             {**info, **masks, **extra},
         )
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """A picture of every world, each of shape (height, width, 3); None without render mode."""
+        if self.render_mode is None:
+            return None
+        return tuple(self.task.render(world) for world in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
         """The whole state, as a dict of arrays and bytes: `set_state` continues from it exactly."""

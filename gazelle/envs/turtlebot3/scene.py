@@ -65,6 +65,7 @@ class Scene:
         )
         self.robot = self.simulation.spawn(self.lidar.model, name=ROBOT, pose=self._start)
         if COMMAND not in self.robot.inputs:
+            self.simulation.close()
             raise TaskError(
                 f"the robot '{self.lidar.model.name}' has no input '{COMMAND}'",
                 source=self.lidar.model.source,
@@ -78,12 +79,14 @@ def _load_world(world: object) -> World:
 
 
 def _fit(settings: NavigationSettings) -> FittedLidar:
-    """The robot with its lidar fitted; no notice for the bundled one, whose data sheet tells."""
-    robot = settings.robot
-    if robot is None:
-        return fit_lidar(formats.load_model(ROBOT), settings.lidar_samples, notice=False)
+    """The robot with its lidar fitted; no notice for a bundled one, of which the data sheet tells."""
+    robot = settings.robot or ROBOT
     model = robot if isinstance(robot, Model) else formats.load_model(str(robot))
-    return fit_lidar(model, settings.lidar_samples, notice=True)
+    return fit_lidar(model, settings.lidar_samples, notice=not _is_bundled_name(robot))
+
+
+def _is_bundled_name(robot: object) -> bool:
+    return isinstance(robot, str) and robot.isidentifier()
 
 
 def _check_time_step(time_step: float, control_period: float) -> None:

@@ -1,13 +1,16 @@
 """The registered environments keep Gymnasium's contract and do what their data sheet says."""
 
 import warnings
+from dataclasses import replace
 
 import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
+from gazelle import assets, formats
 from gazelle.envs import task_ids
+from gazelle.envs.turtlebot3.envs import TurtleBot3Env
 from gazelle.errors import GazelleWarning, ResolveError, TaskError
 
 STAGE1 = "gazelle/TurtleBot3Stage1-v0"
@@ -118,13 +121,21 @@ def test_the_step_limit_truncates():
 
 
 def test_a_robot_file_with_more_rays_is_fitted_with_a_notice():
-    from gazelle import assets
-
     file = assets.robot("turtlebot3_burger")
     with pytest.warns(GazelleWarning, match="360 rays and the task reads 12"):
         env = gym.make(STAGE1, robot=file, lidar_samples=12)
     assert env.observation_space.shape == (14,)
     assert env.reset(seed=0)[0].shape == (14,)
+    env.close()
+
+
+@pytest.mark.parametrize("robot", ["turtlebot3_waffle", "turtlebot3_waffle_pi"])
+def test_other_bundled_robots_drive_without_a_notice(robot):
+    env = gym.make(STAGE1, robot=robot)
+    _, before = env.reset(seed=0)
+    for _ in range(5):
+        *_, after = env.step(STRAIGHT)
+    assert after["distance"] < before["distance"] - 0.05
     env.close()
 
 
@@ -142,6 +153,27 @@ def test_a_robot_file_with_more_rays_is_fitted_with_a_notice():
 def test_a_wrong_option_is_an_error_that_says_so(options, error, text):
     with pytest.raises(error, match=text):
         gym.make(STAGE1, **options)
+
+
+def test_a_robot_that_cannot_be_driven_is_refused():
+    robot = replace(formats.load_model("turtlebot3_burger"), plugins=())
+    with pytest.raises(TaskError, match="'turtlebot3_burger' has no input 'cmd_vel'"):
+        gym.make(STAGE1, robot=robot, lidar_samples=360)
+
+
+def test_a_picture_shows_the_goal_in_red():
+    env = gym.make(STAGE1, render_mode="rgb_array", goals=[(1.0, 0.0)])
+    env.reset(seed=0)
+    picture = env.render()
+    assert picture.dtype == np.uint8
+    red = picture[..., 0].astype(int) - picture[..., 1] > 40
+    rows, columns = np.nonzero(red)
+    assert red.sum() > 200
+    assert columns.mean() == pytest.approx(picture.shape[1] / 2, abs=2)
+    assert rows.mean() < picture.shape[0] / 2
+    env.close()
+    with pytest.raises(TaskError, match="did you mean 'rgb_array'"):
+        TurtleBot3Env(1, render_mode="rgb_aray")
 
 
 def test_a_wrong_action_is_an_error():
