@@ -110,7 +110,13 @@ class Recipe:
 
 
 # An evaluation counts how the way to one goal ends, so it must not go on to the next.
-_NAVIGATION = Recipe(reward_scale=0.02, evaluation_options={"respawn": False})
+_NAVIGATION = Recipe(
+    steps=200_000,
+    learning_rate=1e-3,
+    reward_scale=0.02,
+    evaluation_options={"respawn": False},
+    settings=PPOSettings(batch_size=512, n_epochs=10),
+)
 
 RECIPES: dict[str, Recipe] = {
     "CartPole": Recipe(
@@ -121,9 +127,9 @@ RECIPES: dict[str, Recipe] = {
         settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
     ),
     "TurtleBot3Stage1": _NAVIGATION,
-    "TurtleBot3Stage2": dataclasses.replace(_NAVIGATION, steps=1_500_000),
-    "TurtleBot3Stage3": dataclasses.replace(_NAVIGATION, steps=3_000_000),
-    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=4_000_000),
+    "TurtleBot3Stage2": dataclasses.replace(_NAVIGATION, steps=600_000),
+    "TurtleBot3Stage3": dataclasses.replace(_NAVIGATION, steps=1_000_000),
+    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=1_500_000),
 }
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 

@@ -75,11 +75,14 @@ class EpisodeLog:
         unknown = np.full(len(episodes.slots), np.nan)
         known = {name: values.astype(np.float64) for name, values in episodes.outcomes.items()}
         success = known.get("is_success", unknown)
+        timeout = known.get("is_timeout", np.zeros(len(episodes.slots)))
+        undecided = (timeout > 0) & (episodes.goals > 0)
+        failures = np.where(undecided, 0.0, 1.0 - success)
         columns = {
             "return": episodes.returns,
             "length": episodes.lengths,
             "goals": np.where(np.isnan(success), np.nan, episodes.goals),
-            "attempts": episodes.goals + 1.0 - success,
+            "attempts": episodes.goals + failures,
             "collision_rate": known.get("is_collision", unknown),
             "timeout_rate": known.get("is_timeout", unknown),
         }
@@ -93,8 +96,8 @@ class EpisodeLog:
         ``return`` and ``length`` are means over episodes, ``collision_rate`` and
         ``timeout_rate`` shares of episodes. ``success_rate`` is the share of goals that
         were reached: every goal reached is a success, every episode that ends without
-        reaching its last goal is a failure. With one goal an episode that is the share
-        of episodes.
+        reaching its last goal is a failure, unless time ran out on the way from one
+        goal to the next. With one goal an episode that is the share of episodes.
         """
         if not len(self._rows):
             return {}

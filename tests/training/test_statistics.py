@@ -55,5 +55,12 @@ def test_log_without_episodes_has_nothing_to_say():
 
 def test_success_is_the_share_of_goals_where_episodes_go_on_to_the_next():
     log = EpisodeLog()
-    log.add(episodes([1.0, 2.0, 3.0], goals=[0, 4, 3], is_success=[False, False, True]))
-    assert log.summary()["success_rate"] == pytest.approx(7 / 9)
+    log.add(
+        episodes(
+            [1.0, 2.0, 3.0, 4.0],
+            goals=[0, 4, 3, 2],
+            is_success=[False, False, True, False],
+            is_timeout=[True, False, False, True],
+        )
+    )
+    assert log.summary()["success_rate"] == pytest.approx(9 / 11)
