@@ -129,6 +129,7 @@ def test_a_robot_file_with_more_rays_is_fitted_with_a_notice():
     env.close()
 
 
+@pytest.mark.filterwarnings("ignore:sensor .*is not measured yet")
 @pytest.mark.parametrize("robot", ["turtlebot3_waffle", "turtlebot3_waffle_pi"])
 def test_other_bundled_robots_drive_without_a_notice(robot):
     env = gym.make(STAGE1, robot=robot)

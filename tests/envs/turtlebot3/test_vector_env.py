@@ -51,11 +51,11 @@ def test_world_0_is_the_single_environment_bit_for_bit(task):
     one.close()
 
 
-def test_no_world_depends_on_the_number_of_worlds():
-    few, many = (
-        make(2, respawn=False, max_episode_steps=8),
-        make(64, respawn=False, max_episode_steps=8),
-    )
+@pytest.mark.parametrize("stage", [1, 3, 4])
+def test_no_world_depends_on_the_number_of_worlds(stage):
+    task = f"gazelle/TurtleBot3Stage{stage}-v0"
+    few = make(2, task, respawn=False, max_episode_steps=8)
+    many = make(64, task, respawn=False, max_episode_steps=8)
     actions = np.random.default_rng(0).integers(0, 5, (20, 64))
     first, second = few.reset(seed=5), many.reset(seed=5)
     assert np.array_equal(first[1]["goal"], second[1]["goal"][:2])
