@@ -90,8 +90,13 @@ def lidar(samples=24, stddev=0.0, **options):
     scan = Scan(samples, min_angle=0.0, max_angle=6.28319)
     noise = Noise("gaussian", stddev=stddev) if stddev else Noise()
     settings = {"range_min": 0.12, "range_max": 3.5, **options}
-    return Sensor("lds", "ray", pose=Pose(x=-0.032, z=0.182), update_rate=5.0,
-                  lidar=Lidar(scan, noise=noise, **settings))
+    return Sensor(
+        "lds",
+        "ray",
+        pose=Pose(x=-0.032, z=0.182),
+        update_rate=5.0,
+        lidar=Lidar(scan, noise=noise, **settings),
+    )
 
 
 def burger(name="burger", pose=None, samples=24, stddev=0.0, **drive):
@@ -110,9 +115,7 @@ def burger(name="burger", pose=None, samples=24, stddev=0.0, **drive):
 
     base = Link(
         "base_footprint",
-        inertial=Inertial(
-            0.944735, Pose(x=-0.0043, z=0.0307), Inertia(0.0060, 0.0059, 0.0041)
-        ),
+        inertial=Inertial(0.944735, Pose(x=-0.0043, z=0.0307), Inertia(0.0060, 0.0059, 0.0041)),
         collisions=(
             Collision("base", Box((0.14, 0.14, 0.143)), Pose(x=-0.032, z=0.08), rubber(1.0)),
             Collision(
@@ -123,12 +126,22 @@ def burger(name="burger", pose=None, samples=24, stddev=0.0, **drive):
         sensors=(lidar(samples, stddev), Sensor("imu", "imu", update_rate=100.0)),
     )
     joints = tuple(
-        Joint(f"wheel_{side}_joint", "continuous", "base_footprint", f"wheel_{side}_link",
-              axes=(JointAxis(),))
+        Joint(
+            f"wheel_{side}_joint",
+            "continuous",
+            "base_footprint",
+            f"wheel_{side}_link",
+            axes=(JointAxis(),),
+        )
         for side in ("left", "right")
     )
-    return Model(name, pose=pose or Pose(), links=(base, wheel("left", 0.08), wheel("right", -0.08)),
-                 joints=joints, plugins=(drive_plugin(**drive),))
+    return Model(
+        name,
+        pose=pose or Pose(),
+        links=(base, wheel("left", 0.08), wheel("right", -0.08)),
+        joints=joints,
+        plugins=(drive_plugin(**drive),),
+    )
 
 
 def wall(name, x, y, yaw, length=4.0, thickness=0.15):

@@ -73,7 +73,8 @@ class DiffDrive(ModelPlugin):
         """Drive the wheels and publish the odometry."""
         interval = time - self._last_time
         self._last_time = time
-        self._integrate_encoders(interval)
+        if self._from_encoders:
+            self._integrate_encoders(interval)
         self._drive(interval)
         if self._publishes_odometry:
             self._odometry.publish()

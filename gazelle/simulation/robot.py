@@ -130,6 +130,9 @@ class Robot:
         name: Its name in the world.
         namespace: Put before its topics.
         description: What it was made from.
+        links: By name within the robot (``arm::hand`` for a nested model's).
+        joints: Those that move, by name within the robot.
+        sensors: By name.
         inputs: Ports that take commands.
         outputs: Ports that publish.
     """
@@ -142,23 +145,12 @@ class Robot:
         self.inputs: dict[str, TwistInput] = {}
         self.outputs: dict[str, Output[Any]] = {}
         self._links = _link_handles(simulation.engine, model)
-        self._joints = _joint_handles(simulation.engine, model)
-        self._sensors = _sensor_units(self, model)
-
-    @property
-    def links(self) -> Mapping[str, LinkHandle]:
-        """Links by name within the robot (``arm::hand`` for a nested model's)."""
-        return Named(f"link in '{self.name}'", self._links)
-
-    @property
-    def joints(self) -> Mapping[str, JointHandle]:
-        """Joints that move, by name within the robot."""
-        return Named(f"moving joint in '{self.name}'", self._joints)
-
-    @property
-    def sensors(self) -> Mapping[str, SensorUnit]:
-        """Sensors by name."""
-        return Named(f"sensor on '{self.name}'", self._sensors)
+        own = f"in '{self.name}'"
+        self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links)
+        self.joints: Mapping[str, JointHandle] = Named(
+            f"moving joint {own}", _joint_handles(simulation.engine, model)
+        )
+        self.sensors: Mapping[str, SensorUnit] = Named(f"sensor {own}", _sensor_units(self, model))
 
     @property
     def pose(self) -> Pose:

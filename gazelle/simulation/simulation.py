@@ -22,6 +22,7 @@ from gazelle.simulation.clock import Clock
 from gazelle.simulation.plugin import ModelPlugin, SensorPlugin, WorldPlugin
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Named, Robot
+from gazelle.simulation.sensors import SensorUnit
 from gazelle.simulation.stepping import (
     ScheduledPlugin,
     make_scheduled,
@@ -69,6 +70,7 @@ class Simulation:
         self.plugins: list[ScheduledPlugin] = []
         self.paused = False
         self._robots: dict[str, Robot] = {}
+        self._sensors: list[SensorUnit] = []
         self._closed = False
         self._tracer: tuple[World, Tracer] | None = None
         for plugin in loaded.plugins:
@@ -144,15 +146,12 @@ class Simulation:
         """Do what is due, then step to the next thing that will be; returns the steps made."""
         clock = self.clock
         update_plugins(self.plugins, clock.now_ns, clock.now)
-        sensors = [unit for robot in self._robots.values() for unit in robot.sensors.values()]
-        schedules = [
-            entry.schedule for entry in self.plugins if entry.schedule and entry.plugin.active
-        ]
-        schedules += [unit.schedule for unit in sensors if unit.awake]
+        schedules = [unit.schedule for unit in self._sensors if unit.awake]
+        schedules += [e.schedule for e in self.plugins if e.schedule and e.plugin.active]
         steps = min([most, *(schedule.steps_until(clock) for schedule in schedules)])
         self.engine.step(steps)
         clock.advance(steps)
-        update_sensors(sensors, clock.now_ns)
+        update_sensors(self._sensors, clock.now_ns)
         return steps
 
     # -- change ------------------------------------------------------------------------
@@ -221,7 +220,8 @@ class Simulation:
                 f"there is no model '{name}'", hint=did_you_mean(name, self._robots)
             )
         self.plugins = [entry for entry in self.plugins if entry.owner != name]
-        self._robots.pop(name, None)
+        gone = self._robots.pop(name, None)
+        self._sensors = [unit for unit in self._sensors if unit.robot is not gone]
         self.engine.delete(name)
 
     def _reset(self, worlds: Worlds | None) -> None:
@@ -253,6 +253,7 @@ class Simulation:
         """Make the handle of a model that the engine has, and start its plugins."""
         robot = Robot(self, model, namespace)
         self._robots[model.name] = robot
+        self._sensors.extend(robot.sensors.values())
         for placed in model.walk():
             for plugin in placed.model.plugins:
                 self._load_model_plugin(robot, plugin)

@@ -13,7 +13,7 @@ import numpy as np
 from gazelle.description import Inertial, Model, Pose, World
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.shapes import ShapeBuilder
-from gazelle.engines.mujoco.surfaces import ContactTerms, friction_ranks, surface_options
+from gazelle.engines.mujoco.surfaces import friction_ranks, surface_options
 from gazelle.engines.mujoco.tree import Body, bodies_of
 from gazelle.errors import EngineError
 
@@ -120,7 +120,6 @@ class _Builder:
     ) -> None:
         self._spec = spec
         self._time_step = recipe.time_step
-        self._terms = ContactTerms(recipe.time_step, recipe.world.profile.ode.erp)
         self._bodies = bodies
         self._shapes = ShapeBuilder(spec)
         self._ranks = friction_ranks(
@@ -160,7 +159,7 @@ class _Builder:
     def _add_shapes(self, handle: Any, body: Body, pose: Pose) -> None:
         """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
-            surface = surface_options(collision, self._terms, self._ranks)
+            surface = surface_options(collision, self._time_step, self._ranks)
             placed = pose * collision.pose
             for shape in self._shapes.options(collision.geometry, placed, collision.source):
                 handle.add_geom(group=COLLISION_GROUP, mass=0.0, **surface, **shape)

@@ -10,22 +10,18 @@ import numpy as np
 from mujoco.batch import Batch, SimulationError
 from numpy.typing import ArrayLike
 
-from gazelle.description import Model, World
+from gazelle.description import Model, Pose, World
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP, Motor, Recipe, compile_world
-from gazelle.engines.mujoco.layout import Layout, LinkSlot, Slot, layout_of
+from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot, Slot, layout_of
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.transfer import carry_over
+from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 _GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
 _VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
-_BAD_STATE = [
-    int(mujoco.mjtWarning.mjWARN_BADQPOS),
-    int(mujoco.mjtWarning.mjWARN_BADQVEL),
-    int(mujoco.mjtWarning.mjWARN_BADQACC),
-]
 
 
 def _quiet() -> None:
@@ -67,6 +63,7 @@ class MujocoEngine:
         self._threads = min(threads or os.cpu_count() or 1, nworld)
         self._recipe = Recipe(world, step)
         self._batch, self._layout = self._build(self._recipe)
+        self._state = StateViews.of(self._batch)
         self._batch.forward(stage=_VELOCITY_STAGE)
         self._initial = self._batch.state[0].copy()
         self._stale = False
@@ -120,9 +117,9 @@ class MujocoEngine:
 
     def _check_finite(self) -> None:
         # MuJoCo resets a simulation whose state became bad and counts a warning.
-        bad = (self._batch.warning[:, _BAD_STATE, 1] > 0).any(axis=1)
+        bad = self._state.faults
         if bad.any():
-            worlds = np.flatnonzero(bad)
+            worlds = np.flatnonzero(bad.any(axis=1))
             self._batch.warning[worlds] = 0
             raise EngineError(
                 f"the state of {len(worlds)} of {self._nworld} worlds became infinite "
@@ -143,11 +140,11 @@ class MujocoEngine:
         slot = self._now().link(link)
         rows = _rows(worlds)
         if slot.free is not None:
-            q = self._batch.qpos[rows, slot.free.position]
+            q = self._state.qpos[rows, slot.free.position]
             return Placement(q[:, :3].copy(), xyzw_from_wxyz(q[:, 3:]))
         if slot.mocap is not None:
-            position = self._batch.mocap_pos[rows, slot.mocap].copy()
-            q = self._batch.mocap_quat[rows, slot.mocap]
+            position = self._state.mocap_pos[rows, slot.mocap].copy()
+            q = self._state.mocap_quat[rows, slot.mocap]
             return Placement(position, xyzw_from_wxyz(q))
         if slot.root == "static":
             count = self._nworld if worlds is None else len(worlds)
@@ -163,7 +160,7 @@ class MujocoEngine:
         slot = self._now().link(link)
         rows = _rows(worlds)
         if slot.free is not None:
-            v = self._batch.qvel[rows, slot.free.velocity]
+            v = self._state.qvel[rows, slot.free.velocity]
             turned = rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
             return Motion(v[:, :3].copy(), turned)
         if slot.root is not None:
@@ -215,15 +212,41 @@ class MujocoEngine:
                 f"model '{model}' is fixed to the world by a joint and cannot be moved",
                 hint=f"the joint that holds '{fixed[0]}' would have to go",
             )
+        count = self._nworld if worlds is None else len(worlds)
+        goal_p = np.broadcast_to(np.asarray(position, np.float64), (count, 3))
+        goal_q = np.broadcast_to(np.asarray(quaternion, np.float64), (count, 4))
+        if len(slot.roots) == 1:
+            self._put_only(slot, goal_p, goal_q, worlds)
+        else:
+            self._put_all(model, slot, goal_p, _unit(goal_q), worlds)
+        self._stale = True
+
+    def _put_only(
+        self, slot: ModelSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
+    ) -> None:
+        """Place a model that one link carries: no need to know where it was."""
+        if slot.offset != Pose():
+            back = slot.offset.inverse()
+            quaternion = _unit(quaternion)
+            position = position + rotate(quaternion, np.asarray(back.position))
+            quaternion = multiply(quaternion, np.asarray(back.quaternion))
+        self._put(self._layout.link(slot.roots[0]), position, quaternion, worlds)
+
+    def _put_all(
+        self,
+        model: str,
+        slot: ModelSlot,
+        goal_p: Floats,
+        goal_q: Floats,
+        worlds: Worlds | None,
+    ) -> None:
+        """Place a model that several links carry, keeping them as they are to each other."""
         before = self.model_placement(model, worlds)
-        goal_p = np.broadcast_to(np.asarray(position, np.float64), before.position.shape)
-        goal_q = _unit(np.broadcast_to(np.asarray(quaternion, np.float64), before.quaternion.shape))
         turn = multiply(goal_q, conjugate(before.quaternion))
         for root in slot.roots:
             link = self.link_placement(root, worlds)
             moved = goal_p + rotate(turn, link.position - before.position)
             self._put(self._layout.link(root), moved, multiply(turn, link.quaternion), worlds)
-        self._stale = True
 
     def _put(
         self, slot: LinkSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
@@ -232,10 +255,10 @@ class MujocoEngine:
         # Normalised, or rounding errors would grow with every relative move.
         wxyz = wxyz_from_xyzw(_unit(quaternion))
         if slot.mocap is not None:
-            self._batch.mocap_pos[rows, slot.mocap] = position
-            self._batch.mocap_quat[rows, slot.mocap] = wxyz
+            self._state.mocap_pos[rows, slot.mocap] = position
+            self._state.mocap_quat[rows, slot.mocap] = wxyz
         elif slot.free is not None:
-            self._batch.qpos[rows, slot.free.position] = np.concatenate((position, wxyz), axis=1)
+            self._state.qpos[rows, slot.free.position] = np.concatenate((position, wxyz), axis=1)
 
     def set_model_motion(
         self, model: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
@@ -253,10 +276,10 @@ class MujocoEngine:
             link = self.link_placement(root, worlds)
             at_link = v + cross(w, link.position - origin.position)
             local = rotate(conjugate(link.quaternion), w)
-            self._batch.qvel[rows, free.velocity] = np.concatenate((at_link, local), axis=1)
+            self._state.qvel[rows, free.velocity] = np.concatenate((at_link, local), axis=1)
         for joint in slot.joints:
             for each in self._layout.joint(joint):
-                self._batch.qvel[rows, each.velocity] = 0.0
+                self._state.qvel[rows, each.velocity] = 0.0
         self._stale = True
 
     # -- joints ------------------------------------------------------------------------
@@ -264,31 +287,31 @@ class MujocoEngine:
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
         slots = self._now().joint(joint)
-        return np.concatenate([self._batch.qpos[_rows(worlds), s.position] for s in slots], axis=1)
+        return np.concatenate([self._state.qpos[_rows(worlds), s.position] for s in slots], axis=1)
 
     def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Velocity [m/s or rad/s], shape (n, axes)."""
         slots = self._now().joint(joint)
-        return np.concatenate([self._batch.qvel[_rows(worlds), s.velocity] for s in slots], axis=1)
+        return np.concatenate([self._state.qvel[_rows(worlds), s.velocity] for s in slots], axis=1)
 
     def set_joint_position(
         self, joint: str, position: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Put a joint somewhere [m or rad], shape (axes,) or (n, axes)."""
         slots = self._now().joint(joint)
-        self._write(self._batch.qpos, [s.position for s in slots], position, worlds)
+        self._write(self._state.qpos, [s.position for s in slots], position, worlds)
 
     def set_joint_velocity(
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Give a joint a velocity [m/s or rad/s], shape (axes,) or (n, axes)."""
         slots = self._now().joint(joint)
-        self._write(self._batch.qvel, [s.velocity for s in slots], velocity, worlds)
+        self._write(self._state.qvel, [s.velocity for s in slots], velocity, worlds)
 
     def set_joint_effort(self, joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply an effort [N or N m] until told otherwise, shape (axes,) or (n, axes)."""
         slots = self._now().joint(joint)
-        self._write(self._batch.qfrc_applied, [s.velocity for s in slots], effort, worlds)
+        self._write(self._state.qfrc_applied, [s.velocity for s in slots], effort, worlds)
 
     def _write(
         self, array: Floats, columns: list[slice], values: ArrayLike, worlds: Worlds | None
@@ -319,7 +342,7 @@ class MujocoEngine:
     ) -> None:
         """Set the velocity that a joint's motor holds [m/s or rad/s], shape () or (n,)."""
         column = self._now().motor(joint)
-        self._batch.ctrl[_rows(worlds), column] = velocity
+        self._state.ctrl[_rows(worlds), column] = velocity
 
     # -- sensing -----------------------------------------------------------------------
 
@@ -380,6 +403,7 @@ class MujocoEngine:
         carry_over(self._batch, self._layout, batch, layout)
         self._initial = initial[0]
         self._batch, self._layout, self._recipe = batch, layout, recipe
+        self._state = StateViews.of(batch)
         self._pending = None
         self._stale = True
 
@@ -388,7 +412,8 @@ class MujocoEngine:
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
         self._now()
-        return self._batch.state.copy()
+        state: Floats = self._batch.state.copy()
+        return state
 
     def restore(self, state: Floats) -> None:
         """Put back what ``snapshot`` gave; the models must be the same."""
@@ -405,7 +430,7 @@ class MujocoEngine:
     def close(self) -> None:
         """Free threads and memory; the engine must not be used any more."""
         self._pending = None
-        del self._batch
+        del self._batch, self._state
 
     def _refresh(self) -> None:
         """Compute the placement and motion of links that are not roots."""
@@ -420,10 +445,13 @@ def _rows(worlds: Worlds | None) -> slice | Worlds:
 
 def _unit(q: Floats) -> Floats:
     """Quaternions normalised; zero becomes the identity, as in Gazebo."""
-    norm = np.linalg.norm(q, axis=-1, keepdims=True)
-    safe = np.where(norm > 0.0, q / np.where(norm > 0.0, norm, 1.0), (0.0, 0.0, 0.0, 1.0))
-    return np.asarray(safe, np.float64)
+    norm: Floats = np.linalg.norm(q, axis=-1, keepdims=True)
+    unit: Floats = q / np.where(norm > 0.0, norm, 1.0)
+    if not norm.all():
+        unit[norm[..., 0] == 0.0] = (0.0, 0.0, 0.0, 1.0)
+    return unit
 
 
 def _width(slot: Slot) -> int:
-    return slot.velocity.stop - slot.velocity.start
+    width: int = slot.velocity.stop - slot.velocity.start
+    return width

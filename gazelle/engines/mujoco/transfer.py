@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mujoco.batch import Batch
 
-from gazelle.engines.mujoco.layout import Layout, Slot
+from gazelle.engines.mujoco.layout import Layout, LinkSlot, Slot
 
 # Arrays with one column a degree of freedom.
 _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
@@ -18,22 +18,25 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
             _copy_joint(old, there, new, here)
     for name, link in new_layout.links.items():
         former = old_layout.links.get(name)
-        if former is None:
-            continue
-        if link.free is not None and former.free is not None:
-            _copy_joint(old, former.free, new, link.free)
-        if link.mocap is not None and former.mocap is not None:
-            new.mocap_pos[:, link.mocap] = old.mocap_pos[:, former.mocap]
-            new.mocap_quat[:, link.mocap] = old.mocap_quat[:, former.mocap]
-        elif link.mocap is not None and former.free is not None:
-            pose = old.qpos[:, former.free.position]
-            new.mocap_pos[:, link.mocap] = pose[:, :3]
-            new.mocap_quat[:, link.mocap] = pose[:, 3:]
-        if link.body and former.body:
-            new.xfrc_applied[:, link.body] = old.xfrc_applied[:, former.body]
+        if former is not None:
+            _copy_link(old, former, new, link)
     for name, column in new_layout.motors.items():
         if name in old_layout.motors:
             new.ctrl[:, column] = old.ctrl[:, old_layout.motors[name]]
+
+
+def _copy_link(old: Batch, there: LinkSlot, new: Batch, here: LinkSlot) -> None:
+    if here.free is not None and there.free is not None:
+        _copy_joint(old, there.free, new, here.free)
+    if here.mocap is not None and there.mocap is not None:
+        new.mocap_pos[:, here.mocap] = old.mocap_pos[:, there.mocap]
+        new.mocap_quat[:, here.mocap] = old.mocap_quat[:, there.mocap]
+    elif here.mocap is not None and there.free is not None:
+        pose = old.qpos[:, there.free.position]
+        new.mocap_pos[:, here.mocap] = pose[:, :3]
+        new.mocap_quat[:, here.mocap] = pose[:, 3:]
+    if here.body and there.body:
+        new.xfrc_applied[:, here.body] = old.xfrc_applied[:, there.body]
 
 
 def _copy_joint(old: Batch, there: Slot, new: Batch, here: Slot) -> None:

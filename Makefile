@@ -1,0 +1,50 @@
+# What to type in a fresh checkout: `make demo`, `make test`, `make lint`.
+# Everything is installed into .venv; nothing else is touched.
+
+PYTHON ?= python3
+VENV := .venv
+PIP := $(VENV)/bin/pip --disable-pip-version-check
+STAMP := $(VENV)/.installed
+
+.PHONY: help demo test test-slow lint bench clean
+
+help:
+	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
+	@echo "make test       set up and run every quick test"
+	@echo "make test-slow  the long checks too"
+	@echo "make lint       ruff (check and format) and mypy in strict mode"
+	@echo "make bench      the benchmark of the environments"
+	@echo "make clean      remove .venv and caches"
+
+$(VENV)/bin/python:
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Gazelle needs Python 3.11 or newer; set PYTHON=python3.11 or so")'
+	$(PYTHON) -m venv $(VENV)
+
+$(STAMP).demo: $(VENV)/bin/python pyproject.toml constraints.txt
+	$(PIP) install --quiet --constraint constraints.txt --editable '.[train]'
+	@touch $@
+
+$(STAMP).all: $(VENV)/bin/python pyproject.toml constraints.txt
+	$(PIP) install --quiet --constraint constraints.txt --editable '.[test,lint]'
+	@touch $@
+
+demo: $(STAMP).demo
+	$(VENV)/bin/gazelle demo
+
+test: $(STAMP).all
+	$(VENV)/bin/python -m pytest -q -m "not slow"
+
+test-slow: $(STAMP).all
+	$(VENV)/bin/python -m pytest -q
+
+lint: $(STAMP).all
+	$(VENV)/bin/ruff check
+	$(VENV)/bin/ruff format --check
+	$(VENV)/bin/mypy
+
+bench: $(STAMP).all
+	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
+	$(VENV)/bin/gazelle bench env
+
+clean:
+	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

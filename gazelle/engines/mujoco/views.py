@@ -1,0 +1,38 @@
+"""The state arrays of a batch, looked up once: views that stay live."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class StateViews:
+    """Live views, all with a leading axis over worlds.
+
+    Attributes:
+        faults: Counts of bad positions, velocities and accelerations, shape (nworld, 3).
+    """
+
+    qpos: Floats
+    qvel: Floats
+    ctrl: Floats
+    mocap_pos: Floats
+    mocap_quat: Floats
+    qfrc_applied: Floats
+    faults: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, batch: Batch) -> StateViews:
+        """The views of a batch."""
+        first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQACC
+        return cls(
+            *(batch.bind(name) for name in cls.__slots__ if name != "faults"),
+            faults=batch.warning[:, int(first) : int(last) + 1, 1],
+        )
