@@ -15,6 +15,9 @@ from gazelle.errors import TaskError, did_you_mean
 
 Activation = Literal["tanh", "relu"]
 
+ALGORITHM_NAMES = ("ppo", "dqn", "sac", "td3", "ddpg")
+"""The names of the algorithms; `gazelle.training.ALGORITHMS` says how they are built."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PPOSettings:
@@ -99,6 +102,9 @@ class Recipe:
         Raises:
             TaskError: One of them cannot.
         """
+        if self.algo not in ALGORITHM_NAMES:
+            hint = did_you_mean(self.algo, ALGORITHM_NAMES)
+            raise TaskError(f"there is no algorithm '{self.algo}'", hint=hint)
         for name in ("steps", "num_envs", "learning_rate", "reward_scale"):
             if not getattr(self, name) > 0:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
@@ -190,10 +196,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
         return own or Recipe()
     if algo == "ppo":
         return Recipe()
-    if algo not in _OFF_POLICY:
-        hint = did_you_mean(algo, ["ppo", *_OFF_POLICY])
-        raise TaskError(f"there is no algorithm '{algo}'", hint=hint)
-    base = _OFF_POLICY[algo]
+    base = _OFF_POLICY[algo] if algo in _OFF_POLICY else Recipe(algo=algo)
     if own is None:
         return base
     return dataclasses.replace(

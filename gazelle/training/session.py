@@ -83,6 +83,8 @@ def train(
         steps=recipe.steps if steps is None else steps,
         num_envs=recipe.num_envs if num_envs is None else num_envs,
     )
+    if not 0 <= seed < 2**32:
+        raise TaskError(f"seed must be between 0 and 4294967295, not {seed}")
     if checkpoint_every is not None and checkpoint_every < 1:
         raise TaskError(f"checkpoint_every must be above 0, not {checkpoint_every}")
     config = RunConfig(

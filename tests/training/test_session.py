@@ -7,12 +7,13 @@ import dataclasses
 import json
 import os
 import signal
+import sys
 
 import numpy as np
 import pytest
 import torch
 
-from gazelle.errors import FormatError, SimulationWarning, TaskError
+from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
 from gazelle.training import OffPolicySettings, Recipe, evaluate, resume, train
 from gazelle.training.progress import Silent
 
@@ -207,6 +208,35 @@ def test_evaluations_use_the_recipes_own_options(tmp_path, tiny):
     result = train("test/Corridor-v0", recipe=recipe, out=tmp_path)
     assert evaluate(result.run.folder, episodes=20).mean_length <= 3
     assert evaluate(result.run.folder, episodes=20, limit=25).mean_length > 3
+
+
+@pytest.mark.parametrize("seed", [-1, 2**32])
+def test_an_impossible_seed_is_refused(tmp_path, seed):
+    with pytest.raises(TaskError, match="seed must be between"):
+        train("test/Corridor-v0", out=tmp_path, seed=seed)
+
+
+def test_a_turtlebot3_run_goes_on_exactly_where_it_was(tmp_path, tiny):
+    recipe = dataclasses.replace(tiny, steps=512, num_envs=4)
+    given = {"recipe": recipe, "seed": 2}
+    whole = train("TurtleBot3Stage4", out=tmp_path / "whole", **given)
+    first = train("TurtleBot3Stage4", out=tmp_path / "broken", progress=StopAt(200), **given)
+    assert first.interrupted
+    second = resume(first.run.folder)
+    for name, expected in weights(whole).items():
+        assert torch.equal(weights(second)[name], expected), name
+    assert curves(second) == curves(whole)
+
+
+def test_a_missing_part_says_how_to_install_it(monkeypatch):
+    import gazelle.training as room
+
+    monkeypatch.delitem(vars(room), "train", raising=False)
+    monkeypatch.delitem(sys.modules, "gazelle.training.session")
+    monkeypatch.delitem(sys.modules, "gazelle.training.learners")
+    monkeypatch.setitem(sys.modules, "stable_baselines3", None)
+    with pytest.raises(MissingExtraError, match=r'pip install "gazelle\[train\]"'):
+        room.train  # noqa: B018  # the access is what is tested
 
 
 def test_an_unknown_task_suggests_the_closest():
