@@ -33,6 +33,11 @@ class StateViews:
         """The views of a batch."""
         first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQACC
         return cls(
-            *(batch.bind(name) for name in cls.__slots__ if name != "faults"),
+            qpos=batch.bind("qpos"),
+            qvel=batch.bind("qvel"),
+            ctrl=batch.bind("ctrl"),
+            mocap_pos=batch.bind("mocap_pos"),
+            mocap_quat=batch.bind("mocap_quat"),
+            qfrc_applied=batch.bind("qfrc_applied"),
             faults=batch.warning[:, int(first) : int(last) + 1, 1],
         )
