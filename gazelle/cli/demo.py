@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     )
     if result.interrupted:
         return report(result)
-    sys.stdout.write(f"trained:  {showing.training(result)}\n")
+    sys.stdout.write(f"trained:  {showing.training(result, indent=10)}\n")
     folder = result.run.folder
     found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000)
     sys.stdout.write(f"evaluated on {found.episodes} fresh goals:\n{showing.evaluation(found)}")

@@ -56,11 +56,16 @@ def rate(value: Rate | None) -> str:
     )
 
 
-def training(result: TrainResult) -> str:
-    """What a training did, in one line without its end."""
-    rate_text = f"{result.new_steps / max(result.wall_seconds, 1e-9):,.0f} steps/s"
+def training(result: TrainResult, indent: int = 0) -> str:
+    """What a training did, in two lines without the last one's end.
+
+    Args:
+        result: What it did.
+        indent: Spaces before the second line.
+    """
+    pace = result.new_steps / max(result.wall_seconds, 1e-9)
     return (
-        f"{result.new_steps:,} control steps at {rate_text}; "
+        f"{result.new_steps:,} control steps, {pace:,.0f} a second\n{' ' * indent}"
         f"{speed(result.wall_seconds, result.sim_seconds)}"
     )
 

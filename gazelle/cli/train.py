@@ -82,7 +82,7 @@ def report(result: TrainResult) -> int:
     if not result.new_steps:
         sys.stdout.write(f"nothing left to do: the run has its {result.steps:,} steps\n")
     else:
-        sys.stdout.write(f"trained: {showing.training(result)}\n")
+        sys.stdout.write(f"trained: {showing.training(result, indent=9)}\n")
     sys.stdout.write(
         f"the run: {folder}\n"
         f"next:    gazelle eval {folder}\n"

@@ -31,7 +31,7 @@ def test_train_says_what_it_did_and_what_to_type_next(cli, tmp_path):
     assert code == 0
     assert not err
     (folder,) = tmp_path.iterdir()
-    assert re.search(r"trained: 2,\d+ control steps at [\d,]+ steps/s", out)
+    assert re.search(r"trained: 2,\d+ control steps, [\d,]+ a second\n +[\d.]+ s for .* RTF", out)
     assert f"next:    gazelle eval {folder}" in out
     assert json.loads((folder / "config.json").read_text())["seed"] == 3
 
