@@ -6,12 +6,13 @@ VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
 STAMP := $(VENV)/.installed
 
-.PHONY: help demo test test-slow lint bench clean
+.PHONY: help setup demo test test-slow lint bench clean
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
 	@echo "make test       set up and run every quick test"
 	@echo "make test-slow  the long checks too"
+	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make bench      the benchmark of the environments"
 	@echo "make clean      remove .venv and caches"
@@ -27,6 +28,8 @@ $(STAMP).demo: $(VENV)/bin/python pyproject.toml constraints.txt
 $(STAMP).all: $(VENV)/bin/python pyproject.toml constraints.txt
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[test,lint]'
 	@touch $@
+
+setup: $(STAMP).all
 
 demo: $(STAMP).demo
 	$(VENV)/bin/gazelle demo

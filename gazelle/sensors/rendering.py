@@ -22,6 +22,7 @@ _SKY_TOP = np.array([0.45, 0.62, 0.86])
 _SKY_HORIZON = np.array([0.86, 0.91, 0.96])
 _SUN = Light("sun", "directional", direction=(-0.5, 0.1, -0.9), diffuse=(0.8, 0.8, 0.8, 1.0))
 _LINE = 0.012  # half width of the lines of the ground grid [m]
+_GAMMA = 1.35  # lifts the shadows to what a screen shows well
 _OFFSET = 1e-4  # where shadow rays start above a surface [m]
 
 
@@ -64,7 +65,7 @@ def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
         colour[hit] = _shade(tracer, world, met, points, directions[hit])
     fine = colour.reshape(view.height, view.samples, view.width, view.samples, 3)
     picture = fine.mean(axis=(1, 3))
-    return np.asarray(np.clip(picture, 0.0, 1.0) ** (1 / 1.1) * 255.0 + 0.5, dtype=np.uint8)
+    return np.asarray(np.clip(picture, 0.0, 1.0) ** (1 / _GAMMA) * 255.0 + 0.5, dtype=np.uint8)
 
 
 def _directions(view: View) -> Floats:
@@ -82,14 +83,15 @@ def _directions(view: View) -> Floats:
 def _background(world: World, directions: Floats) -> Floats:
     if world.scene.sky:
         height = np.clip(directions[:, 2:], 0.0, 1.0) ** 0.6
-        return (1.0 - height) * _SKY_HORIZON + height * _SKY_TOP
+        blend: Floats = (1.0 - height) * _SKY_HORIZON + height * _SKY_TOP
+        return blend
     return np.tile(np.asarray(world.scene.background[:3]), (len(directions), 1))
 
 
 def _shade(tracer: Tracer, world: World, met: Sight, points: Floats, along: Floats) -> Floats:
     facing = np.where((met.normal * along).sum(axis=1, keepdims=True) > 0.0, -1.0, 1.0)
     normal = met.normal * facing
-    surface = _surface_colours(tracer.visuals, met.visual, points, world.scene.grid)
+    surface = _surface_colours(tracer.visuals, met.visual, points, grid=world.scene.grid)
     sky = 0.75 + 0.25 * normal[:, 2:]
     light = np.asarray(world.scene.ambient[:3]) * sky
     start = points + _OFFSET * normal
@@ -134,7 +136,7 @@ def _fading(lamp: Light, reach: Floats, cosine: Floats) -> Floats:
 
 
 def _surface_colours(
-    visuals: tuple[Visual, ...], index: NDArray[np.intp], points: Floats, grid: bool
+    visuals: tuple[Visual, ...], index: NDArray[np.intp], points: Floats, *, grid: bool
 ) -> Floats:
     table = np.array([_colour(visual) for visual in visuals])
     colours = table[index]

@@ -1,0 +1,50 @@
+"""Pictures of a running simulation as files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from gazelle.errors import Error, did_you_mean
+from gazelle.sensors import View, look_at
+from gazelle.simulation import Simulation
+
+_SUFFIXES = (".png", ".jpg", ".jpeg", ".webp")
+
+
+def take_picture(
+    simulation: Simulation,
+    path: str | Path,
+    *,
+    eye: tuple[float, float, float],
+    target: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    size: tuple[int, int] = (960, 600),
+    world: int = 0,
+) -> NDArray[np.uint8]:
+    """Render a simulation and write it to a file; needs no graphics card and no screen.
+
+    Args:
+        simulation: What to look at.
+        path: ``.png``, ``.jpg`` or ``.webp``.
+        eye: Where the camera is [m].
+        target: What it looks at [m].
+        size: Width and height [pixel].
+        world: Which world of a batch.
+
+    Returns:
+        The picture, shape (height, width, 3).
+
+    Raises:
+        Error: The file's suffix is not a picture's.
+    """
+    file = Path(path)
+    if file.suffix.lower() not in _SUFFIXES:
+        raise Error(
+            f"'{file.name}' is not a picture's name", hint=did_you_mean(file.suffix, _SUFFIXES)
+        )
+    picture = simulation.render(View(look_at(eye, target), *size), world)
+    Image.fromarray(picture).save(file)
+    return picture

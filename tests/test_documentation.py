@@ -1,0 +1,65 @@
+"""What the documentation shows works as typed."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from gazelle.cli.commands import COMMANDS
+
+ROOT = Path(__file__).parent.parent
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+
+
+def python_of(page):
+    """The Python blocks of a page as one program."""
+    return "\n".join(
+        re.findall(r"^```python\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE)
+    )
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if python_of(p)], ids=lambda p: p.name)
+def test_the_python_of_a_page_runs(page, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", python_of(page)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda p: p.name)
+def test_an_example_runs_in_an_empty_folder(example, tmp_path):
+    done = subprocess.run(
+        [sys.executable, str(example)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def test_links_and_commands_of_a_page_exist(page):
+    text = page.read_text()
+    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", text):
+        if not target.startswith("http"):
+            assert (page.parent / target).exists(), target
+    for command in re.findall(r"(?:^ {4}|`)gazelle ([a-z]+)\b", text, re.MULTILINE):
+        assert command in COMMANDS, command
+
+
+def test_the_readme_names_the_two_commands_first():
+    first_screen = (ROOT / "README.md").read_text().splitlines()[:24]
+    text = "\n".join(first_screen)
+    assert "make demo" in text
+    assert "make test" in text
+    assert "room.png" in text
