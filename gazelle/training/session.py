@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import torch
+
 from gazelle.errors import TaskError
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.conductor import Conductor, StopOnInterrupt, StopRequested
@@ -186,6 +188,19 @@ class _Session:
             )
         except StopRequested:
             return True
+        except ValueError as error:
+            self._check_weights(error)
+            raise
+        self._check_weights(None)
         conductor.finish()
         self.progress.update(self.learner.num_timesteps, self.episodes.summary())
         return False
+
+    def _check_weights(self, cause: ValueError | None) -> None:
+        """Refuse to go on with, or to save, weights that are not numbers any more."""
+        if all(torch.isfinite(weight).all() for weight in self.learner.policy.parameters()):
+            return
+        raise TaskError(
+            f"the weights became infinite within {self.learner.num_timesteps:,} steps",
+            hint="lower the learning rate or the reward_scale; does the task give NaN?",
+        ) from cause

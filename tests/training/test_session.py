@@ -210,6 +210,13 @@ def test_evaluations_use_the_recipes_own_options(tmp_path, tiny):
     assert evaluate(result.run.folder, episodes=20, limit=25).mean_length > 3
 
 
+@pytest.mark.parametrize("steps", [128, 1024])
+def test_weights_that_explode_are_one_clear_error(tmp_path, tiny, steps):
+    hopeless = dataclasses.replace(tiny, steps=steps, reward_scale=1e38)
+    with pytest.raises(TaskError, match="weights became infinite"):
+        train("test/Corridor-v0", recipe=hopeless, out=tmp_path)
+
+
 @pytest.mark.parametrize("seed", [-1, 2**32])
 def test_an_impossible_seed_is_refused(tmp_path, seed):
     with pytest.raises(TaskError, match="seed must be between"):
