@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle.description import Model, Parameters, Pose
+from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
-from gazelle.formats.sdf.frames import MODEL, Entry, Scope
+from gazelle.formats.sdf.frames import MODEL, WORLD, Entry, Scope
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
 Version = tuple[int, int]
@@ -107,10 +108,21 @@ def add_model(scope: Scope, draft: Draft) -> None:
 
 
 def draft_part(node: Parameters, scope: Scope) -> None:
-    """The frame of a link, joint or frame; nothing for other elements."""
+    """The frame of a link, joint or frame; nothing for other elements.
+
+    Raises:
+        FormatError: It has no name, or one that SDF keeps for itself.
+    """
     drafter = _DRAFTERS.get(node.tag)
     if drafter is not None:
+        _refuse_reserved(node)
         drafter(node, scope)
+
+
+def _refuse_reserved(node: Parameters) -> None:
+    name = values.attribute(node, "name")
+    if name == WORLD or (len(name) > 4 and name.startswith("__") and name.endswith("__")):
+        raise values.fail(node, f"SDF keeps the name '{name}' for itself")
 
 
 def draft_link(node: Parameters, scope: Scope) -> None:
@@ -160,6 +172,12 @@ _DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {
 def _canonical(draft: Draft) -> str:
     named = draft.node.attributes.get("canonical_link", "")
     if named:
+        if not draft.scope.has(named) and not draft.scope.lacks(named):
+            raise values.fail(
+                draft.node,
+                f"the canonical link '{named}' is not there",
+                hint=did_you_mean(named, draft.scope.entries),
+            )
         return named
     first = draft.node.find("link")
     if first is not None:

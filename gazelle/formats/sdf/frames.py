@@ -13,7 +13,6 @@ from gazelle.formats import values
 
 MODEL = "__model__"
 WORLD = "world"
-ROOT = "__root__"
 
 _IDENTITY = Pose()
 
@@ -57,7 +56,8 @@ class Scope:
     missing: set[str] = field(default_factory=set)
     entries: dict[str, Entry] = field(default_factory=dict)
     _resolved: dict[str, Pose] = field(default_factory=dict)
-    _open: list[str] = field(default_factory=list)
+    _open: dict[str, None] = field(default_factory=dict)
+    _links: dict[str, str] = field(default_factory=dict)
 
     def add(self, name: str, entry: Entry) -> None:
         """Add a frame; a link, joint and frame may share a name, which means the first.
@@ -83,30 +83,35 @@ class Scope:
         Raises:
             FormatError: There is no such frame, or its poses lead in a circle.
         """
-        if name in {"", self.owner, ROOT}:
-            return _IDENTITY
-        name = self.own(name)
-        if self.lacks(name):
-            return _IDENTITY  # the missing include is already reported
-        known = self._resolved.get(name)
-        if known is not None:
-            return known
-        pose = self._resolved[name] = self._resolve(name, node)
-        return pose
-
-    def _resolve(self, name: str, node: Parameters) -> Pose:
-        entry = self.entries.get(name)
-        if entry is None:
-            return self._resolve_inner(name, node)
-        if name in self._open:
-            circle = " -> ".join([*self._open[self._open.index(name) :], name])
-            raise values.fail(entry.node, f"the poses lead in a circle: {circle}")
-        self._open.append(name)
+        chain: list[tuple[str, Entry]] = []
         try:
-            base = self.pose(entry.relative_to, entry.node)
+            base = self._climb(name, node, chain)
         finally:
-            self._open.pop()
-        return entry.pose if base is _IDENTITY else base * entry.pose
+            for step, _ in chain:
+                del self._open[step]
+        for step, entry in reversed(chain):
+            base = entry.pose if base is _IDENTITY else base * entry.pose
+            self._resolved[step] = base
+        return base
+
+    def _climb(self, name: str, node: Parameters, chain: list[tuple[str, Entry]]) -> Pose:
+        """Follow the frames up to one whose pose is known; the chain takes those between."""
+        while True:
+            name = self.own(name)
+            if name in {"", self.owner} or self.lacks(name):
+                return _IDENTITY  # a missing include is already reported
+            if name in self._resolved:
+                return self._resolved[name]
+            if name in self._open:
+                steps = list(self._open)
+                circle = " -> ".join([*steps[steps.index(name) :], name])
+                raise values.fail(node, f"the poses lead in a circle: {circle}")
+            entry = self.entries.get(name)
+            if entry is None:
+                return self._resolve_inner(name, node)
+            chain.append((name, entry))
+            self._open[name] = None
+            name, node = entry.relative_to, entry.node
 
     def _resolve_inner(self, name: str, node: Parameters) -> Pose:
         """A name scoped by ``::`` leads into a nested model, whose own names may hold ``::``."""
@@ -152,13 +157,20 @@ class Scope:
         Raises:
             FormatError: There is no such frame, or the frames are attached in a circle.
         """
-        name = self.own(name)
-        seen: list[str] = []
-        while name not in {"", self.owner, ROOT}:
+        seen: dict[str, None] = {}
+        link = self._follow(self.own(name), node, seen)
+        self._links.update(dict.fromkeys(seen, link))
+        return link
+
+    def _follow(self, name: str, node: Parameters, seen: dict[str, None]) -> str:
+        while name not in {"", self.owner}:
+            if name in self._links:
+                return self._links[name]
             if name in seen:
-                circle = " -> ".join([*seen[seen.index(name) :], name])
+                steps = list(seen)
+                circle = " -> ".join([*steps[steps.index(name) :], name])
                 raise values.fail(node, f"the frames are attached in a circle: {circle}")
-            seen.append(name)
+            seen[name] = None
             entry = self.entries.get(name)
             if entry is None:
                 self.pose(name, node)

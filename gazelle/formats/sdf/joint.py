@@ -50,6 +50,8 @@ def read_joint(node: Parameters, scope: Scope, version: tuple[int, int]) -> Join
     name = values.attribute(node, "name")
     kind = joint_type(node)
     parent, child = (body(node, tag, scope) for tag in ("parent", "child"))
+    if parent == child:
+        raise values.fail(node, f"the joint holds the link '{child}' to itself")
     pose = _pose_in_child(node, name, child, scope)
     return Joint(
         name=name,

@@ -37,6 +37,8 @@ def read_model(draft: Draft, outer: Scope, reading: Reading) -> Model:
 def _content(draft: Draft, reading: Reading) -> Model:
     node, scope = draft.node, draft.scope
     static = values.flag(node, "static", default=False) or draft.static is True
+    if not (static or scope.canonical or scope.missing):
+        raise values.fail(node, f"the model '{draft.name}' has no link")
     return Model(
         name=draft.name,
         static=static,

@@ -189,7 +189,7 @@ def bodies(tree: Tree, extensions: Extensions) -> list[Body]:
         waiting = [Body(tree.links[tree.root], Pose())]
     while waiting:
         body = waiting.pop(0)
-        _gather(tree, body, body.link, Pose(), extensions)
+        _gather(tree, body, extensions)
         done.append(body)
         waiting = [*body.children, *waiting]
     return done
@@ -200,10 +200,16 @@ def _hung(tree: Tree, joint: UrdfJoint, parent: Body, link_pose: Pose) -> Body:
     return Body(tree.links[joint.child], parent.pose * origin, joint, parent.name, origin)
 
 
-def _gather(tree: Tree, body: Body, link: UrdfLink, pose: Pose, extensions: Extensions) -> None:
-    body.members.append(Member(link, pose))
-    for joint in tree.below.get(link.name, ()):
-        if lumps(joint, extensions):
-            _gather(tree, body, tree.links[joint.child], pose * joint.origin, extensions)
-        else:
-            body.children.append(_hung(tree, joint, body, pose))
+def _gather(tree: Tree, body: Body, extensions: Extensions) -> None:
+    """Find all links of a body, each before those on it, and the bodies that hang on it."""
+    waiting = [Member(body.link, Pose())]
+    while waiting:
+        member = waiting.pop()
+        body.members.append(member)
+        lumped = []
+        for joint in tree.below.get(member.link.name, ()):
+            if lumps(joint, extensions):
+                lumped.append(Member(tree.links[joint.child], member.pose * joint.origin))
+            else:
+                body.children.append(_hung(tree, joint, body, member.pose))
+        waiting.extend(reversed(lumped))

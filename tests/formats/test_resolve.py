@@ -1,0 +1,162 @@
+"""Files are found where the tools of ROS and Gazebo find them, and nowhere else."""
+
+import pytest
+
+from gazelle import ResolveError, formats
+from gazelle.formats import Resolver
+
+
+def model(folder, name):
+    place = folder / name
+    place.mkdir(parents=True)
+    (place / "model.config").write_text(
+        "<model><name>x</name><sdf version='1.6'>model.sdf</sdf></model>"
+    )
+    (place / "model.sdf").write_text(
+        f"<sdf version='1.6'><model name='{name}'><link name='l'/></model></sdf>"
+    )
+    (place / "a.stl").write_bytes(b"")
+    return place
+
+
+def package(folder, name, export=""):
+    place = folder / name
+    place.mkdir(parents=True)
+    (place / "package.xml").write_text(
+        f"<package><name>{name}</name><export>{export}</export></package>"
+    )
+    return place
+
+
+@pytest.mark.parametrize("variable", ["GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"])
+def test_models_are_found_through_the_environment(tmp_path, variable):
+    place = model(tmp_path / "far", "thing")
+    resolver = Resolver(environ={variable: f"/none:{tmp_path / 'far'}"})
+    assert resolver.find("model://thing/a.stl") == place / "a.stl"
+    assert Resolver(environ={}).find("model://thing/a.stl") is None
+
+
+def test_given_paths_go_before_the_environment(tmp_path):
+    first, second = model(tmp_path / "1", "thing"), model(tmp_path / "2", "thing")
+    environ = {"GAZEBO_MODEL_PATH": str(tmp_path / "2")}
+    assert Resolver(environ=environ).model("thing") == second
+    assert Resolver([tmp_path / "1"], environ).model("thing") == first
+
+
+def test_packages_are_found_through_ros_package_path(tmp_path):
+    place = package(tmp_path / "ws" / "src" / "stack", "robot")
+    (place / "m.stl").write_bytes(b"")
+    resolver = Resolver(environ={"ROS_PACKAGE_PATH": str(tmp_path / "ws")})
+    assert resolver.find("package://robot/m.stl") == place / "m.stl"
+    assert resolver.find("model://robot/m.stl") == place / "m.stl"
+
+
+def test_packages_are_called_as_their_package_xml_says(tmp_path):
+    place = package(tmp_path, "folder")
+    (place / "package.xml").write_text("<package><name>real</name></package>")
+    resolver = Resolver([tmp_path], {})
+    assert resolver.package("real") == place
+    assert resolver.package("folder") is None
+
+
+def test_exports_of_packages_name_folders_of_models(tmp_path):
+    place = package(tmp_path / "ws", "sim", "<gazebo_ros gazebo_model_path='${prefix}/deep/er'/>")
+    thing = model(place / "deep" / "er", "thing")
+    worlds = place / "worlds"
+    worlds.mkdir()
+    assert Resolver(environ={}, file=worlds / "a.world").model("thing") == thing
+
+
+def test_siblings_of_the_file_are_found(tmp_path):
+    thing = model(tmp_path / "repo" / "models", "thing")
+    worlds = tmp_path / "repo" / "worlds"
+    worlds.mkdir()
+    assert Resolver(environ={}, file=worlds / "a.world").model("thing") == thing
+
+
+def test_relative_and_absolute_paths_stay_in_the_neighbourhood(tmp_path):
+    repo = tmp_path / "a" / "b" / "c" / "d" / "e"
+    (repo / "urdf").mkdir(parents=True)
+    (repo / "mesh.stl").write_bytes(b"")
+    (tmp_path / "far.stl").write_bytes(b"")
+    resolver = Resolver(environ={}, file=repo / "urdf" / "r.urdf")
+    base = repo / "urdf"
+    assert resolver.find("../mesh.stl", base).samefile(repo / "mesh.stl")
+    assert resolver.find(f"file://{repo}/mesh.stl") == repo / "mesh.stl"
+    assert resolver.find("file:///etc/passwd") is None
+    assert resolver.find("/etc/passwd") is None
+    assert resolver.find(str(tmp_path / "far.stl")) is None
+    assert resolver.find("../../../../../../far.stl", base) is None
+
+
+def test_links_out_of_the_neighbourhood_are_not_followed(tmp_path):
+    repo = tmp_path / "a" / "b" / "c" / "d" / "e"
+    repo.mkdir(parents=True)
+    (tmp_path / "secret.stl").write_bytes(b"")
+    (repo / "link.stl").symlink_to(tmp_path / "secret.stl")
+    assert Resolver(environ={}, file=repo / "r.urdf").find("link.stl", repo) is None
+
+
+@pytest.mark.parametrize("uri", ["model://../x", "package://..", "model://", "\0", "file://\0", ""])
+def test_odd_uris_lead_nowhere_or_to_a_folder_that_may_be_read(tmp_path, uri):
+    resolver = Resolver([tmp_path], {})
+    found = resolver.find(uri, tmp_path)
+    assert found is None or resolver.readable(found)
+
+
+def test_sun_and_ground_plane_are_always_there():
+    resolver = Resolver(environ={})
+    for name in ("sun", "ground_plane"):
+        assert (resolver.find(f"model://{name}") / "model.config").is_file()
+
+
+def test_a_model_on_disk_stands_in_for_one_on_a_network(tmp_path):
+    place = model(tmp_path, "Thing")
+    resolver = Resolver([tmp_path], {})
+    assert resolver.find("https://fuel.example.org/1.0/me/models/Thing") == place
+    assert resolver.find("https://fuel.example.org/1.0/me/models/Thing/tip/files/a.stl") == (
+        place / "a.stl"
+    )
+
+
+def test_a_model_folder_is_loaded_as_its_model_config_says(tmp_path):
+    place = model(tmp_path, "thing")
+    assert formats.load_model(place).name == "thing"
+    world = tmp_path / "w.world"
+    world.write_text(
+        "<sdf version='1.6'><world name='w'><include><uri>model://thing</uri><name>mine</name>"
+        "<pose>1 0 0 0 0 0</pose><static>1</static></include></world></sdf>"
+    )
+    found = formats.load(world).models[0]
+    assert (found.name, found.static, found.pose.x) == ("mine", True, 1.0)
+
+
+def test_of_several_versions_the_newest_is_loaded(tmp_path):
+    place = model(tmp_path, "thing")
+    (place / "old.sdf").write_text("<sdf version='1.4'><model name='old'/></sdf>")
+    (place / "model.config").write_text(
+        "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.10'>model.sdf</sdf></model>"
+    )
+    assert formats.load_model(place).name == "thing"
+
+
+def test_bundled_models_worlds_and_robots_load_by_name():
+    assert formats.load_model("ground_plane").static
+    assert next(m.name for m in formats.load("turtlebot3_stage_1").models) == "ground_plane"
+    assert formats.load_model("turtlebot3_burger").links
+
+
+def test_an_unknown_name_is_an_error_with_a_suggestion():
+    with pytest.raises(ResolveError) as caught:
+        formats.load("ground_plan")
+    assert caught.value.hint == "did you mean 'ground_plane'?"
+
+
+def test_a_file_that_includes_itself_is_an_error(tmp_path):
+    place = model(tmp_path, "thing")
+    (place / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='m'><include><uri>model://thing</uri></include>"
+        "</model></sdf>"
+    )
+    with pytest.raises(formats.loader.FormatError, match="includes itself"):
+        formats.load(place)

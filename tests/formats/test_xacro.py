@@ -1,0 +1,103 @@
+"""Xacro works without ROS, and errors point at the file that was written."""
+
+import pytest
+from xml_samples import INERTIAL
+
+from gazelle import FormatError, formats
+
+NAMESPACE = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
+
+
+def package(folder, name):
+    (folder / name / "urdf").mkdir(parents=True)
+    (folder / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    return folder / name / "urdf"
+
+
+@pytest.fixture
+def robot(tmp_path):
+    parts = package(tmp_path / "src", "parts")
+    (parts / "wheel.xacro").write_text(
+        f"<robot {NAMESPACE}>\n<xacro:macro name='wheel' params='name r:=0.1'>\n"
+        f"<link name='${{name}}'>{INERTIAL}\n<collision><geometry>\n"
+        "<cylinder radius='${r}' length='${r/2}'/></geometry></collision></link>\n"
+        "</xacro:macro></robot>"
+    )
+    main = package(tmp_path / "src", "car") / "car.urdf.xacro"
+    main.write_text(
+        f"<robot name='car' {NAMESPACE}>\n<xacro:arg name='r' default='0.2'/>\n"
+        "<xacro:include filename='$(find parts)/urdf/wheel.xacro'/>\n"
+        "<xacro:wheel name='left' r='$(arg r)'/></robot>"
+    )
+    return main
+
+
+def test_packages_are_found_around_the_file(robot):
+    model = formats.load_model(robot)
+    shape = model.links[0].collisions[0].geometry
+    assert (model.name, model.links[0].name) == ("car", "left")
+    assert (shape.radius, shape.length) == (0.2, 0.1)
+
+
+def test_arguments_are_given(robot):
+    model = formats.load_model(robot, xacro_args={"r": "0.5"})
+    assert model.links[0].collisions[0].geometry.radius == 0.5
+
+
+def test_elements_know_the_file_and_line_they_were_written_in(robot):
+    collision = formats.load_model(robot).links[0].collisions[0]
+    assert collision.source.file.endswith("parts/urdf/wheel.xacro")
+    assert collision.source.line == 4
+
+
+def test_errors_in_macros_name_the_macro_file_and_line(robot):
+    with pytest.raises(FormatError, match="unsupported operand") as caught:
+        formats.load_model(robot, xacro_args={"r": "'0.1 m'"})
+    wheel = robot.parents[2] / "parts/urdf/wheel.xacro"
+    assert caught.value.file.endswith("wheel.xacro")
+    assert "cylinder" in wheel.read_text().splitlines()[caught.value.line - 1]
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ("<link name='${nothing}'/>", "name 'nothing' is not defined"),
+        ("<xacro:include filename='none.xacro'/>", "no file .*none.xacro"),
+        ("<xacro:include filename='$(find nowhere)/a.xacro'/>", "no package 'nowhere'"),
+        ("<xacro:nomacro/>", "unknown macro name: xacro:nomacro"),
+        ("<link name='$(arg missing)'/>", "Undefined substitution argument"),
+        ("<link name='${().__class__}'/>", "xacro"),
+    ],
+)
+def test_errors_of_xacro_name_file_line_and_element(tmp_path, line, reason):
+    file = tmp_path / "bad.xacro"
+    file.write_text(f"<robot name='r' {NAMESPACE}>\n\n{line}</robot>")
+    with pytest.raises(FormatError, match=reason) as caught:
+        formats.load(file)
+    assert caught.value.file == str(file)
+    assert caught.value.line in {1, 3}
+    assert caught.value.element is not None
+
+
+def test_files_outside_of_the_neighbourhood_are_not_read(tmp_path):
+    file = tmp_path / "a" / "b.xacro"
+    file.parent.mkdir()
+    file.write_text(
+        f"<robot name='r' {NAMESPACE}><xacro:property name='p' "
+        "value='${xacro.load_yaml(\"/etc/hostname\")}'/><link name='${p}'/></robot>"
+    )
+    with pytest.raises(FormatError, match=r"may be read|no file"):
+        formats.load(file)
+
+
+def test_text_is_expanded_too():
+    model = formats.load_model_string(
+        f"<robot name='r' {NAMESPACE}><link name='${{1+1}}'>{INERTIAL}</link></robot>"
+    )
+    assert model.links[0].name == "2"
+
+
+def test_loads_do_not_disturb_each_other(robot):
+    first = formats.load_model(robot, xacro_args={"r": "0.7"})
+    assert formats.load_model(robot).links[0].collisions[0].geometry.radius == 0.2
+    assert first.links[0].collisions[0].geometry.radius == 0.7
