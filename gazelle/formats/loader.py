@@ -16,7 +16,7 @@ from gazelle.formats.resolve import Resolver
 PathLike = str | os.PathLike[str]
 
 _WORLD_SUFFIXES = (".world", ".sdf")
-_ROBOT_SUFFIXES = (".urdf", ".urdf.xacro", ".xacro")
+_ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 
 
 def load(

@@ -146,6 +146,13 @@ def test_bundled_models_worlds_and_robots_load_by_name():
     assert formats.load_model("turtlebot3_burger").links
 
 
+def test_every_bundled_name_loads_without_a_warning():
+    names = formats.loader.bundled_names(Resolver().assets)
+    assert {"turtlebot3_burger", "turtlebot3_stage_4", "empty"} <= set(names)
+    for name in names:
+        assert formats.load(name).source is not None
+
+
 def test_an_unknown_name_is_an_error_with_a_suggestion():
     with pytest.raises(ResolveError) as caught:
         formats.load("ground_plan")
