@@ -1,0 +1,165 @@
+"""Arrays of numbers on their way into and out of bytes.
+
+numpy is imported only when a message asks for it.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from typing import Any, NoReturn
+
+from gazelle.ros.messages.spec import STRUCT_CODES
+
+DTYPES = {
+    "bool": "?",
+    "int8": "i1",
+    "byte": "i1",
+    "uint8": "u1",
+    "char": "u1",
+    "int16": "<i2",
+    "uint16": "<u2",
+    "int32": "<i4",
+    "uint32": "<u4",
+    "int64": "<i8",
+    "uint64": "<u8",
+    "float32": "<f4",
+    "float64": "<f8",
+}
+_MOST_LENGTHS = 512
+
+
+class StructMethods(dict[int, Callable[..., Any]]):
+    """Methods of the structs for arrays of one type, by the number of elements.
+
+    Args:
+        pattern: The struct's codes, with ``{}`` for the number.
+        method: The method.
+    """
+
+    def __init__(self, pattern: str, method: str) -> None:
+        super().__init__()
+        self._pattern = pattern
+        self._method = method
+
+    def __missing__(self, count: int) -> Callable[..., Any]:
+        if len(self) >= _MOST_LENGTHS:
+            self.clear()
+        made: Callable[..., Any] = getattr(struct.Struct(self._pattern.format(count)), self._method)
+        self[count] = made
+        return made
+
+
+def shared_names() -> dict[str, Any]:
+    """The names that all compiled encoders and decoders refer to."""
+    names: dict[str, Any] = {}
+    for code in "?" + "".join(sorted(set(STRUCT_CODES.values()))):
+        names[f"_unpackers_{code}".replace("?", "bool")] = StructMethods(
+            f"<{{}}{code}", "unpack_from"
+        )
+        names[f"_packers_{code}".replace("?", "bool")] = StructMethods(f"<I{{}}{code}", "pack")
+    return names | {
+        "_octets": octets,
+        "_numbers": numbers,
+        "_view": view,
+        "_too_short": too_short,
+        "_too_many": too_many,
+        "_wrong_length": wrong_length,
+        "_list": list,
+        "_tuple": tuple,
+    }
+
+
+def octets(value: Any, count: int | None) -> bytes | bytearray | memoryview:
+    """The bytes of a ``uint8[]`` that is not given as ``bytes``.
+
+    Raises:
+        TypeError: It is no sequence of bytes.
+        struct.error: A number in it is no byte, or there are not ``count`` of them.
+    """
+    if isinstance(value, (list, tuple)):
+        return struct.pack(f"{len(value) if count is None else count}B", *value)
+    if isinstance(value, bytearray):
+        return value
+    if isinstance(value, str):
+        raise TypeError("argument for 's' must be a bytes object")
+    data = memoryview(value)
+    if data.itemsize != 1:
+        raise TypeError(f"an array of bytes is needed, not of items of {data.itemsize} bytes")
+    if count is not None and data.nbytes != count:
+        raise TypeError(f"expecting {count} bytes, but found {data.nbytes}")
+    return data.cast("B") if data.c_contiguous and data.nbytes else data.tobytes()
+
+
+def numbers(value: Any, base: str, count: int | None) -> bytes:
+    """An array of numbers that is neither a list nor a tuple, with its length if that may vary.
+
+    Args:
+        value: A numpy array of any shape (taken row by row), or another sequence.
+        base: Type of the elements.
+        count: Number of elements, if it is fixed.
+
+    Raises:
+        TypeError: The elements are of another kind, or not ``count``.
+        OverflowError: A number does not fit.
+    """
+    import numpy as np
+
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__"):
+        raise TypeError(f"an array of {base} is needed, not {type(value).__name__}")
+    given = np.asarray(value)
+    wanted = np.dtype(DTYPES[base])
+    if given.size and not np.can_cast(given.dtype, wanted, "same_kind"):
+        _check_unlike(given, wanted)
+    if given.dtype != wanted and wanted.kind in "iu" and given.size:
+        limits = np.iinfo(wanted)
+        if int(given.min()) < limits.min or int(given.max()) > limits.max:
+            raise OverflowError(f"a number in the array does not fit into {base}")
+    if count is not None and given.size != count:
+        raise TypeError(f"expecting {count} items but found {given.size}")
+    data = np.ascontiguousarray(given, dtype=wanted).tobytes()
+    return data if count is not None else struct.pack("<I", given.size) + data
+
+
+def _check_unlike(given: Any, wanted: Any) -> None:
+    """Integers of either sign may become each other, and truth values numbers; the rest not.
+
+    Raises:
+        TypeError: The kinds are too far apart.
+    """
+    if not (given.dtype.kind in "iub" and wanted.kind in "iub"):
+        raise TypeError(f"an array of {given.dtype} cannot be sent as {wanted}")
+
+
+def view(data: bytes, base: str, count: int, offset: int) -> Any:
+    """A numpy array on top of the bytes of a message, without a copy."""
+    import numpy as np
+
+    return np.ndarray((count,), DTYPES[base], data, offset)
+
+
+def too_short(needed: int, size: int) -> NoReturn:
+    """Report that a message ends early.
+
+    Raises:
+        struct.error: Always.
+    """
+    raise struct.error(f"the message needs at least {needed} bytes, but has {size}")
+
+
+def too_many(count: int) -> NoReturn:
+    """Report an array of more empty messages than anybody sends.
+
+    Raises:
+        struct.error: Always.
+    """
+    raise struct.error(f"an array of {count} empty messages is not plausible")
+
+
+def wrong_length(wanted: int, value: Any) -> NoReturn:
+    """Report an array of fixed length that has another one.
+
+    Raises:
+        TypeError: Always.
+    """
+    raise TypeError(f"Expecting {wanted} items but found {len(value)}")

@@ -1,0 +1,88 @@
+"""Find the field of a message that holds a wrong value."""
+
+from __future__ import annotations
+
+import numbers
+from typing import Any
+
+from gazelle.ros.messages.base import Message
+from gazelle.ros.messages.errors import SerializationError
+from gazelle.ros.messages.spec import FLOATS, INTEGER_BITS, OCTETS, UNSIGNED
+from gazelle.ros.time import Duration, Time
+
+_ARRAYS = frozenset({"ndarray", "array", "memoryview", "bytearray"})
+
+
+def check_type(field_name: str, field_type: str, field_val: Any) -> None:
+    """Check a value against the type of its field; slow, and meant to explain an error.
+
+    Args:
+        field_name: Name for the error.
+        field_type: Type of the field, such as ``float64[]``.
+        field_val: The value.
+
+    Raises:
+        SerializationError: The value does not fit the type.
+    """
+    if field_type.endswith("]"):
+        _check_array(field_name, field_type.partition("[")[0], field_val)
+    elif field_type in INTEGER_BITS:
+        _check_integer(field_name, field_type, field_val)
+    elif field_type in FLOATS:
+        if not isinstance(field_val, numbers.Real) or isinstance(field_val, bool):
+            raise SerializationError(f"field {field_name} must be float type")
+    elif field_type == "bool":
+        if (
+            not isinstance(field_val, (int, numbers.Integral))
+            and "bool" not in type(field_val).__name__
+        ):
+            raise SerializationError(f"field {field_name} is not a bool")
+    elif field_type == "string":
+        if not isinstance(field_val, str):
+            raise SerializationError(f"field {field_name} must be of type str")
+    elif field_type == "time":
+        if not isinstance(field_val, Time):
+            raise SerializationError(f"field {field_name} must be of type Time")
+    elif field_type == "duration":
+        if not isinstance(field_val, Duration):
+            raise SerializationError(f"field {field_name} must be of type Duration")
+    else:
+        _check_message(field_name, field_type, field_val)
+
+
+def _check_integer(name: str, type_: str, value: Any) -> None:
+    unsigned = type_ in UNSIGNED
+    if not isinstance(value, (int, numbers.Integral)):
+        kind = "unsigned integer" if unsigned else "an integer"
+        raise SerializationError(f"field {name} must be {kind} type")
+    if unsigned and value < 0:
+        raise SerializationError(f"field {name} must be unsigned integer type")
+    high = 1 << INTEGER_BITS[type_] - (not unsigned)
+    if not (0 if unsigned else -high) <= value < high:
+        raise SerializationError(f"field {name} exceeds specified width [{type_}]")
+
+
+def _check_array(name: str, base: str, value: Any) -> None:
+    if isinstance(value, (bytes, str)):
+        if base not in OCTETS:
+            raise SerializationError(
+                f"field {name} must be a list or tuple type. Only uint8[] can be a string"
+            )
+        return
+    if type(value).__name__ in _ARRAYS:
+        return
+    if not isinstance(value, (list, tuple)):
+        raise SerializationError(f"field {name} must be a list or tuple type")
+    for each in value:
+        check_type(f"{name}[]", base, each)
+
+
+def _check_message(name: str, type_: str, value: Any) -> None:
+    if not isinstance(value, Message):
+        raise SerializationError(f"field {name} must be of type [{type_}]")
+    if value._type != type_:  # noqa: SLF001  # the public protocol of message classes
+        raise SerializationError(
+            f"field {name} must be of type {type_} instead of {value._type}"  # noqa: SLF001
+        )
+    for each, each_type in zip(value.__slots__, value._slot_types, strict=True):  # noqa: SLF001
+        check_type(f"{name}.{each}", each_type, getattr(value, each))

@@ -1,0 +1,26 @@
+"""Pickle and copy messages, whose classes cannot always be imported by name."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from gazelle.ros.messages.base import Message
+from gazelle.ros.messages.errors import UnknownTypeError
+
+
+def recipe(message_class: type[Message]) -> tuple[str, str, str]:
+    """What `blank` needs to find the class again, in another process too."""
+    return message_class._type, message_class._md5sum, message_class._full_text  # noqa: SLF001
+
+
+def blank(name: str, md5sum: str, text: str) -> Message:
+    """A message of a type, with its fields not yet set."""
+    from gazelle.ros.messages.registry import class_from_text, load_message
+
+    try:
+        found = load_message(name)
+    except UnknownTypeError:
+        found = None
+    if found is None or found._md5sum != md5sum:  # noqa: SLF001
+        found = class_from_text(name, text)
+    return cast("Message", found.__new__(found))

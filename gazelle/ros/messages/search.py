@@ -1,0 +1,86 @@
+"""Find packages on ROS_PACKAGE_PATH, and the definitions in them.
+
+The rules are those of http://www.ros.org/reps/rep-0122.html and of rospack: folders are searched in
+order, a folder with a ``package.xml`` is a package and is not searched further.
+"""
+
+from __future__ import annotations
+
+import os
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path
+
+from gazelle.ros.messages.library import Definition, PackageDefinitions
+
+_IGNORE_MARKERS = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
+_DEEPEST = 12
+_FOLDERS = (("msg", "msg"), ("srv", "srv"), ("action", "action"))
+
+_crawled: dict[str, dict[str, Path]] = {}
+
+
+def package_path() -> str:
+    """The folders to search, as ROS_PACKAGE_PATH has them."""
+    return os.environ.get("ROS_PACKAGE_PATH", "")
+
+
+def find_packages(path: str | None = None) -> dict[str, Path]:
+    """Folders of all packages by name; the first of a name wins. Searched once for each path.
+
+    Args:
+        path: Folders with `os.pathsep` between them; by default ROS_PACKAGE_PATH.
+    """
+    path = package_path() if path is None else path
+    if path not in _crawled:
+        found: dict[str, Path] = {}
+        for root in filter(None, path.split(os.pathsep)):
+            for folder in _package_folders(Path(root), _DEEPEST):
+                found.setdefault(_package_name(folder), folder)
+        _crawled[path] = found
+    return _crawled[path]
+
+
+def forget() -> None:
+    """Search again at the next question."""
+    _crawled.clear()
+
+
+def read_definitions(folder: Path) -> PackageDefinitions:
+    """All definitions in a package's folder.
+
+    Raises:
+        InvalidDefinitionError: An action is malformed.
+    """
+    found = PackageDefinitions()
+    for name, kind in _FOLDERS:
+        for file in sorted((folder / name).glob(f"*.{kind}")):
+            text = file.read_text(encoding="utf-8", errors="replace").replace("\r\n", "\n")
+            found.add(kind, file.stem, Definition(text, str(file)))
+    return found
+
+
+def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
+    try:
+        with os.scandir(folder) as entries:
+            listed = sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return
+    names = {entry.name for entry in listed}
+    if "package.xml" in names or "manifest.xml" in names:
+        yield folder
+        return
+    if depth == 0 or names.intersection(_IGNORE_MARKERS):
+        return
+    for entry in listed:
+        if entry.name[0] != "." and entry.is_dir():
+            yield from _package_folders(Path(entry.path), depth - 1)
+
+
+def _package_name(folder: Path) -> str:
+    """The name in ``package.xml``; the folder's name where that cannot be read."""
+    try:
+        name = ET.parse(folder / "package.xml").getroot().findtext("name")  # noqa: S314  # a local file of the user's
+    except (OSError, ET.ParseError):
+        name = None
+    return name.strip() if name else folder.name
