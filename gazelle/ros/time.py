@@ -9,6 +9,8 @@ import numbers
 from typing import Any, ClassVar, Self, overload
 
 _NSEC = 1_000_000_000
+Number = Any
+"""An int or a float, also one of numpy's."""
 
 
 def _canonical(secs: int, nsecs: int) -> tuple[int, int]:
@@ -40,7 +42,7 @@ class TVal:
     secs: int
     nsecs: int
 
-    def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
+    def __init__(self, secs: Number = 0, nsecs: Number = 0) -> None:
         if type(secs) is int or isinstance(secs, numbers.Integral):
             whole, rest = int(secs), int(nsecs)
         else:
@@ -130,7 +132,7 @@ class Time(TVal):
 
     __slots__ = ["secs", "nsecs"]  # noqa: RUF023  # callers fill the fields in this order
 
-    def __init__(self, secs: float = 0, nsecs: int = 0) -> None:
+    def __init__(self, secs: Number = 0, nsecs: Number = 0) -> None:
         super().__init__(secs, nsecs)
         if self.secs < 0:
             raise TypeError("time values must be positive")
@@ -189,7 +191,7 @@ class Duration(TVal):
             return NotImplemented
         return type(self)(self.secs - other.secs, self.nsecs - other.nsecs)
 
-    def __mul__(self, factor: float) -> Self:
+    def __mul__(self, factor: Number) -> Self:
         if isinstance(factor, numbers.Integral):
             return type(self)(self.secs * int(factor), self.nsecs * int(factor))
         if isinstance(factor, numbers.Real):
@@ -201,8 +203,8 @@ class Duration(TVal):
     @overload
     def __truediv__(self, divisor: Duration) -> float: ...
     @overload
-    def __truediv__(self, divisor: float) -> Self: ...
-    def __truediv__(self, divisor: Duration | float) -> float | Self:
+    def __truediv__(self, divisor: Number) -> Self: ...
+    def __truediv__(self, divisor: Duration | Number) -> float | Self:
         if isinstance(divisor, Duration):
             return self.to_sec() / divisor.to_sec()
         if isinstance(divisor, numbers.Real):
@@ -212,8 +214,8 @@ class Duration(TVal):
     @overload
     def __floordiv__(self, divisor: Duration) -> int: ...
     @overload
-    def __floordiv__(self, divisor: float) -> Self: ...
-    def __floordiv__(self, divisor: Duration | float) -> int | Self:
+    def __floordiv__(self, divisor: Number) -> Self: ...
+    def __floordiv__(self, divisor: Duration | Number) -> int | Self:
         if isinstance(divisor, Duration):
             return int(self.to_sec() // divisor.to_sec())
         if isinstance(divisor, numbers.Real):

@@ -84,7 +84,17 @@ class Message:
 
         As genpy does, and unlike ``deserialize(data, numpy=True)``, this leaves ``uint8[]`` bytes.
         """
-        return cast("Self", _compile(self, "deserialize_numpy")(self, data, numpy))
+        del numpy
+        return self._decode_numpy(data)
+
+    def _decode_numpy(self, data: bytes) -> Self:
+        return cast("Self", _compile(self, "_decode_numpy")(self, data))
+
+    def _decode_arrays(self, data: bytes) -> Self:
+        return cast("Self", _compile(self, "_decode_arrays")(self, data))
+
+    def _decode_lossy(self, data: bytes) -> Self:
+        return cast("Self", _compile(self, "_decode_lossy")(self, data))
 
     def _get_types(self) -> list[str]:
         return self._slot_types

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numbers
+from collections.abc import Callable
 from typing import Any
 
 from gazelle.ros.messages.base import Message
 from gazelle.ros.messages.errors import SerializationError
-from gazelle.ros.messages.spec import FLOATS, INTEGER_BITS, OCTETS, UNSIGNED
+from gazelle.ros.messages.spec import INTEGER_BITS, OCTETS, UNSIGNED
 from gazelle.ros.time import Duration, Time
 
 _ARRAYS = frozenset({"ndarray", "array", "memoryview", "bytearray"})
@@ -28,37 +29,41 @@ def check_type(field_name: str, field_type: str, field_val: Any) -> None:
         _check_array(field_name, field_type.partition("[")[0], field_val)
     elif field_type in INTEGER_BITS:
         _check_integer(field_name, field_type, field_val)
-    elif field_type in FLOATS:
-        if not isinstance(field_val, numbers.Real) or isinstance(field_val, bool):
-            raise SerializationError(f"field {field_name} must be float type")
-    elif field_type == "bool":
-        if (
-            not isinstance(field_val, (int, numbers.Integral))
-            and "bool" not in type(field_val).__name__
-        ):
-            raise SerializationError(f"field {field_name} is not a bool")
-    elif field_type == "string":
-        if not isinstance(field_val, str):
-            raise SerializationError(f"field {field_name} must be of type str")
-    elif field_type == "time":
-        if not isinstance(field_val, Time):
-            raise SerializationError(f"field {field_name} must be of type Time")
-    elif field_type == "duration":
-        if not isinstance(field_val, Duration):
-            raise SerializationError(f"field {field_name} must be of type Duration")
+    elif field_type in _SIMPLE:
+        fits, wanted = _SIMPLE[field_type]
+        if not fits(field_val):
+            raise SerializationError(f"field {field_name} {wanted}")
     else:
         _check_message(field_name, field_type, field_val)
 
 
+def _is_float(value: Any) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def _is_bool(value: Any) -> bool:
+    return isinstance(value, numbers.Integral) or "bool" in type(value).__name__
+
+
+_SIMPLE: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "float32": (_is_float, "must be float type"),
+    "float64": (_is_float, "must be float type"),
+    "bool": (_is_bool, "is not a bool"),
+    "string": (lambda value: isinstance(value, str), "must be of type str"),
+    "time": (lambda value: isinstance(value, Time), "must be of type Time"),
+    "duration": (lambda value: isinstance(value, Duration), "must be of type Duration"),
+}
+
+
 def _check_integer(name: str, type_: str, value: Any) -> None:
     unsigned = type_ in UNSIGNED
-    if not isinstance(value, (int, numbers.Integral)):
+    if not isinstance(value, numbers.Integral):
         kind = "unsigned integer" if unsigned else "an integer"
         raise SerializationError(f"field {name} must be {kind} type")
     if unsigned and value < 0:
         raise SerializationError(f"field {name} must be unsigned integer type")
     high = 1 << INTEGER_BITS[type_] - (not unsigned)
-    if not (0 if unsigned else -high) <= value < high:
+    if not (0 if unsigned else -high) <= int(value) < high:
         raise SerializationError(f"field {name} exceeds specified width [{type_}]")
 
 

@@ -15,12 +15,7 @@ from gazelle.ros.messages.errors import DeserializationError
 from gazelle.ros.time import Duration, Time
 
 _lock = threading.RLock()
-_shared = shared_names() | {
-    "_new": object.__new__,
-    "_Time": Time,
-    "_Duration": Duration,
-    "_struct_errors": STRUCT_ERRORS,
-}
+_warned: set[str] = set()
 
 
 def compiled(owner: type[Message], method: str) -> Any:
@@ -33,66 +28,8 @@ def compiled(owner: type[Message], method: str) -> Any:
     return made
 
 
-def _make(owner: type[Message], method: str) -> Any:
-    spec, known = owner._spec, owner._known  # type: ignore[attr-defined]  # noqa: SLF001  # set by generate
-    if method == "deserialize":
-        return _make_deserialize(owner)
-    if method == "deserialize_numpy":
-        return _make_deserialize_numpy(owner)
-    names = dict(_shared) | {"_slots": owner.__slots__}
-    code = Code(names)
-    kind, _, mode = method.rpartition("_")
-    if method == "__init__":
-        text = construct.write_constructor(spec, code, known)
-    elif method == "serialize":
-        text = encode.write_encoder(spec, code, known)
-    elif method == "_write":
-        text = encode.write_element_encoder(spec, code, known)
-    elif kind == "_decode":
-        text = decode.write_decoder(spec, code, known, mode)
-    else:
-        text = decode.write_element_decoder(spec, code, known, mode)
-    exec(compile(text, f"<{owner._type} {method}>", "exec"), names)  # noqa: S102, SLF001  # names are checked by the parser
-    return names[method]
-
-
-def _make_deserialize(owner: type[Message]) -> Any:
-    plain = compiled(owner, "_decode_plain")
-
-    def deserialize(self: Message, data: bytes, numpy: bool = False) -> Message:  # noqa: FBT001, FBT002
-        try:
-            if numpy:
-                return _decode(owner, "arrays", self, data)
-            if type(data) is not bytes:
-                data = bytes(data)
-            return plain(self, data)  # type: ignore[no-any-return]
-        except UnicodeDecodeError:
-            _warn_once(owner)
-            return _decode(owner, "lossy", self, data)
-        except struct.error as err:
-            raise DeserializationError(str(err)) from err
-
-    return deserialize
-
-
-def _make_deserialize_numpy(owner: type[Message]) -> Any:
-    def deserialize_numpy(self: Message, data: bytes, numpy: object) -> Message:
-        del numpy
-        try:
-            return _decode(owner, "numpy", self, data)
-        except struct.error as err:
-            raise DeserializationError(str(err)) from err
-
-    return deserialize_numpy
-
-
-def _decode(owner: type[Message], mode: str, message: Message, data: bytes) -> Message:
-    made: Message = compiled(owner, f"_decode_{mode}")(message, data)
-    return made
-
-
-def _warn_once(owner: type[Message]) -> None:
-    name = owner._type  # noqa: SLF001  # our own class
+def warn_once(name: str) -> None:
+    """Log that a message had text that is no UTF-8, once for each type."""
     if name not in _warned:
         _warned.add(name)
         logging.getLogger("rosout").error(
@@ -100,4 +37,36 @@ def _warn_once(owner: type[Message]) -> None:
         )
 
 
-_warned: set[str] = set()
+_shared = shared_names() | {
+    "_new": object.__new__,
+    "_Time": Time,
+    "_Duration": Duration,
+    "_struct_errors": STRUCT_ERRORS,
+    "_struct_error": struct.error,
+    "_DeserializationError": DeserializationError,
+    "_warn_once": warn_once,
+}
+
+
+def _make(owner: type[Message], method: str) -> Any:
+    names = dict(_shared) | {"_slots": owner.__slots__}
+    text = _source(owner, method, Code(names))
+    exec(compile(text, f"<{owner._type} {method}>", "exec"), names)  # noqa: S102, SLF001  # names are checked by the parser
+    return names[method]
+
+
+def _source(owner: type[Message], method: str, code: Code) -> str:
+    spec, known = owner._spec, owner._known  # type: ignore[attr-defined]  # noqa: SLF001  # set by generate
+    if method in _WRITERS:
+        return _WRITERS[method](spec, code, known)
+    kind, _, mode = method.rpartition("_")
+    write = decode.write_decoder if kind == "_decode" else decode.write_element_decoder
+    return write(spec, code, known, mode)
+
+
+_WRITERS = {
+    "__init__": construct.write_constructor,
+    "serialize": encode.write_encoder,
+    "_write": encode.write_element_encoder,
+    "deserialize": decode.write_deserialize,
+}

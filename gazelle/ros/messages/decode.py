@@ -242,8 +242,34 @@ class Decoder:
                 targets.append(f"{local}.{each.attribute}")
 
 
+def write_deserialize(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
+    """Source of ``deserialize(self, data, numpy=False)``: the plain decoder, unless told."""
+    code.line("if numpy: return self._decode_arrays(data)")
+    code.line("if type(data) is not bytes: data = bytes(data)")
+    _write_guarded(spec, code, known, "plain")
+    return code.source("def deserialize(self, data, numpy=False):")
+
+
 def write_decoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str) -> str:
     """Source of ``_decode_MODE(self, data)``, which returns the message."""
+    _write_guarded(spec, code, known, mode)
+    return code.source(f"def _decode_{mode}(self, data):")
+
+
+def _write_guarded(
+    spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str
+) -> None:
+    with code.block("try:"):
+        _write_body(spec, code, known, mode)
+    if mode == "plain":
+        with code.block("except UnicodeDecodeError:"):
+            code.line("_warn_once(self._type)")
+            code.line("return self._decode_lossy(data)")
+    with code.block("except _struct_error as err:"):
+        code.line("raise _DeserializationError(str(err)) from err")
+
+
+def _write_body(spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str) -> None:
     code.line("size = len(data)")
     decoder = Decoder(code, known, mode)
     decoder.message(spec, "self")
@@ -252,10 +278,9 @@ def write_decoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]
         code.line(f"if {decoder.position()} > size: _too_short({decoder.position()}, size)")
     for field in spec.fields:
         if not field.is_array and field.base in _TIME_CODES:
-            code.line(f"if not 0 <= self.{field.attribute}.nsecs < 1000000000:")
-            code.line(f"    self.{field.attribute}.canon()")
+            time = f"self.{field.attribute}"
+            code.line(f"if not 0 <= {time}.nsecs < 1000000000: {time}.canon()")
     code.line("return self")
-    return code.source(f"def _decode_{mode}(self, data):")
 
 
 def write_element_decoder(

@@ -41,10 +41,9 @@ def service_md5(spec: ServiceSpec, md5_of: Md5Of) -> str:
 
 def full_text(spec: MessageSpec, lookup: Lookup) -> str:
     """A definition followed by all that it depends on, each once."""
-    parts = [spec.text]
-    for name in dict.fromkeys(_all_depends(spec, lookup)):
-        parts.append(f"{SEPARATOR}\nMSG: {name}\n{lookup(name).text}")
-    return "\n".join(parts)
+    names = dict.fromkeys(_all_depends(spec, lookup))
+    others = [f"{SEPARATOR}\nMSG: {name}\n{lookup(name).text}" for name in names]
+    return "\n".join([spec.text, *others])
 
 
 def split_full_text(text: str) -> tuple[str, dict[str, str]]:

@@ -172,6 +172,7 @@ class Later:
         self._name = name
 
     def __call__(self, *args: object) -> object:
+        """Compile it, put it in the place of this, and call it."""
         from gazelle.ros.messages.compile import compiled
 
         function = self._names[self._name] = compiled(self._owner, self._method)
@@ -180,14 +181,17 @@ class Later:
 
 def write_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
     """Source of ``serialize(self, buff)``."""
-    code.line("w = buff.write")
     with code.block("try:"):
+        code.line("w = buff.write")
         encoder = Encoder(code, known)
         encoder.message(spec, "self")
         encoder.flush()
     with code.block("except _struct_errors as err:"):
         code.line("self._check_types(err)")
-    return code.source("def serialize(self, buff):")
+    source = code.source("def serialize(self, buff):")
+    if source.count(" w(") != 1 or " for " in source:
+        return source
+    return source.replace("        w = buff.write\n", "").replace(" w(", " buff.write(")
 
 
 def write_element_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:

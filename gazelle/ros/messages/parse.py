@@ -54,11 +54,11 @@ def parse_message(full_name: str, text: str, *, file: str | None = None) -> Mess
             raise InvalidDefinitionError(
                 str(err), file=file or full_name, line=number, element=content
             ) from err
-    names = [field.name for field in fields]
+    names = [field.name for field in fields] + [each.name for each in constants]
     if len(set(names)) != len(names):
         twice = sorted({name for name in names if names.count(name) > 1})
         raise InvalidDefinitionError(
-            f"fields occur twice: {', '.join(twice)}", file=file or full_name
+            f"names occur twice: {', '.join(twice)}", file=file or full_name
         )
     return MessageSpec(full_name, tuple(fields), tuple(constants), text)
 
@@ -140,7 +140,7 @@ def _parse_field(content: str, package: str) -> Field:
 
 
 def _parse_constant(line: str, content: str) -> Constant:
-    type_ = content.split()[0].partition("=")[0]
+    type_ = content.split(maxsplit=1)[0].partition("=")[0]
     if type_ not in CONSTANT_TYPES:
         raise ValueError(f"'{type_}' is no type for a constant")
     # A string goes on to the end of the line: a # in it starts no comment.

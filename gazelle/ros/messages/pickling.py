@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 from gazelle.ros.messages.base import Message
 from gazelle.ros.messages.errors import UnknownTypeError
 
@@ -23,4 +21,4 @@ def blank(name: str, md5sum: str, text: str) -> Message:
         found = None
     if found is None or found._md5sum != md5sum:  # noqa: SLF001
         found = class_from_text(name, text)
-    return cast("Message", found.__new__(found))
+    return found.__new__(found)

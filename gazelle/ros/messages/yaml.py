@@ -5,6 +5,7 @@ The forms are those of http://wiki.ros.org/ROS/YAMLCommandLine.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +16,8 @@ from gazelle.ros.messages.spec import BUILTIN, OCTETS, Field
 from gazelle.ros.time import Duration, Time, TVal
 
 FieldFilter = Callable[[Message], Iterable[str]]
-_LONGEST_PLAIN = 60
+_PLAIN = re.compile(r"[ !#-\[\]-~]{1,60}")
+"""What needs no escapes, and no second line, between double quotes."""
 
 
 def strify_message(
@@ -58,7 +60,7 @@ def to_dict(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else value
 
 
-def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, Any] = {}) -> Message:  # noqa: B006  # never changed
+def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, Any] = {}) -> Message:
     """A message from YAML: a mapping of fields, or a list of all of them.
 
     Args:
@@ -80,7 +82,7 @@ def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, An
 
 def from_dict(
     message: type[Message] | Message, value: Any, keys: Mapping[str, Any] = {}
-) -> Message:  # noqa: B006  # never changed
+) -> Message:
     """A message from a mapping of fields, or from a list of all of them.
 
     Raises:
@@ -94,7 +96,7 @@ def from_dict(
     return filled
 
 
-def fill_message_args(msg: Message | TVal, msg_args: Any, keys: Mapping[str, Any] = {}) -> None:  # noqa: B006  # never changed
+def fill_message_args(msg: Message | TVal, msg_args: Any, keys: Mapping[str, Any] = {}) -> None:
     """Fill a message from the arguments of a command line.
 
     Args:
@@ -201,9 +203,8 @@ class _Writer:
 def _quoted(text: str) -> str:
     if not text:
         return "''"
-    if len(text) < _LONGEST_PLAIN and text.isascii() and text.isprintable():
-        if '"' not in text and "\\" not in text:
-            return f'"{text}"'
+    if _PLAIN.fullmatch(text):
+        return f'"{text}"'
     import yaml
 
     return str(yaml.dump(text, default_style='"')).rstrip("\n")
