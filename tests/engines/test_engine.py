@@ -123,10 +123,10 @@ def test_a_failed_spawn_changes_nothing():
         links=(Link("a", inertial=Inertial()), Link("b", inertial=Inertial())),
         joints=(
             Joint("ab", "revolute", "a", "b", axes=(JointAxis(),)),
-            Joint("hinge", "revolute", "b", "a", axes=(JointAxis(),), source=SOURCE),
+            Joint("slide", "prismatic", "b", "a", axes=(JointAxis(),), source=SOURCE),
         ),
     )
-    with pytest.raises(EngineError, match=r"robot.sdf:12: .*form a loop"):
+    with pytest.raises(EngineError, match=r"robot.sdf:12: .*closes a loop"):
         engine.spawn(loop)
     assert engine.link_names == ("ground_plane::link", "box::link")
     engine.step(5)

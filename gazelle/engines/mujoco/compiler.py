@@ -11,10 +11,11 @@ import mujoco
 import numpy as np
 
 from gazelle.description import Inertial, Model, Pose, World
+from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.surfaces import friction_ranks, surface_options
-from gazelle.engines.mujoco.tree import Body, bodies_of
+from gazelle.engines.mujoco.tree import Body, tree_of
 from gazelle.errors import EngineError
 
 COLLISION_GROUP = 0
@@ -81,13 +82,18 @@ def compile_world(recipe: Recipe) -> Compiled:
     """
     spec = mujoco.MjSpec()
     _set_options(spec, recipe)
-    bodies = {
-        model.name: bodies_of(model, kinematic=model.name in recipe.kinematic)
+    trees = {
+        model.name: tree_of(model, kinematic=model.name in recipe.kinematic)
         for model in recipe.world.models
     }
+    bodies = {name: tree.bodies for name, tree in trees.items()}
     builder = _Builder(spec, recipe, bodies)
     for model in recipe.world.models:
         builder.add_model(model)
+    for tree in trees.values():
+        add_couplings(spec, tree.bodies, recipe.time_step)
+        for closure in tree.closures:
+            add_closure(spec, closure, tree.bodies, recipe.time_step)
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
     try:

@@ -1,14 +1,20 @@
-"""SDF joints as MuJoCo joints: one small function a type, in a table."""
+"""SDF joints as MuJoCo joints: one small function a type, in a table.
+
+The second and third axis of a joint are MuJoCo joints of their own, named ``joint#1`` and
+``joint#2``.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import mujoco
+import numpy as np
 
-from gazelle.description import Joint, JointAxis
+from gazelle.description import Joint, JointAxis, Vector3
 from gazelle.errors import EngineError
 
 _HINGE = mujoco.mjtJoint.mjJNT_HINGE
@@ -20,7 +26,7 @@ _LIMIT_STEPS = 5.0
 
 
 def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
-    """Let a MuJoCo body move in its parent as the joint says; names get ``#1`` for axis 2.
+    """Let a MuJoCo body move in its parent as the joint says.
 
     Raises:
         EngineError: The joint's type is not simulated.
@@ -28,9 +34,9 @@ def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
     if joint.type not in _ADDERS:
         known = ", ".join(sorted(_ADDERS))
         raise EngineError(
-            f"joint '{name}': type '{joint.type}' is not simulated yet",
+            f"joint '{name}': there is no joint type '{joint.type}'",
             source=joint.source,
-            hint=f"types that are: {known}",
+            hint=f"there are: {known}",
         )
     _ADDERS[joint.type](body, name, joint, time_step)
 
@@ -58,6 +64,35 @@ def _two_hinges(body: Any, name: str, joint: Joint, time_step: float) -> None:
     first, second = _axis(joint, 0), _axis(joint, 1)
     body.add_joint(name=name, type=_HINGE, **_axis_options(joint, first, time_step))
     body.add_joint(name=f"{name}#1", type=_HINGE, **_axis_options(joint, second, time_step))
+
+
+def _screw(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    axis = _axis(joint, 0)
+    along = list(joint.pose.rotate(axis.xyz))
+    body.add_joint(name=name, type=_HINGE, **_axis_options(joint, axis, time_step))
+    body.add_joint(name=f"{name}#1", type=_SLIDE, axis=along)
+
+
+def _planar(body: Any, name: str, joint: Joint, time_step: float) -> None:
+    """Slides in the plane across the axis, then a turn about it."""
+    axis = _axis(joint, 0)
+    first, second = _across(axis.xyz)
+    damping = [axis.damping, 0.0, 0.0]
+    for suffix, direction in (("", first), ("#1", second)):
+        along = list(joint.pose.rotate(direction))
+        body.add_joint(name=f"{name}{suffix}", type=_SLIDE, axis=along, damping=damping)
+    turn = replace(joint, type="continuous")
+    body.add_joint(name=f"{name}#2", type=_HINGE, **_axis_options(turn, axis, time_step))
+
+
+def _across(axis: Vector3) -> tuple[Vector3, Vector3]:
+    """Two unit vectors that make a right-handed frame with a unit vector."""
+    x, y, z = axis
+    helper = (1.0, 0.0, 0.0) if abs(x) < 0.9 else (0.0, 1.0, 0.0)
+    first = np.cross(helper, (x, y, z))
+    first /= np.linalg.norm(first)
+    second = np.cross((x, y, z), first)
+    return (first[0], first[1], first[2]), (second[0], second[1], second[2])
 
 
 def _floating(body: Any, name: str, joint: Joint, _: float) -> None:
@@ -99,7 +134,10 @@ _ADDERS: dict[str, Callable[[Any, str, Joint, float], None]] = {
     "continuous": _hinge,
     "fixed": _fixed,
     "floating": _floating,
+    "planar": _planar,
     "prismatic": _slide,
     "revolute": _hinge,
+    "revolute2": _two_hinges,
+    "screw": _screw,
     "universal": _two_hinges,
 }

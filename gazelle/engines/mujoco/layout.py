@@ -140,7 +140,7 @@ def _link_slot(model: mujoco.MjModel, body: Body) -> LinkSlot:
 
 
 def _joint_slots(model: mujoco.MjModel, name: str) -> tuple[Slot, ...]:
-    names = [name, f"{name}#1"]
+    names = [name, f"{name}#1", f"{name}#2"]
     ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, each) for each in names]
     return tuple(_slot(model, joint) for joint in ids if joint >= 0)
 

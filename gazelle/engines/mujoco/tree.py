@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from gazelle.description import Joint, Link, Model, Pose
+from gazelle.description import Joint, JointAxis, Link, Model, PlacedModel, Pose
 from gazelle.errors import EngineError, did_you_mean
 
 RootKind = Literal["free", "static", "kinematic"]
@@ -47,44 +47,61 @@ class _Part:
     self_collide: bool
 
 
-def bodies_of(model: Model, *, kinematic: bool = False) -> list[Body]:
-    """All bodies of a model and its nested models, parents before children.
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """A joint that no tree can hold: it closes a loop, or couples two joints.
+
+    Attributes:
+        name: Scoped name.
+        joint: What it is; parent and child are scoped, or ``world``.
+        pose: The joint frame in the child body's frame.
+    """
+
+    name: str
+    joint: Joint
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """A model taken apart: parents before children, and what is left over."""
+
+    bodies: list[Body]
+    closures: list[Closure]
+
+
+def tree_of(model: Model, *, kinematic: bool = False) -> Tree:
+    """All bodies of a model and its nested models, and the joints that close loops.
+
+    Of several joints that move one link the first in the file is the tree's. Where joints
+    form a ring with no end, the first link in the file is let free and its joint closes it.
 
     Raises:
-        EngineError: A joint names a link that is not there, two joints move one link, or
-            the joints form a loop.
+        EngineError: A joint names a link that is not there.
     """
     parts = _parts_of(model)
     root: RootKind = "kinematic" if kinematic else "static" if model.static else "free"
     if root != "free":
-        return [
+        bodies = [
             Body(name, part.link, None, part.pose, None, "", root, part.self_collide)
             for name, part in parts.items()
         ]
-    joints = _joints_by_child(model, parts)
+        return Tree(bodies, [])
+    joints, closures = _sort_joints(model, parts)
+    held, opened = _open_rings(parts, joints)
     children = defaultdict(list)
     for name in parts:
-        parent = _parent_of(joints[name][1]) if name in joints else None
+        parent = _parent_of(held[name][1]) if name in held else None
         children[parent].append(name)
-    bodies = list(_walk(None, children, parts, joints))
-    if len(bodies) < len(parts):
-        stuck = min(set(parts) - {body.name for body in bodies})
-        scoped, joint = joints[stuck]
-        raise EngineError(
-            f"the joints form a loop through joint '{scoped}' and link '{stuck}'; "
-            "none of its links is held by the world or free",
-            source=joint.source,
-        )
-    return bodies
+    return Tree(list(_walk(children, parts, held)), closures + opened)
 
 
 def _walk(
-    parent: str | None,
     children: dict[str | None, list[str]],
     parts: dict[str, _Part],
     joints: dict[str, tuple[str, Joint]],
 ) -> Iterator[Body]:
-    pending = [(name, parent) for name in reversed(children[parent])]
+    pending: list[tuple[str, str | None]] = [(name, None) for name in reversed(children[None])]
     while pending:
         name, above = pending.pop()
         part = parts[name]
@@ -104,29 +121,54 @@ def _parts_of(model: Model) -> dict[str, _Part]:
     return parts
 
 
-def _joints_by_child(model: Model, parts: dict[str, _Part]) -> dict[str, tuple[str, Joint]]:
-    found: dict[str, tuple[str, Joint]] = {}
+def _sort_joints(
+    model: Model, parts: dict[str, _Part]
+) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
+    """The joint that carries each link, and those left over."""
+    carrying: dict[str, tuple[str, Joint]] = {}
+    closures: list[Closure] = []
     for placed in model.walk():
         for joint in placed.model.joints:
             scoped = f"{placed.scope}::{joint.name}"
             child = f"{placed.scope}::{joint.child}"
+            parent = "world" if joint.parent == "world" else f"{placed.scope}::{joint.parent}"
             _require(child, joint, "child", parts)
-            parent = None if joint.parent == "world" else f"{placed.scope}::{joint.parent}"
-            if parent is not None:
+            if parent != "world":
                 _require(parent, joint, "parent", parts)
-            if child in found:
-                raise EngineError(
-                    f"link '{child}' is the child of two joints, '{found[child][0]}' and "
-                    f"'{scoped}'; loops of joints are not simulated yet",
-                    source=joint.source,
-                    hint="leave one of the two joints out",
-                )
-            found[child] = (scoped, _scoped(joint, parent))
-    return found
+            full = replace(joint, parent=parent, child=child, axes=_scoped_mimic(joint, placed))
+            if joint.type == "gearbox" or child in carrying:
+                closures.append(Closure(scoped, full, joint.pose))
+            else:
+                carrying[child] = (scoped, full)
+    return carrying, closures
 
 
-def _scoped(joint: Joint, parent: str | None) -> Joint:
-    return replace(joint, parent=parent or "world")
+def _open_rings(
+    parts: dict[str, _Part], joints: dict[str, tuple[str, Joint]]
+) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
+    """Cut every ring of joints at its first link."""
+    held, opened = dict(joints), []
+    for name in parts:
+        seen: set[str] = set()
+        link: str | None = name
+        while link is not None and link in held and link not in seen:
+            seen.add(link)
+            link = _parent_of(held[link][1])
+        if link is not None and link in seen:
+            first = next(each for each in parts if each in seen)
+            scoped, joint = held.pop(first)
+            opened.append(Closure(scoped, joint, joint.pose))
+    return held, opened
+
+
+def _scoped_mimic(joint: Joint, placed: PlacedModel) -> tuple[JointAxis, ...]:
+    """The axes with the names of leading joints scoped."""
+    return tuple(
+        axis
+        if axis.mimic is None
+        else replace(axis, mimic=replace(axis.mimic, joint=f"{placed.scope}::{axis.mimic.joint}"))
+        for axis in joint.axes
+    )
 
 
 def _parent_of(joint: Joint) -> str | None:

@@ -1,0 +1,139 @@
+"""What couples joints and closes loops, as MuJoCo equality constraints.
+
+Mimic joints, screws and gearboxes tie one coordinate to another; joints that close a loop
+hold two bodies together at points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gazelle.description import Joint
+from gazelle.engines.mujoco.tree import Body, Closure
+from gazelle.errors import EngineError
+
+# Time constant of a coupling, in physics steps, and its damping ratio.
+_STEPS, _DAMPING_RATIO = 3.0, 1.0
+
+# Distance of the second point that keeps a hinge's axis in line [m].
+_ARM = 0.1
+
+
+def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float) -> None:
+    """Tie together what the joints of a model tie: screws and mimics."""
+    for body in bodies:
+        joint = body.joint
+        if joint is None:
+            continue
+        if joint.type == "screw":
+            # SDF's pitch is in rad/m and left-handed: angle = -pitch * distance.
+            pitch = joint.thread_pitch
+            _tie(spec, f"{body.joint_name}#1", body.joint_name, (0.0, -1.0 / pitch), time_step)
+        for index, axis in enumerate(joint.axes):
+            if axis.mimic is not None:
+                mimic = axis.mimic
+                follower = _coordinate(body.joint_name, index)
+                leader = _coordinate(mimic.joint, mimic.axis)
+                start = mimic.offset - mimic.multiplier * mimic.reference
+                _tie(spec, follower, leader, (start, mimic.multiplier), time_step)
+
+
+def add_closure(
+    spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float
+) -> None:
+    """Close a loop, or couple two joints through a gearbox.
+
+    Raises:
+        EngineError: The joint cannot close a loop.
+    """
+    joint = closure.joint
+    if joint.type not in _CLOSERS:
+        known = ", ".join(sorted(_CLOSERS))
+        raise EngineError(
+            f"joint '{closure.name}' of type '{joint.type}' closes a loop, which is not simulated",
+            source=joint.source,
+            hint=f"types that can close a loop: {known}",
+        )
+    _CLOSERS[joint.type](spec, closure, bodies, time_step)
+
+
+def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:
+    equality = _between(spec, mujoco.mjtEq.mjEQ_WELD, closure, time_step)
+    equality.name = closure.name
+
+
+def _ball(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:
+    equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
+    equality.data[:3] = closure.pose.position
+
+
+def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float) -> None:
+    """Two points on the axis held together leave only the turn about it."""
+    _ball(spec, closure, bodies, time_step)
+    axis = closure.joint.axes[0].xyz if closure.joint.axes else (0.0, 0.0, 1.0)
+    far = closure.pose.apply(tuple(_ARM * a for a in axis))
+    equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
+    equality.data[:3] = far
+
+
+def _gearbox(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float) -> None:
+    """The child turns -ratio times as far as the parent, both against the reference body."""
+    joint = closure.joint
+    driving = _turning(closure, joint.parent, bodies, 0)
+    driven = _turning(closure, joint.child, bodies, 1)
+    ratio = -joint.gearbox_ratio * driving[1] * driven[1]
+    _tie(spec, driven[0], driving[0], (0.0, ratio), time_step)
+
+
+def _turning(closure: Closure, link: str, bodies: list[Body], axis: int) -> tuple[str, float]:
+    """The hinge that a link turns on, and whether it turns with or against the gear's axis."""
+    joint = closure.joint
+    for body in bodies:
+        if body.name == link and body.joint is not None and body.joint.axes:
+            own = body.joint.pose.rotate(body.joint.axes[0].xyz)
+            gear = joint.axes[min(axis, len(joint.axes) - 1)].xyz if joint.axes else own
+            return body.joint_name, 1.0 if float(np.dot(own, gear)) >= 0.0 else -1.0
+    raise EngineError(
+        f"gearbox '{closure.name}' needs a revolute joint that turns '{link}'",
+        source=joint.source,
+    )
+
+
+_CLOSERS: dict[str, Callable[[mujoco.MjSpec, Closure, list[Body], float], None]] = {
+    "ball": _ball,
+    "continuous": _hinge,
+    "fixed": _weld,
+    "gearbox": _gearbox,
+    "revolute": _hinge,
+    "universal": _ball,
+}
+
+
+def _tie(
+    spec: mujoco.MjSpec,
+    follower: str,
+    leader: str,
+    line: tuple[float, float],
+    time_step: float,
+) -> None:
+    """Hold follower = line[0] + line[1] * leader."""
+    equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=follower, name2=leader)
+    equality.objtype = mujoco.mjtObj.mjOBJ_JOINT
+    equality.data[:5] = [line[0], line[1], 0.0, 0.0, 0.0]
+    equality.solref = [_STEPS * time_step, _DAMPING_RATIO]
+
+
+def _between(spec: mujoco.MjSpec, kind: Any, closure: Closure, time_step: float) -> Any:
+    joint: Joint = closure.joint
+    equality = spec.add_equality(type=kind, name1=joint.child, name2=joint.parent)
+    equality.objtype = mujoco.mjtObj.mjOBJ_BODY
+    equality.solref = [_STEPS * time_step, _DAMPING_RATIO]
+    return equality
+
+
+def _coordinate(joint: str, axis: int) -> str:
+    return joint if axis == 0 else f"{joint}#{axis}"

@@ -1,0 +1,216 @@
+"""Every joint against kinematics or mechanics."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import (
+    Inertia,
+    Inertial,
+    Joint,
+    JointAxis,
+    Link,
+    Mimic,
+    Model,
+    Pose,
+    Source,
+)
+from gazelle.engines import make_engine
+from gazelle.errors import EngineError
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def mass(m=1.0, moment=0.01, **pose):
+    return Inertial(m, Pose(**pose), Inertia(moment, moment, moment))
+
+
+def link(name, **pose):
+    return Link(name, pose=Pose(**pose), inertial=mass())
+
+
+def joint(name, kind, parent, child, *axes, **options):
+    return Joint(name, kind, parent, child, axes=tuple(JointAxis(a) for a in axes), **options)
+
+
+def engine_of(*joints, links=("a", "b"), gravity=(0.0, 0.0, 0.0), poses=None, nworld=1):
+    parts = tuple(link(n, **(poses or {}).get(n, {})) for n in links)
+    model = Model("m", links=parts, joints=(Joint("hold", "fixed", "world", links[0]), *joints))
+    return make_engine("mujoco", scenes.world(model, gravity=gravity), nworld)
+
+
+def relative(engine, child="b"):
+    place = engine.link_placement(f"m::{child}")
+    return Pose.from_quaternion(place.position[0], place.quaternion[0])
+
+
+@pytest.mark.parametrize("kind", ["revolute", "continuous"])
+def test_a_hinge_turns_about_its_axis_through_its_own_frame(kind):
+    frame = Pose(x=0.5, roll=math.pi / 2)
+    engine = engine_of(joint("j", kind, "a", "b", Z, pose=frame))
+    engine.set_joint_position("m::j", 0.7)
+    expected = frame * Pose(yaw=0.7) * frame.inverse()
+    assert relative(engine).is_close(expected)
+
+
+def test_a_prismatic_joint_slides_along_its_axis():
+    engine = engine_of(joint("j", "prismatic", "a", "b", Y))
+    engine.set_joint_position("m::j", 0.3)
+    assert relative(engine).is_close(Pose(y=0.3))
+
+
+def test_a_ball_joint_turns_freely_and_stays_in_place():
+    engine = engine_of(joint("j", "ball", "a", "b", pose=Pose(z=0.2)))
+    engine.set_joint_velocity("m::j", [1.0, 2.0, 0.5])
+    engine.step(500)
+    anchor = relative(engine).apply((0.0, 0.0, 0.2))
+    assert anchor == pytest.approx((0.0, 0.0, 0.2), abs=1e-6)
+    assert relative(engine).rpy != pytest.approx((0.0, 0.0, 0.0), abs=0.1)
+
+
+@pytest.mark.parametrize("kind", ["universal", "revolute2"])
+def test_two_axes_turn_one_after_the_other(kind):
+    engine = engine_of(joint("j", kind, "a", "b", X, Y))
+    engine.set_joint_position("m::j", [0.4, -0.9])
+    assert relative(engine).is_close(Pose(roll=0.4) * Pose(pitch=-0.9))
+
+
+def test_a_screw_advances_by_its_pitch_left_handed():
+    engine = engine_of(joint("j", "screw", "a", "b", Z, thread_pitch=10.0))
+    engine.set_joint_effort("m::j", [0.05, 0.0])
+    engine.step(1500)
+    angle, distance = engine.joint_position("m::j")[0]
+    assert abs(angle) > 1.0
+    assert distance == pytest.approx(-angle / 10.0, abs=1e-4)
+
+
+def test_a_screw_under_gravity_turns_as_energy_says():
+    pitch, moment = 40.0, 0.01
+    engine = engine_of(joint("j", "screw", "a", "b", Z, thread_pitch=pitch), gravity=(0, 0, -9.8))
+    engine.step(1000)
+    angle = engine.joint_position("m::j")[0, 0]
+    # m g = (m + I p²) z'' along the axis
+    fallen = 0.5 * 9.8 / (1.0 + moment * pitch**2)
+    assert angle / pitch == pytest.approx(fallen, rel=0.01)
+
+
+def test_a_planar_joint_leaves_three_motions():
+    engine = engine_of(joint("j", "planar", "a", "b", Z))
+    engine.set_joint_position("m::j", [0.2, -0.3, 0.5])
+    place = relative(engine)
+    assert math.hypot(place.x, place.y) == pytest.approx(math.hypot(0.2, 0.3))
+    assert place.z == pytest.approx(0.0)
+    assert place.yaw == pytest.approx(0.5)
+
+
+def test_a_gearbox_turns_its_driven_wheel_the_other_way():
+    engine = engine_of(
+        joint("in", "revolute", "a", "b", X),
+        joint("out", "revolute", "a", "c", X),
+        joint("gear", "gearbox", "b", "c", X, X, gearbox_ratio=3.0, gearbox_reference_body="a"),
+        links=("a", "b", "c"),
+    )
+    engine.set_joint_effort("m::in", 0.05)
+    engine.step(2000)
+    driving, driven = engine.joint_position("m::in")[0, 0], engine.joint_position("m::out")[0, 0]
+    assert abs(driving) > 0.5
+    assert driven == pytest.approx(-3.0 * driving, rel=1e-3)
+
+
+def test_a_mimic_follows_its_leader():
+    follower = JointAxis(X, mimic=Mimic("lead", multiplier=-2.0, offset=0.1, reference=0.05))
+    engine = engine_of(
+        joint("lead", "revolute", "a", "b", X),
+        Joint("follow", "revolute", "a", "c", axes=(follower,)),
+        links=("a", "b", "c"),
+    )
+    engine.set_joint_effort("m::lead", 0.05)
+    engine.step(2000)
+    lead, follow = engine.joint_position("m::lead")[0, 0], engine.joint_position("m::follow")[0, 0]
+    assert abs(lead) > 0.5
+    assert follow == pytest.approx(0.1 - 2.0 * (lead - 0.05), abs=2e-3)
+
+
+def four_bar(closing):
+    """A parallelogram in the xz plane: ground a, cranks b and d, coupler c."""
+    links = (
+        Link("a", inertial=mass()),
+        Link("b", inertial=mass(z=0.1)),
+        Link("c", pose=Pose(z=0.2), inertial=mass(x=0.15)),
+        Link("d", pose=Pose(x=0.3), inertial=mass(z=0.1)),
+    )
+    joints = (
+        Joint("hold", "fixed", "world", "a"),
+        joint("ab", "revolute", "a", "b", Y),
+        joint("bc", "revolute", "b", "c", Y),
+        joint("ad", "revolute", "a", "d", Y),
+        joint("dc", closing, "d", "c", Y, pose=Pose(x=0.3)),
+    )
+    return Model("bar", links=links, joints=joints)
+
+
+@pytest.mark.parametrize("closing", ["revolute", "continuous"])
+def test_a_four_bar_linkage_stays_a_parallelogram(closing):
+    engine = make_engine("mujoco", scenes.world(four_bar(closing)))
+    engine.set_joint_effort("bar::ab", 0.3)
+    for _ in range(40):
+        engine.step(50)
+        cranks = [engine.joint_position(f"bar::{j}")[0, 0] for j in ("ab", "ad")]
+        assert cranks[0] == pytest.approx(cranks[1], abs=0.01)
+        c = engine.link_placement("bar::c")
+        coupler = Pose.from_quaternion(c.position[0], c.quaternion[0])
+        assert abs(coupler.pitch) < 0.02
+    assert abs(cranks[0]) > 0.1
+
+
+def test_a_ring_of_free_links_is_opened_at_its_first_link_and_held_together():
+    corners = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)]
+    links = tuple(link(f"l{i}", x=x, y=y) for i, (x, y) in enumerate(corners))
+    joints = tuple(
+        joint(f"j{i}", "revolute", f"l{i - 1}" if i else "l3", f"l{i}", Z) for i in range(4)
+    )
+    model = Model("m", links=links, joints=joints)
+    engine = make_engine("mujoco", scenes.world(model, gravity=(0, 0, 0)))
+    engine.set_joint_effort("m::j1", 0.02)
+    engine.step(1000)
+    l0, l3 = relative(engine, "l0"), relative(engine, "l3")
+    assert abs(engine.joint_position("m::j1")[0, 0]) > 0.05
+    assert (l3.inverse() * l0).position == pytest.approx((0.0, -0.4, 0.0), abs=2e-3)
+
+
+def test_a_joint_that_cannot_close_a_loop_is_an_error_with_its_place():
+    source = Source("loop.sdf", 9, "joint")
+    first = joint("j1", "revolute", "a", "b", X)
+    second = joint("j2", "prismatic", "a", "b", X, source=source)
+    with pytest.raises(EngineError, match=r"loop.sdf:9: .*closes a loop"):
+        engine_of(first, second)
+
+
+def test_damping_slows_a_hinge_as_an_exponential():
+    axis = JointAxis(X, damping=0.02)
+    engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
+    engine.set_joint_velocity("m::j", 5.0)
+    engine.step(500)
+    expected = 5.0 * math.exp(-0.02 / 0.01 * 0.5)
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=0.01)
+
+
+def test_friction_stops_a_hinge_evenly():
+    axis = JointAxis(X, friction=0.02)
+    engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
+    engine.set_joint_velocity("m::j", 5.0)
+    engine.step(1000)
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(5.0 - 0.02 / 0.01 * 1.0, rel=0.02)
+    engine.step(3000)
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_spring_swings_at_its_frequency():
+    axis = JointAxis(X, spring_stiffness=1.0, spring_reference=0.3)
+    engine = engine_of(Joint("j", "revolute", "a", "b", axes=(axis,)))
+    half_period = math.pi * math.sqrt(0.01 / 1.0)
+    engine.step(round(half_period / 0.001))
+    assert engine.joint_position("m::j")[0, 0] == pytest.approx(0.6, rel=0.02)
+    assert np.isfinite(engine.snapshot()).all()
