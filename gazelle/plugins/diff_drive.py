@@ -52,6 +52,7 @@ class DiffDrive(ModelPlugin):
             wheel.add_motor(torque)
         nworld = robot.simulation.nworld
         self._speeds = np.zeros((nworld, 2))
+        self._settled = -1  # the command whose speeds the motors already have
         self._encoder_pose = np.zeros((nworld, 3))
         self._encoder_twist = np.zeros((nworld, 2))
         self._last_angles = self._angles()
@@ -82,6 +83,8 @@ class DiffDrive(ModelPlugin):
             self._joint_states.publish()
 
     def _drive(self, interval: float) -> None:
+        if self._settled == self._command.revision:
+            return
         forward, turning = self._command.linear[:, 0], self._command.angular[:, 2]
         half = self._separation / 2.0
         target = np.stack((forward - turning * half, forward + turning * half), axis=1)
@@ -92,6 +95,8 @@ class DiffDrive(ModelPlugin):
             self._speeds = np.where(ramping, self._speeds + np.clip(lack, -most, most), target)
         else:
             self._speeds = target
+        if (self._speeds == target).all():
+            self._settled = self._command.revision
         for column, wheel in enumerate(self._wheels):
             wheel.drive(self._speeds[:, column] / self._radius)
 
@@ -153,6 +158,7 @@ class DiffDrive(ModelPlugin):
         """Stand still at the origin of the odometry."""
         rows = slice(None) if worlds is None else worlds
         self._speeds[rows] = 0.0
+        self._settled = -1
         self._encoder_pose[rows] = 0.0
         self._encoder_twist[rows] = 0.0
         self._last_angles[rows] = self._angles()[rows]
@@ -172,6 +178,7 @@ class DiffDrive(ModelPlugin):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._speeds[:] = state["speeds"]
+        self._settled = -1
         self._encoder_pose[:] = state["encoder_pose"]
         self._encoder_twist[:] = state["encoder_twist"]
         self._last_angles[:] = state["last_angles"]

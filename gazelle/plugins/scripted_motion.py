@@ -37,11 +37,19 @@ class ScriptedMotion(ModelPlugin):
         self._loop = parameters.get("loop", False)
         self._spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
         self._times, self._positions, self._quaternions = _waypoints(parameters)
+        self._velocities, self._turnings = self._rates()
         self.update_rate = parameters.get("updateRate", 10.0)
         start = robot.description.pose
         self._start = np.asarray(start.position), np.asarray(start.quaternion)
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
         robot.simulation.engine.make_kinematic(robot.name)
+
+    def _rates(self) -> tuple[Floats, Floats]:
+        """Change of position and quaternion a second on each leg, shapes (k, 3) and (k, 4)."""
+        if len(self._times) < 2:
+            return np.zeros_like(self._positions), np.zeros_like(self._quaternions)
+        span = np.diff(self._times)[:, None]
+        return np.diff(self._positions, axis=0) / span, np.diff(self._quaternions, axis=0) / span
 
     def on_update(self, time: float) -> None:
         """Put the model where the script says."""
@@ -54,19 +62,14 @@ class ScriptedMotion(ModelPlugin):
         self._robot.simulation.engine.set_model_placement(self._robot.name, position, quaternion)
 
     def _on_path(self, elapsed: Floats) -> tuple[Floats, Floats]:
-        last = self._times[-1]
-        moment = np.mod(elapsed, last) if self._loop and last > 0.0 else np.minimum(elapsed, last)
-        after = np.clip(np.searchsorted(self._times, moment, side="right"), 1, None)
-        after = np.minimum(after, len(self._times) - 1)
-        before = np.maximum(after - 1, 0)
-        span = self._times[after] - self._times[before]
-        share = np.where(
-            span > 0.0, (moment - self._times[before]) / np.where(span > 0, span, 1), 0
-        )
-        share = np.clip(share, 0.0, 1.0)[:, None]
-        position = (1.0 - share) * self._positions[before] + share * self._positions[after]
-        quaternion = (1.0 - share) * self._quaternions[before] + share * self._quaternions[after]
-        return position, quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)
+        first, last = self._times[0], self._times[-1]
+        moment = elapsed % last if self._loop and last > 0.0 else np.minimum(elapsed, last)
+        moment = np.maximum(moment, first)
+        leg = np.searchsorted(self._times[1:-1], moment, side="right")
+        since = (moment - self._times[leg])[:, None]
+        position = self._positions[leg] + since * self._velocities[leg]
+        quaternion = self._quaternions[leg] + since * self._turnings[leg]
+        return position, quaternion
 
     def reset(self, worlds: Worlds | None) -> None:
         """Start the script over."""

@@ -69,10 +69,14 @@ class TwistInput:
     Args:
         nworld: Number of worlds.
         topic: Topic name that the file asks for.
+
+    Attributes:
+        revision: Counts commands, so that a drive sees that there is a new one.
     """
 
     def __init__(self, nworld: int, topic: str) -> None:
         self.topic = topic
+        self.revision = 0
         self.linear: Floats = np.zeros((nworld, 3))
         self.angular: Floats = np.zeros((nworld, 3))
 
@@ -102,12 +106,14 @@ class TwistInput:
             else:
                 array[rows] = 0.0
                 array[rows, axis] = values
+        self.revision += 1
 
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last command: stand still."""
         rows: slice | Worlds = slice(None) if worlds is None else worlds
         self.linear[rows] = 0.0
         self.angular[rows] = 0.0
+        self.revision += 1
 
 
 class Output(Generic[T]):
