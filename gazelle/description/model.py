@@ -60,6 +60,7 @@ class Model:
         enable_wind: Whether wind pushes its links.
         canonical_link: The link its pose follows; empty for the first.
         placement_frame: The frame that ``pose`` placed, as written; empty for the model frame.
+            ``pose`` is already the model frame's, so two models may differ in this and be equal.
         links: In file order.
         joints: In file order.
         models: Nested models, in file order.
@@ -76,7 +77,7 @@ class Model:
     allow_auto_disable: bool = True
     enable_wind: bool = False
     canonical_link: str = ""
-    placement_frame: str = ""
+    placement_frame: str = field(default="", compare=False)
     links: tuple[Link, ...] = ()
     joints: tuple[Joint, ...] = ()
     models: tuple[Model, ...] = ()

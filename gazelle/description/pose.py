@@ -13,6 +13,7 @@ Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
 _IDENTITY: Quaternion = (0.0, 0.0, 0.0, 1.0)
+_ROUNDING = 1e-14
 
 
 class Pose:
@@ -55,12 +56,14 @@ class Pose:
     ) -> Pose:
         """A pose from a position [m] and a quaternion (x, y, z, w), which is normalised.
 
-        A quaternion of length zero becomes the identity, as in Gazebo.
+        One that has length one but for rounding keeps its numbers, so that a pose that is
+        written and read stays the same. One of length zero becomes the identity, as in Gazebo.
         """
         norm = math.sqrt(sum(q * q for q in quaternion))
         pose = cls(*position)
         if norm > 0.0:
-            x, y, z, w = (float(q) / norm for q in quaternion)
+            scale = 1.0 if abs(norm - 1.0) < _ROUNDING else norm
+            x, y, z, w = (float(q) / scale for q in quaternion)
             pose._quaternion = (x, y, z, w)  # its own class
         return pose
 

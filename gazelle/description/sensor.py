@@ -135,7 +135,8 @@ class Sensor:
         imu: Set for an IMU.
         cameras: Set for the camera family: one, or several of a multicamera.
         contact: Set for a contact sensor.
-        settings: The whole ``<sensor>`` element, for types without fields of their own.
+        settings: What of the ``<sensor>`` element has no field here; for types without
+            fields of their own all that they add.
         plugins: In file order.
     """
 

@@ -15,6 +15,9 @@ from gazelle.errors import FormatError
 INFINITE = 1e16
 """SDF writes "no limit" as a number at least this large."""
 
+UNIT = 1e-14
+"""A length that differs from one by less does so from rounding."""
+
 _NUMBER = re.compile(
     r"[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?|inf(inity)?)", re.IGNORECASE
 )
@@ -157,8 +160,10 @@ def positive(node: Parameters, value: float, what: str) -> float:
 
 
 def unit(node: Parameters, xyz: Vector3) -> Vector3:
-    """The vector at length one."""
+    """The vector at length one; one that has it already keeps its numbers."""
     length = math.sqrt(sum(c * c for c in xyz))
     if not math.isfinite(length) or length == 0.0:
         raise fail(node, f"<{node.tag}> must be a vector of some length, found {xyz}")
+    if abs(length - 1.0) < UNIT:
+        return xyz
     return (xyz[0] / length, xyz[1] / length, xyz[2] / length)

@@ -4,10 +4,24 @@ from __future__ import annotations
 
 from gazelle.description import Camera, Parameters
 from gazelle.formats import values
+from gazelle.formats.sdf.leftover import Pattern
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.formats.sdf.pose import read_pose
 
 _DISTORTION = ("k1", "k2", "k3", "p1", "p2")
+
+CAMERA: Pattern = {
+    "@name": None,
+    "pose": None,
+    "horizontal_fov": None,
+    "image": dict.fromkeys(("width", "height", "format")),
+    "clip": dict.fromkeys(("near", "far")),
+    "depth_camera": {"clip": dict.fromkeys(("near", "far"))},
+    "noise": None,
+    "distortion": dict.fromkeys((*_DISTORTION, "center")),
+    "lens": None,
+}
+"""What ``read_camera`` takes."""
 
 
 def read_camera(node: Parameters) -> Camera:

@@ -30,9 +30,20 @@ def read_geometry(node: Parameters | None, reading: Reading) -> Geometry:
     if node is not None:
         for child in node.children:
             reader = SHAPES.get(child.tag)
+            if reader is read_polyline:
+                return _polylines(list(node.find_all(child.tag)), reading)
             if reader is not None:
                 return reader(child, reading)
     return Empty()
+
+
+def _polylines(nodes: list[Parameters], reading: Reading) -> Polyline:
+    """Several outlines make one shape, if they are of one height."""
+    shapes = [read_polyline(node, reading) for node in nodes]
+    for node, shape in zip(nodes, shapes, strict=True):
+        if shape.height != shapes[0].height:
+            reading.note("all outlines of a shape get the height of the first", node)
+    return Polyline(tuple(s.outlines[0] for s in shapes), shapes[0].height)
 
 
 def _size(node: Parameters, path: str, default: float) -> float:

@@ -19,11 +19,19 @@ from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.frames import MODEL, WORLD, Scope
+from gazelle.formats.sdf.own import own_safety
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
 _TYPES: tuple[JointType, ...] = get_args(JointType)
-_AXES: dict[str, int] = {"ball": 0, "fixed": 0, "universal": 2, "revolute2": 2, "gearbox": 2}
+_AXES: dict[str, int] = {
+    "ball": 0,
+    "fixed": 0,
+    "floating": 0,
+    "universal": 2,
+    "revolute2": 2,
+    "gearbox": 2,
+}
 
 
 def read_joints(
@@ -64,6 +72,7 @@ def read_joint(node: Parameters, scope: Scope, version: tuple[int, int]) -> Join
         gearbox_ratio=values.real(node, "gearbox_ratio", 1.0),
         gearbox_reference_body=values.word(node, "gearbox_reference_body"),
         physics=read_joint_physics(node.find("physics")),
+        safety=own_safety(node),
         sensors=tuple(
             read_sensor(child, lambda part: read_pose(part.find("pose")))
             for child in node.find_all("sensor")

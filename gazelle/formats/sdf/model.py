@@ -12,7 +12,9 @@ from gazelle.formats.sdf.draft import Draft
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.link import read_link
+from gazelle.formats.sdf.own import own_transmissions
 from gazelle.formats.sdf.plugin import read_plugin, read_plugins
+from gazelle.formats.sdf.pose import frame_of, read_pose
 
 _EXTRAS = ("gripper",)
 
@@ -53,6 +55,7 @@ def _content(draft: Draft, reading: Reading) -> Model:
         models=tuple(read_model(inner, scope, reading) for inner in draft.nested),
         frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
         plugins=read_plugins(node),
+        transmissions=own_transmissions(node),
         extras=tuple(child for child in node.children if child.tag in _EXTRAS),
         source=node.source,
     )
@@ -62,7 +65,11 @@ def read_frame(node: Parameters, scope: Scope) -> Frame:
     """An explicit frame, posed in the link that it moves with."""
     name = values.attribute(node, "name")
     link = scope.link_of(name, node)
-    pose = scope.pose(name, node)
-    if link:
-        pose = scope.pose(link, node).inverse() * pose
+    place = node.find("pose")
+    if frame_of(place) in {"", link} and node.attributes.get("attached_to", "") == link:
+        pose = read_pose(place)
+    else:
+        pose = scope.pose(name, node)
+        if link:
+            pose = scope.pose(link, node).inverse() * pose
     return Frame(name=name, attached_to=link, pose=pose, source=node.source)

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters, Plugin
+from gazelle.formats.sdf.leftover import without
+
+_NAMES = {"filename", "name"}
 
 
 def read_plugin(node: Parameters) -> Plugin:
@@ -11,7 +14,7 @@ def read_plugin(node: Parameters) -> Plugin:
     return Plugin(
         name=node.attributes.get("name", "") or filename,
         filename=filename,
-        parameters=node,
+        parameters=without(node, _NAMES),
         source=node.source,
     )
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from gazelle.description import ContactSensor, Imu, Lidar, Noise, Parameters, Pose, Scan, Sensor
 from gazelle.formats import values
-from gazelle.formats.sdf.camera import read_camera
+from gazelle.formats.sdf.camera import CAMERA, read_camera
+from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.formats.sdf.plugin import read_plugins
 
@@ -30,12 +31,26 @@ def read_sensor(node: Parameters, place: Placer) -> Sensor:
         always_on=values.flag(node, "always_on", default=False),
         visualize=values.flag(node, "visualize", default=False),
         topic=_topic(node),
-        settings=node,
+        settings=read_settings(node, kind),
         plugins=read_plugins(node),
         source=node.source,
     )
     family = FAMILIES.get(kind)
     return sensor if family is None else family(sensor, node)
+
+
+def read_settings(node: Parameters, kind: str) -> Parameters:
+    """What of the element has no field of its own."""
+    family = FAMILIES.get(kind)
+    pattern = {**_COMMON, **({} if family is None else _PATTERNS[family])}
+    settings = leftover(node, pattern)
+    cameras = [c for c in node.children if c.tag == "camera"] if "camera" in pattern else []
+    if len(cameras) < 2 or settings.find("camera") is None:
+        return settings
+    # of several cameras all stay, even if nothing is left of one: they go by their order
+    kept = (leftover(camera, CAMERA) for camera in cameras)
+    others = (child for child in settings.children if child.tag != "camera")
+    return replace(settings, children=(*kept, *others))
 
 
 def _topic(node: Parameters) -> str:
@@ -149,4 +164,28 @@ FAMILIES: dict[str, Callable[[Sensor, Parameters], Sensor]] = {
     "thermal_camera": read_camera_sensor,
     "wide_angle_camera": read_camera_sensor,
     "wideanglecamera": read_camera_sensor,
+}
+
+_COMMON: Pattern = dict.fromkeys(
+    ("@name", "@type", "always_on", "plugin", "pose", "topic", "update_rate", "visualize")
+)
+_SCAN: Pattern = dict.fromkeys(("samples", "resolution", "min_angle", "max_angle"))
+_LIDAR: Pattern = {
+    "scan": {"horizontal": _SCAN, "vertical": _SCAN},
+    "range": dict.fromkeys(("min", "max", "resolution")),
+    "noise": None,
+}
+_NOISES: Pattern = {axis: {"noise": None} for axis in "xyz"}
+_IMU: Pattern = {
+    "angular_velocity": _NOISES,
+    "linear_acceleration": _NOISES,
+    "orientation_reference_frame": dict.fromkeys(("localization", "custom_rpy")),
+    "enable_orientation": None,
+    "noise": dict.fromkeys(("type", "rate", "accel")),
+}
+_PATTERNS: dict[Callable[[Sensor, Parameters], Sensor], Pattern] = {
+    read_lidar_sensor: {"ray": _LIDAR, "lidar": _LIDAR},
+    read_imu_sensor: {"imu": _IMU},
+    read_camera_sensor: {"camera": CAMERA},
+    read_contact_sensor: {"contact": dict.fromkeys(("collision", "topic"))},
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gazelle.description import Model, Parameters, Pose, World
+from gazelle.description import Link, Model, Parameters, Pose, World
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.pose import read_pose
 
@@ -27,36 +27,35 @@ def apply(world: World, reading: Reading) -> World:
             for model in world.models
         ),
         lights=tuple(
-            replace(light, pose=_pose(lights[light.name], light.pose))
-            if light.name in lights
-            else light
+            light if saved is None else replace(light, pose=saved)
             for light in world.lights
+            for saved in [_saved(lights.get(light.name))]
         ),
     )
 
 
-def _pose(node: Parameters, default: Pose) -> Pose:
-    place = node.find("pose")
-    return default if place is None or not place.text else read_pose(place)
+def _saved(node: Parameters | None) -> Pose | None:
+    place = None if node is None else node.find("pose")
+    return None if place is None or not place.text else read_pose(place)
 
 
 def _restore(model: Model, node: Parameters, outer: Pose) -> Model:
     """The model with its saved pose and those of its links; ``outer`` is its parent's pose."""
-    placed = _pose(node, outer * model.pose)
+    saved = _saved(node)
+    placed = outer * model.pose if saved is None else saved
     links = {child.attributes.get("name", ""): child for child in node.find_all("link")}
     inner = {child.attributes.get("name", ""): child for child in node.find_all("model")}
-    back = placed.inverse()
     return replace(
         model,
-        pose=outer.inverse() * placed,
-        links=tuple(
-            replace(link, pose=back * _pose(links[link.name], placed * link.pose))
-            if link.name in links
-            else link
-            for link in model.links
-        ),
+        pose=model.pose if saved is None else outer.inverse() * placed,
+        links=tuple(_restore_link(link, links.get(link.name), placed) for link in model.links),
         models=tuple(
             _restore(nested, inner[nested.name], placed) if nested.name in inner else nested
             for nested in model.models
         ),
     )
+
+
+def _restore_link(link: Link, node: Parameters | None, model: Pose) -> Link:
+    saved = _saved(node)
+    return link if saved is None else replace(link, pose=model.inverse() * saved)

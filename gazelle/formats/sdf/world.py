@@ -8,7 +8,6 @@ from gazelle.description import (
     Atmosphere,
     Light,
     Parameters,
-    Pose,
     Scene,
     SphericalCoordinates,
     Vector3,
@@ -34,6 +33,7 @@ from gazelle.formats.sdf.include import (
     open_include,
 )
 from gazelle.formats.sdf.joint import read_joints
+from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.model import read_frame, read_model
 from gazelle.formats.sdf.physics import read_physics
@@ -41,6 +41,7 @@ from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
 _EXTRAS = ("audio", "gui", "population", "road")
+USER_CAMERA = "user_camera"
 _GRAVITY = (0.0, 0.0, -9.8)
 _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
 
@@ -59,6 +60,7 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     """A world with everything in it; the first ``<state>`` is applied."""
     contents = _collect(node, version, reading)
     scope = contents.scope
+    camera = node.find("gui/camera")
     world = World(
         name=values.attribute(node, "name"),
         models=tuple(read_model(draft, scope, reading) for draft in contents.drafts),
@@ -73,10 +75,12 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
         frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
         joints=read_joints(node, scope, version, reading),
         plugins=read_plugins(node),
-        camera=_camera(node),
+        camera=None if camera is None else read_pose(camera.find("pose")),
         actors=tuple(contents.actors),
         states=tuple(node.find_all("state")),
-        extras=tuple(child for child in node.children if child.tag in _EXTRAS),
+        extras=tuple(
+            extra for child in node.children if (extra := _extra(child, camera)) is not None
+        ),
         source=node.source,
     )
     return state.apply(world, reading)
@@ -134,9 +138,16 @@ def _since_1_6(node: Parameters, tag: str, default: Vector3) -> Vector3:
     return values.vector(node, tag, values.vector(node, f"physics/{tag}", default))
 
 
-def _camera(node: Parameters) -> Pose | None:
-    camera = node.find("gui/camera")
-    return None if camera is None else read_pose(camera.find("pose"))
+def _extra(node: Parameters, camera: Parameters | None) -> Parameters | None:
+    """An element that is kept whole; of ``<gui>`` what the world's camera does not say."""
+    if node.tag not in _EXTRAS:
+        return None
+    if node.tag != "gui" or camera is None or camera not in node.children:
+        return node
+    usual = camera.attributes.get("name", USER_CAMERA) == USER_CAMERA
+    read: Pattern = {"pose": None, "@name": None} if usual else {"pose": None}
+    left = leftover(node, {"camera": read})
+    return left if left.children or left.attributes else None
 
 
 def read_scene(node: Parameters | None) -> Scene:

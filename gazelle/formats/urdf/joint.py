@@ -56,7 +56,7 @@ def read_joint(node: Parameters, reading: Reading) -> UrdfJoint:
         child=_link(node, "child"),
         origin=read_origin(node.find("origin")),
         axis=None if kind in _FREE else read_axis(node, kind, reading),
-        safety=_safety(node.find("safety_controller")),
+        safety=read_safety(node.find("safety_controller")),
         node=node,
     )
 
@@ -140,7 +140,8 @@ def _mimic(node: Parameters | None) -> Mimic | None:
     )
 
 
-def _safety(node: Parameters | None) -> SafetyController | None:
+def read_safety(node: Parameters | None) -> SafetyController | None:
+    """``<safety_controller>``."""
     if node is None:
         return None
     return SafetyController(
