@@ -11,8 +11,10 @@ import mujoco
 import numpy as np
 
 from gazelle.description import Inertial, Model, Pose, World
+from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
+from gazelle.engines.mujoco.options import set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.surfaces import friction_ranks, surface_options
 from gazelle.engines.mujoco.tree import Body, tree_of
@@ -53,12 +55,14 @@ class Recipe:
         time_step: Physics step [s].
         kinematic: Names of models that move only when told to.
         motors: By scoped joint name.
+        attachments: Pairs of links that can be held together at run time.
     """
 
     world: World
     time_step: float
     kinematic: frozenset[str] = frozenset()
     motors: Mapping[str, Motor] = field(default_factory=dict)
+    attachments: tuple[Attachment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,10 +72,12 @@ class Compiled:
     Attributes:
         model: The MuJoCo model.
         bodies: By model name, in order.
+        geoms: Names of MuJoCo's geoms by scoped collision, ``model::link::collision``.
     """
 
     model: mujoco.MjModel
     bodies: Mapping[str, list[Body]]
+    geoms: Mapping[str, list[str]]
 
 
 def compile_world(recipe: Recipe) -> Compiled:
@@ -81,7 +87,7 @@ def compile_world(recipe: Recipe) -> Compiled:
         EngineError: Something in the description cannot be simulated.
     """
     spec = mujoco.MjSpec()
-    _set_options(spec, recipe)
+    set_options(spec, recipe.world, recipe.time_step)
     trees = {
         model.name: tree_of(model, kinematic=model.name in recipe.kinematic)
         for model in recipe.world.models
@@ -96,26 +102,11 @@ def compile_world(recipe: Recipe) -> Compiled:
             add_closure(spec, closure, tree.bodies, recipe.time_step)
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
+    add_attachments(spec, recipe.attachments, bodies)
     try:
-        return Compiled(spec.compile(), bodies)
+        return Compiled(spec.compile(), bodies, builder.geoms)
     except ValueError as error:
         raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
-
-
-def _set_options(spec: mujoco.MjSpec, recipe: Recipe) -> None:
-    option = spec.option
-    option.timestep = recipe.time_step
-    option.gravity = list(recipe.world.gravity)
-    # Semi-implicit Euler as ODE integrates; joint damping stays implicit (eulerdamp).
-    option.integrator = mujoco.mjtIntegrator.mjINT_EULER
-    option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
-    option.solver = mujoco.mjtSolver.mjSOL_NEWTON
-    option.iterations = 20
-    option.ls_iterations = 20
-    spec.compiler.autolimits = True
-    spec.compiler.degree = False
-    spec.compiler.discardvisual = False
-    spec.compiler.fusestatic = False
 
 
 class _Builder:
@@ -128,6 +119,7 @@ class _Builder:
         self._time_step = recipe.time_step
         self._bodies = bodies
         self._shapes = ShapeBuilder(spec)
+        self.geoms: dict[str, list[str]] = {}
         self._ranks = friction_ranks(
             collision
             for parts in bodies.values()
@@ -167,8 +159,10 @@ class _Builder:
         for collision in body.link.collisions:
             surface = surface_options(collision, self._time_step, self._ranks)
             placed = pose * collision.pose
+            names = self.geoms.setdefault(f"{body.name}::{collision.name}", [])
             for shape in self._shapes.options(collision.geometry, placed, collision.source):
-                handle.add_geom(group=COLLISION_GROUP, mass=0.0, **surface, **shape)
+                names.append(f"{body.name}::{collision.name}#{len(names)}")
+                handle.add_geom(name=names[-1], group=COLLISION_GROUP, mass=0.0, **surface, **shape)
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""

@@ -1,0 +1,61 @@
+"""Links held together at run time: welds that can be switched on in each world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import mujoco
+
+from gazelle.engines.mujoco.tree import Body
+
+# A weld is as stiff as MuJoCo allows: a time constant of two physics steps would be the
+# limit of stability, three leave room for what hangs on it.
+WELD_STEPS = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Attachment:
+    """Two links that can be held together.
+
+    Attributes:
+        parent: Scoped name of the link that is held to.
+        child: Scoped name of the link that is held.
+    """
+
+    parent: str
+    child: str
+
+    @property
+    def name(self) -> str:
+        """The name of the weld."""
+        return f"{self.parent}>{self.child}"
+
+    def is_of(self, model: str) -> bool:
+        """Whether one of the links is a model's."""
+        return any(link.startswith(f"{model}::") for link in (self.parent, self.child))
+
+
+def add_attachments(
+    spec: mujoco.MjSpec,
+    attachments: tuple[Attachment, ...],
+    bodies: Mapping[str, list[Body]],
+) -> None:
+    """Put a weld, switched off, into the model for every pair.
+
+    A static link is part of MuJoCo's world body, which is what the other is then held to.
+    """
+    roots = {body.name: body.root for parts in bodies.values() for body in parts}
+    for pair in attachments:
+        parent, child = (
+            "world" if roots[link] == "static" else link for link in (pair.parent, pair.child)
+        )
+        spec.add_equality(
+            name=pair.name,
+            type=mujoco.mjtEq.mjEQ_WELD,
+            objtype=mujoco.mjtObj.mjOBJ_BODY,
+            name1=parent,
+            name2=child,
+            active=False,
+            solref=[WELD_STEPS * spec.option.timestep, 1.0],
+        )
