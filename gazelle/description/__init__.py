@@ -34,12 +34,21 @@ from gazelle.description.link import Collision, Link, Visual
 from gazelle.description.material import Color, Material
 from gazelle.description.model import Frame, Model, PlacedModel, Transmission
 from gazelle.description.noise import Noise, NoiseType
+from gazelle.description.occupancy import OccupancyMap
 from gazelle.description.parameters import Parameters
 from gazelle.description.physics import Ode, Physics
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose, Quaternion, Vector3
 from gazelle.description.sensor import Camera, ContactSensor, Imu, Lidar, Scan, Sensor
 from gazelle.description.source import Source
+from gazelle.description.srdf import (
+    DisabledCollision,
+    EndEffector,
+    JointGroup,
+    JointGroupState,
+    Semantics,
+    VirtualJoint,
+)
 from gazelle.description.surface import Bounce, Contact, Friction, Surface, TorsionalFriction
 from gazelle.description.world import Atmosphere, Scene, SphericalCoordinates, World
 
@@ -56,8 +65,10 @@ __all__ = [
     "Contact",
     "ContactSensor",
     "Cylinder",
+    "DisabledCollision",
     "Ellipsoid",
     "Empty",
+    "EndEffector",
     "Frame",
     "Friction",
     "Geometry",
@@ -68,6 +79,8 @@ __all__ = [
     "Inertial",
     "Joint",
     "JointAxis",
+    "JointGroup",
+    "JointGroupState",
     "JointPhysics",
     "JointType",
     "Lidar",
@@ -79,6 +92,7 @@ __all__ = [
     "Model",
     "Noise",
     "NoiseType",
+    "OccupancyMap",
     "Ode",
     "Parameters",
     "Physics",
@@ -91,6 +105,7 @@ __all__ = [
     "SafetyController",
     "Scan",
     "Scene",
+    "Semantics",
     "Sensor",
     "Source",
     "Sphere",
@@ -99,6 +114,7 @@ __all__ = [
     "TorsionalFriction",
     "Transmission",
     "Vector3",
+    "VirtualJoint",
     "Visual",
     "World",
 ]

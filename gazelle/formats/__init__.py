@@ -1,9 +1,11 @@
-"""Files to descriptions: SDF, URDF, xacro, and the meshes they name."""
+"""Files to descriptions: SDF, URDF, xacro, SRDF, maps, and the meshes they name."""
 
 from gazelle.formats.check import Problem, check
 from gazelle.formats.loader import load, load_model, load_model_string, load_string
 from gazelle.formats.mesh import MeshData, load_mesh
+from gazelle.formats.occupancy import load_map
 from gazelle.formats.resolve import Resolver
+from gazelle.formats.srdf import load_srdf, load_srdf_string
 
 __all__ = [
     "MeshData",
@@ -11,8 +13,11 @@ __all__ = [
     "Resolver",
     "check",
     "load",
+    "load_map",
     "load_mesh",
     "load_model",
     "load_model_string",
+    "load_srdf",
+    "load_srdf_string",
     "load_string",
 ]

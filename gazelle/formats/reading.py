@@ -67,8 +67,12 @@ class Reading:
         return path
 
     def note(self, message: str, node: Parameters, hint: str | None = None) -> None:
+        """Record a remark about an element, once for each place."""
+        self.remark(message, node.source, hint)
+
+    def remark(self, message: str, source: Source | None, hint: str | None = None) -> None:
         """Record a remark, once for each place."""
-        note = Note(message, node.source, hint)
+        note = Note(message, source, hint)
         if note not in self.notes:
             self.notes.append(note)
 
