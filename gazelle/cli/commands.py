@@ -44,6 +44,7 @@ COMMANDS = {
         Command("check", "judge files: every problem, with file and line", "simulate", "check"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
+        Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),
         Command("tasks", "list the tasks", "what there is", "tasks"),
         Command("robots", "list the bundled robots", "what there is", "robots"),
         Command("worlds", "list the bundled worlds", "what there is", "worlds"),

@@ -1,0 +1,63 @@
+"""Run a ROS 1 master with parameter server and rosout, until Ctrl-C.
+
+  gazelle master
+  gazelle master --port 11322
+  gazelle master --host 192.168.1.10
+
+Only this machine can reach it unless --host names an address of a network.
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "-p",
+        "--port",
+        type=_port,
+        help="default: the port of ROS_MASTER_URI, else 11311; 0 for any free one",
+    )
+    parser.add_argument(
+        "--host",
+        help="name or address nodes reach it by (default: loopback only)",
+    )
+    parser.add_argument(
+        "--no-rosout", action="store_true", help="without the node that collects logs"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.ros import net
+    from gazelle.ros.master.server import run_master
+
+    end = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: end.set())
+    port = args.port
+    if port is None:
+        port = net.split_uri(net.default_master_uri())[1]
+    host = args.host or net.default_host()
+    run_master(host, port, rosout=not args.no_rosout, ready=_announce, end=end)
+    return 0
+
+
+def _announce(uri: str) -> None:
+    sys.stdout.write(f"ROS master at {uri}\nexport ROS_MASTER_URI={uri}\n")
+    sys.stdout.flush()
+
+
+def _port(text: str) -> int:
+    try:
+        number = int(text)
+    except ValueError:
+        number = -1
+    if not 0 <= number < 65536:
+        raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, not '{text}'")
+    return number

@@ -1,0 +1,136 @@
+"""The errors of the ROS room: all are `gazelle.errors.RosError`."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+
+from gazelle.errors import RosError
+
+__all__ = [
+    "ApiError",
+    "FaultError",
+    "InvalidNameError",
+    "MarshalError",
+    "MasterUnreachableError",
+    "Md5MismatchError",
+    "NodeClosedError",
+    "ParameterNotFoundError",
+    "ProtocolError",
+    "RosError",
+    "RosTimeoutError",
+    "ServiceError",
+    "ServiceFailedError",
+    "ServiceNotFoundError",
+    "TimeMovedBackwardsError",
+    "UnreachableError",
+    "report",
+]
+
+
+class InvalidNameError(RosError, ValueError):
+    """A graph resource name that ROS 1 does not allow."""
+
+
+class MarshalError(RosError, ValueError):
+    """A value that XML-RPC cannot carry, or a document that is not XML-RPC."""
+
+
+class ProtocolError(RosError):
+    """The peer does not speak HTTP, XML-RPC or TCPROS as it should, or exceeds a limit."""
+
+
+class FaultError(RosError):
+    """The peer answered an XML-RPC call with a fault.
+
+    Attributes:
+        code: The fault's number.
+        text: The fault's text.
+    """
+
+    def __init__(self, code: int, text: str) -> None:
+        self.code = code
+        self.text = text
+        super().__init__(f"fault {code}: {text}")
+
+
+class UnreachableError(RosError):
+    """A peer does not answer: no connection, or it broke before the answer."""
+
+
+class MasterUnreachableError(UnreachableError):
+    """The ROS master does not answer."""
+
+
+class ApiError(RosError):
+    """The master or a node answered a call with a code other than 1.
+
+    Attributes:
+        code: 0 the call failed, -1 the caller is at fault.
+        text: The status text.
+    """
+
+    def __init__(self, method: str, code: int, text: str) -> None:
+        self.code = code
+        self.text = text
+        super().__init__(f"{method}: {text}")
+
+
+class Md5MismatchError(RosError):
+    """The two ends of a topic or service do not mean the same type."""
+
+
+class ServiceError(RosError):
+    """A service call did not bring an answer."""
+
+
+class ServiceNotFoundError(ServiceError):
+    """Nobody offers the service."""
+
+
+class ServiceFailedError(ServiceError):
+    """The service answered that it failed; the message is the server's text."""
+
+
+class RosTimeoutError(RosError, TimeoutError):
+    """Something did not happen within the time given for it."""
+
+
+class NodeClosedError(RosError):
+    """The node, publisher, subscriber or client is closed already."""
+
+
+class ParameterNotFoundError(RosError, KeyError):
+    """The parameter is not set."""
+
+    def __str__(self) -> str:
+        return self.message
+
+
+class TimeMovedBackwardsError(RosError):
+    """Simulated time jumped back while something slept.
+
+    Attributes:
+        jump: How far, in seconds (negative).
+    """
+
+    def __init__(self, jump: float) -> None:
+        self.jump = jump
+        super().__init__("ROS time moved backwards")
+
+
+def report(what: str, error: BaseException) -> None:
+    """Tell the log about an error that must not stop the thread it happened in.
+
+    Args:
+        what: What was being done, such as ``callback of /scan``.
+        error: What went wrong; its traceback goes along.
+    """
+    import logging
+
+    lines = traceback.format_exception(error)
+    logger = logging.getLogger("gazelle.ros")
+    if logger.hasHandlers():
+        logger.error("%s: %s\n%s", what, error, "".join(lines))
+    elif sys.stderr is not None:
+        sys.stderr.write(f"[ERROR] {what}: {error}\n{''.join(lines)}")

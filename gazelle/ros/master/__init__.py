@@ -1,0 +1,1 @@
+"""The ROS master: who publishes, subscribes and serves what, and the parameter server."""

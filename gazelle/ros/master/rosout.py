@@ -1,0 +1,48 @@
+"""The node ``/rosout``: it copies what all nodes log to ``/rosout_agg``, as it comes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.clock import WallClock
+from gazelle.ros.node import Node
+from gazelle.ros.raw import RawMessage
+
+
+class LogMessage(RawMessage):
+    """A ``rosgraph_msgs/Log`` that is not decoded."""
+
+    __slots__ = ()
+    _type = "rosgraph_msgs/Log"
+    _md5sum = "acffd30cd6b6de30f120938c17c593fb"
+    _full_text = ""
+
+
+class RosoutAggregator:
+    """Lets a log viewer follow one publisher instead of one for each node.
+
+    Args:
+        master_uri: The master to join.
+    """
+
+    def __init__(self, master_uri: str, host: str) -> None:
+        kind = _log_class()
+        self._node = Node("rosout", master_uri=master_uri, host=host, clock=WallClock())
+        self._publisher = self._node.advertise("/rosout_agg", kind, queue_size=1000)
+        self._node.subscribe("/rosout", kind, self._pass_on, queue_size=1000)
+
+    def close(self) -> None:
+        """End the node."""
+        self._node.close()
+
+    def _pass_on(self, message: Any) -> None:
+        if self._publisher.has_listener:
+            self._publisher.publish(message)
+
+
+def _log_class() -> type[RawMessage]:
+    """The raw class, with the definition that subscribers without it need."""
+    from gazelle.ros.messages import load_message
+
+    LogMessage._full_text = load_message("rosgraph_msgs/Log")._full_text  # noqa: SLF001  # genpy's name
+    return LogMessage

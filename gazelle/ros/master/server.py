@@ -1,0 +1,146 @@
+"""The master as a server: in this process, or as the whole of one."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import uuid
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.ros import loop, net
+from gazelle.ros.errors import RosError
+from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.master.api import MasterApi
+from gazelle.ros.xmlrpc.client import AsyncClient
+from gazelle.ros.xmlrpc.server import XmlRpcServer
+
+_PATIENCE_S = 3.0
+"""Seconds to wait for a node that is told something; dead nodes stay registered."""
+
+
+class Master:
+    """A ROS master with parameter server and, unless told otherwise, the rosout aggregator.
+
+    Args:
+        host: The name nodes reach it by; loopback unless told otherwise.
+        port: 0 for any free one.
+        rosout: As roscore does, run the node ``/rosout`` that copies ``/rosout`` to
+            ``/rosout_agg``, and set ``/run_id`` and its like; without, as bare rosmaster.
+        limits: What peers may demand.
+        ended: See the attribute.
+
+    Attributes:
+        uri: Where it answers.
+        port: The port in it.
+        ended: Set when somebody asks the master to end.
+
+    Raises:
+        RosError: The port is taken.
+    """
+
+    def __init__(
+        self,
+        host: str = net.LOOPBACK,
+        port: int = net.DEFAULT_MASTER_PORT,
+        *,
+        rosout: bool = True,
+        limits: Limits = LIMITS,
+        ended: threading.Event | None = None,
+    ) -> None:
+        self.ended = ended or threading.Event()
+        self._loop = loop.acquire()
+        self._closed = False
+        self._host = host
+        self._calls = AsyncClient(self._loop, _PATIENCE_S, limits)
+        self.api = MasterApi(self._notify, self._ask_to_end)
+        try:
+            self._server = XmlRpcServer(self._loop, host, port, self.api.dispatch, limits)
+        except OSError as error:
+            loop.release(self._loop)
+            raise RosError(
+                f"cannot listen on {host}:{port}: {error.strerror or error}",
+                hint="another master may run there; give another port, or 0 for any free one",
+            ) from None
+        self.uri = self.api.uri = self._server.uri
+        self.port = self._server.port
+        self._rosout: Any = None
+        if rosout:
+            self._set_marks()
+            self._start_rosout()
+
+    def close(self) -> None:
+        """End it: its socket and threads are gone when this returns."""
+        if self._closed:
+            return
+        self._closed = True
+        self.ended.set()
+        if self._rosout is not None:
+            self._rosout.close()
+        self._server.close()
+        self._loop.run(self._calls.close)
+        loop.release(self._loop)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _notify(self, uri: str, method: str, params: Sequence[Any]) -> None:
+        self._calls.call(uri, method, params)
+
+    def _ask_to_end(self, _reason: str) -> None:
+        self.ended.set()
+
+    def _set_marks(self) -> None:
+        """What tools look for on a running master."""
+        marks = {
+            "/run_id": str(uuid.uuid1()),
+            "/rosdistro": "noetic\n",
+            "/rosversion": "1.16.0\n",
+        }
+        for key, value in marks.items():
+            self.api.parameters.set(key, value)
+
+    def _start_rosout(self) -> None:
+        from gazelle.ros.master.rosout import RosoutAggregator
+
+        try:
+            self._rosout = RosoutAggregator(self.uri, self._host)
+        except BaseException:
+            self.close()
+            raise
+
+
+def run_master(
+    host: str = net.LOOPBACK,
+    port: int = net.DEFAULT_MASTER_PORT,
+    *,
+    rosout: bool = True,
+    ready: Callable[[str], None] | None = None,
+    end: threading.Event | None = None,
+) -> None:
+    """Run a master until it is asked to end, Ctrl-C, or `end` is set.
+
+    Args:
+        host: The name nodes reach it by; anything but loopback opens it to the network.
+        port: 0 for any free one.
+        rosout: Run the rosout aggregator.
+        ready: Called with the master's URI when it answers.
+        end: Set it to end the master; the master sets it when it is asked to end.
+
+    Raises:
+        RosError: The port is taken.
+    """
+    with Master(host, port, rosout=rosout, ended=end) as master:
+        if ready is not None:
+            ready(master.uri)
+        with contextlib.suppress(KeyboardInterrupt):
+            master.ended.wait()

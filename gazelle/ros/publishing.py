@@ -1,0 +1,261 @@
+"""What one node publishes on one topic: links to subscribers, queues, latched message."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.ros import net
+from gazelle.ros.errors import Md5MismatchError, NodeClosedError, report
+from gazelle.ros.loop import EventLoop
+from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.frames import frame
+from gazelle.ros.tcpros.outbound import OutboundLink
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+    from gazelle.ros.subscribing import Subscription
+
+PeerHook = Callable[[str], None]
+"""Called with the name of a subscriber, on a worker thread."""
+
+
+class LocalLink:
+    """A link to a subscription in the same process: messages go over as they are."""
+
+    def __init__(self, publication: Publication, subscription: Subscription) -> None:
+        self.publication = publication
+        self.subscription = subscription
+        self.peer = subscription.node.name
+        self.header = publication.reply_header()
+        self.messages = 0
+        self.number = 0
+        """Identity in bus info."""
+        self.same_class = subscription.takes(publication.message_class)
+
+    def send(self, message: Any, data: bytes | None) -> None:
+        """Deliver the object if `data` is None, else what it was serialised to."""
+        self.messages += 1
+        self.subscription.receive_local(self, message, data)
+
+
+class Publication:
+    """A node's publishers of one topic, which share everything.
+
+    Args:
+        node: Whose it is.
+        topic: Its resolved name.
+        message_class: Of the messages.
+    """
+
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+        self.node = node
+        self.topic = topic
+        self.message_class = message_class
+        self.queue_size: int | None = None
+        self.tcp_nodelay = False
+        self.latching = False
+        self.publishers: list[Publisher] = []
+        self.messages = 0
+        self.bytes = 0
+        self._lock = threading.RLock()
+        self._sequence = 0
+        self._last: Any = None
+        self._loop: EventLoop = node.loop
+        self._has_header = bool(getattr(message_class, "_has_header", False))
+        self.remote: tuple[OutboundLink, ...] = ()
+        self.local: tuple[LocalLink, ...] = ()
+
+    # Sending -----------------------------------------------------------------------------
+
+    def publish(self, message: Any) -> None:
+        """Send a message to everybody who listens."""
+        if self._has_header:
+            with self._lock:
+                self._sequence += 1
+                message.header.seq = self._sequence
+        remote, local = self.remote, self.local
+        self.messages += 1
+        if self.latching:
+            self._latch(message)
+            return
+        if remote:
+            data = frame(message)
+            self.bytes += len(data)
+            for link in remote:
+                link.send(data)
+            if local:
+                self._publish_local(local, message, data[4:])
+        elif local:
+            self._publish_local(local, message, None)
+
+    def _latch(self, message: Any) -> None:
+        """Send and keep a message; whoever connects at the same time gets it once."""
+        data = frame(message)
+        with self._lock:
+            self._last = data
+            self.bytes += len(data)
+            remote, local = self.remote, self.local
+            if local:
+                self._publish_local(local, message, data[4:])
+        for link in remote:
+            link.send(data)
+
+    def _publish_local(
+        self, local: tuple[LocalLink, ...], message: Any, data: bytes | None
+    ) -> None:
+        if data is None:
+            if len(local) == 1 and local[0].same_class and self.node.share_messages:
+                local[0].send(message, None)
+                return
+            data = frame(message)[4:]
+        for link in local:
+            link.send(message, data)
+
+    # Subscribers come and go; only on the leader -------------------------------------------
+
+    def reply_header(self) -> dict[str, str]:
+        """What a subscriber is told."""
+        kind = self.message_class
+        return {
+            "callerid": self.node.name,
+            "latching": str(int(self.latching)),
+            "md5sum": kind._md5sum,  # noqa: SLF001  # genpy's names
+            "message_definition": kind._full_text,  # noqa: SLF001
+            "topic": self.topic,
+            "type": kind._type,  # noqa: SLF001
+        }
+
+    def check(self, caller: str, fields: dict[str, str]) -> None:
+        """Judge the header of a subscriber.
+
+        Raises:
+            Md5MismatchError: It wants another type.
+        """
+        mine, theirs = self.message_class._md5sum, fields["md5sum"]  # noqa: SLF001
+        if headers.ANY not in {mine, theirs} and mine != theirs:
+            kind = self.message_class._type  # noqa: SLF001
+            raise Md5MismatchError(
+                f"Client [{caller}] wants topic [{self.topic}] to have datatype/md5sum "
+                f"[{fields.get('type', '?')}/{theirs}], but our version has [{kind}/{mine}]"
+            )
+
+    def adopt(self, sock: socket.socket, address: net.Address, fields: dict[str, str]) -> None:
+        """Take over the connection of a subscriber."""
+        if self.tcp_nodelay or headers.flag(fields, "tcp_nodelay"):
+            net.ignore_delay(sock)
+        link = OutboundLink(self._loop, sock, fields, address, self.queue_size, self._lost)
+        link.number = self.node.next_number()
+        first = headers.encode(self.reply_header())
+        with self._lock:
+            # From here on every message goes to this link too, behind header and latched one.
+            if self.latching and self._last is not None:
+                first += self._last
+            link.start(first)
+            self.remote = (*self.remote, link)
+        self._tell(link.peer, connected=True)
+
+    def attach(self, subscription: Subscription) -> LocalLink:
+        """Link a subscription in the same process."""
+        link = LocalLink(self, subscription)
+        link.number = self.node.next_number()
+        with self._lock:
+            self.local = (*self.local, link)
+            if self.latching and self._last is not None:
+                link.send(None, self._last[4:])
+        self._tell(link.peer, connected=True)
+        return link
+
+    def detach(self, link: LocalLink) -> None:
+        """Undo `attach`."""
+        with self._lock:
+            known = link in self.local
+            self.local = tuple(other for other in self.local if other is not link)
+        if known:
+            self._tell(link.peer, connected=False)
+
+    def _lost(self, link: OutboundLink) -> None:
+        with self._lock:
+            self.remote = tuple(other for other in self.remote if other is not link)
+        self._tell(link.peer, connected=False)
+
+    def _tell(self, peer: str, *, connected: bool) -> None:
+        for publisher in self.publishers:
+            hook = publisher.on_connect if connected else publisher.on_disconnect
+            if hook is not None:
+                self._loop.submit(lambda hook=hook: self._call(hook, peer))  # type: ignore[misc]
+
+    def _call(self, hook: PeerHook, peer: str) -> None:
+        try:
+            hook(peer)
+        except Exception as error:  # noqa: BLE001  # a hook must not end its thread
+            report(f"connection hook of {self.topic}", error)
+
+    def close(self) -> None:
+        """Let all subscribers go. Only for the leader."""
+        for link in self.remote:
+            link.finish()
+        for local in self.local:
+            local.subscription.lose_local(local)
+            self.detach(local)
+
+    @property
+    def num_connections(self) -> int:
+        """Subscribers connected now."""
+        return len(self.remote) + len(self.local)
+
+
+class Publisher:
+    """What `Node.advertise` returns: publishes messages on a topic.
+
+    Attributes:
+        name: The topic's resolved name.
+        on_connect: Called with the name of each subscriber that connects, on a worker thread.
+        on_disconnect: Called with the name of each that goes.
+    """
+
+    def __init__(
+        self,
+        publication: Publication,
+        on_connect: PeerHook | None = None,
+        on_disconnect: PeerHook | None = None,
+    ) -> None:
+        self._publication = publication
+        self.name = publication.topic
+        self.message_class = publication.message_class
+        self.on_connect = on_connect
+        self.on_disconnect = on_disconnect
+        self._closed = False
+
+    def publish(self, message: Any) -> None:
+        """Publish a message.
+
+        With a queue size this returns at once; what a subscriber does not take in time is
+        dropped, oldest first. Without one it waits for slow subscribers. A subscriber in
+        this process may get this very object: do not change it afterwards.
+
+        Raises:
+            NodeClosedError: The publisher is closed.
+            SerializationError: A field holds what its type cannot carry.
+        """
+        if self._closed:
+            raise NodeClosedError(f"the publisher of {self.name} is closed")
+        self._publication.publish(message)
+
+    @property
+    def num_connections(self) -> int:
+        """Subscribers connected now."""
+        return self._publication.num_connections
+
+    @property
+    def has_listener(self) -> bool:
+        """True if a message published now would go anywhere."""
+        return self._publication.num_connections > 0
+
+    def close(self) -> None:
+        """Publish no more; the last publisher of a topic in a node unregisters it."""
+        if not self._closed:
+            self._closed = True
+            self._publication.node.unadvertise(self._publication, self)

@@ -1,0 +1,106 @@
+"""Keeps a node registered: when its master goes and another comes, all is registered anew."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gazelle.ros.errors import RosError
+from gazelle.ros.loop import Timer
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+_CALM_S = 5.0
+"""Seconds between questions while all is well; a broken connection is noticed at once."""
+_ALERT_S = 0.25
+
+
+class Registrar:
+    """Asks the master from time to time whether it still knows the node. Leader only."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._timer: Timer | None = None
+        self._stopped = False
+        self._asking = False
+        self.lost = False
+        """True while the master does not answer."""
+
+    def start(self) -> None:
+        """Begin to watch."""
+        self._check()
+
+    def stop(self) -> None:
+        """Watch no more."""
+        self._stopped = True
+        if self._timer is not None:
+            self._timer.cancel()
+
+    def alert(self) -> None:
+        """The connection to the master broke, or a registration failed: look soon."""
+        self._schedule(_ALERT_S)
+
+    def _schedule(self, seconds: float) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        if not self._stopped:
+            self._timer = self._node.loop.call_later(seconds, self._check)
+
+    def _check(self) -> None:
+        if self._asking or self._stopped:
+            return
+        self._asking = True
+        node = self._node
+        params = (node.name, node.name)
+        node.calls.call(node.master_uri, "lookupNode", params, self._judge)
+
+    def _judge(self, triple: Any, error: RosError | None) -> None:
+        self._asking = False
+        if self._stopped:
+            return
+        if error is not None or not isinstance(triple, list) or len(triple) != 3:
+            self.lost = True
+            self._schedule(_ALERT_S * 2)
+            return
+        self.lost = False
+        self._schedule(_CALM_S)
+        # Another node under our name is no reason to fight: the master told us to end.
+        if triple[0] == -1:
+            self._register_all()
+
+    def _register_all(self) -> None:
+        node = self._node
+        for publication in node.publications():
+            kind = publication.message_class._type  # noqa: SLF001  # genpy's name
+            self._call("registerPublisher", publication.topic, kind, node.uri)
+        for subscription in node.subscriptions():
+            kind = subscription.message_class._type  # noqa: SLF001  # genpy's name
+            self._subscribe(subscription, kind)
+        for service in node.services():
+            self._call("registerService", service.name, service.uri, node.uri)
+        for key in node.parameters.followed():
+            self._follow(key)
+
+    def _call(self, method: str, *params: Any) -> None:
+        node = self._node
+        node.calls.call(node.master_uri, method, (node.name, *params))
+
+    def _subscribe(self, subscription: Any, kind: str) -> None:
+        node = self._node
+
+        def done(triple: Any, error: RosError | None) -> None:
+            if error is None and isinstance(triple, list) and triple[0] == 1:
+                subscription.update([uri for uri in triple[2] if isinstance(uri, str)])
+
+        params = (node.name, subscription.topic, kind, node.uri)
+        node.calls.call(node.master_uri, "registerSubscriber", params, done)
+
+    def _follow(self, key: str) -> None:
+        node = self._node
+
+        def done(triple: Any, error: RosError | None) -> None:
+            if error is None and isinstance(triple, list) and triple[0] == 1:
+                node.parameters.refresh(key, triple[2])
+
+        params = (node.name, node.uri, key)
+        node.calls.call(node.master_uri, "subscribeParam", params, done)

@@ -1,0 +1,256 @@
+"""What one node subscribes to on one topic: links to publishers, callbacks, queues."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.ros.errors import Md5MismatchError, report
+from gazelle.ros.limits import Limits
+from gazelle.ros.loop import EventLoop, Strand
+from gazelle.ros.publishing import LocalLink, Publication
+from gazelle.ros.raw import RawMessage
+from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.inbound import InboundLink
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+Callback = Callable[[Any], None]
+MessageHook = Callable[[Any, Any, int], None]
+"""Called with link, message and its size; for statistics."""
+
+_LOCAL_BACKLOG = 1000
+"""Messages a subscriber in the same process may be behind before the oldest are dropped; over
+a network the buffers of the system would hold about as many."""
+
+
+class Subscription:
+    """A node's subscribers of one topic, which share connections and decoding.
+
+    Args:
+        node: Whose it is.
+        topic: Its resolved name.
+        message_class: Of the messages.
+    """
+
+    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+        self.node = node
+        self.topic = topic
+        self.message_class = message_class
+        self.limits: Limits = node.limits
+        self.tcp_nodelay = False
+        self.queue_size: int | None = None
+        self.subscribers: tuple[Subscriber, ...] = ()
+        self.links: dict[str, InboundLink] = {}
+        self.local: dict[str, LocalLink] = {}
+        self.hook: MessageHook | None = None
+        self._loop: EventLoop = node.loop
+        self._strand = Strand(self._loop, self._deliver, f"callback of {topic}")
+        self._received = 0
+        self._handled = 0
+        self._paused = False
+        self.updated = False
+        """True when the publishers were told for the first time."""
+        self._closed = False
+        self._raw = message_class is RawMessage
+        self._marks = hasattr(message_class, "_connection_header")
+
+    # Publishers come and go; only on the leader --------------------------------------------
+
+    def update(self, uris: list[str]) -> None:
+        """Connect to these publishers, and to no others."""
+        if self._closed:
+            return
+        self.updated = True
+        for uri in [uri for uri in self.links if uri not in uris]:
+            self.links.pop(uri).close()
+        for uri in [uri for uri in self.local if uri not in uris]:
+            self._detach(uri)
+        for uri in uris:
+            if uri not in self.links and uri not in self.local:
+                self._link(uri)
+
+    def _link(self, uri: str) -> None:
+        neighbour = self.node.neighbour(uri)
+        if neighbour is not None:
+            publication = neighbour.publication(self.topic)
+            if publication is not None:
+                self._attach(uri, publication)
+            return  # it is about to register, or gone: an update will come
+        link = self.links[uri] = InboundLink(self._loop, self.node.calls, self, self.node.name, uri)
+        link.number = self.node.next_number()
+        link.open()
+
+    def _attach(self, uri: str, publication: Publication) -> None:
+        mine, theirs = self.message_class._md5sum, publication.message_class._md5sum  # noqa: SLF001  # genpy's names
+        if headers.ANY not in {mine, theirs} and mine != theirs:
+            kind = publication.message_class._type  # noqa: SLF001
+            wanted = self.message_class._type  # noqa: SLF001
+            text = f"{self.topic} carries {kind} ({theirs}), not {wanted} ({mine})"
+            report(f"subscriber of {self.topic}", Md5MismatchError(text))
+            return
+        self.local[uri] = publication.attach(self)
+
+    def _detach(self, uri: str) -> None:
+        link = self.local.pop(uri)
+        link.publication.detach(link)
+
+    def lose_local(self, link: LocalLink) -> None:
+        """A publisher in this process is gone."""
+        for uri in [uri for uri, other in self.local.items() if other is link]:
+            del self.local[uri]
+
+    def add(self, subscriber: Subscriber, *, tcp_nodelay: bool) -> None:
+        """One more callback."""
+        self.subscribers = (*self.subscribers, subscriber)
+        self.tcp_nodelay |= tcp_nodelay
+        self._measure_queue()
+
+    def remove(self, subscriber: Subscriber) -> None:
+        """One callback less."""
+        self.subscribers = tuple(s for s in self.subscribers if s is not subscriber)
+        self._measure_queue()
+
+    def _measure_queue(self) -> None:
+        sizes = [subscriber.queue_size for subscriber in self.subscribers]
+        self.queue_size = None if None in sizes else max((s for s in sizes if s), default=None)
+
+    def close(self) -> None:
+        """Disconnect."""
+        self.update([])
+        self._closed = True
+        self._strand.items.clear()
+
+    # What links need of it -----------------------------------------------------------------
+
+    def request_header(self) -> dict[str, str]:
+        """What a publisher is told."""
+        kind = self.message_class
+        fields = {
+            "callerid": self.node.name,
+            "md5sum": kind._md5sum,  # noqa: SLF001  # genpy's names
+            "message_definition": kind._full_text,  # noqa: SLF001
+            "tcp_nodelay": str(int(self.tcp_nodelay)),
+            "topic": self.topic,
+            "type": kind._type,  # noqa: SLF001
+        }
+        return fields
+
+    def check_header(self, header: dict[str, str]) -> None:
+        """Judge what a publisher answered."""
+        kind = self.message_class
+        headers.check_publisher(header, self.topic, kind._md5sum, kind._type)  # noqa: SLF001
+
+    def connected(self, link: InboundLink) -> None:
+        """Nothing to do: messages will come."""
+
+    def disconnected(self, link: InboundLink) -> None:
+        """Nothing to do: the link comes back by itself."""
+
+    def receive(self, link: InboundLink, frames: list[bytes]) -> None:
+        """Queue whole messages for the callbacks."""
+        items = self._strand.items
+        size = 0
+        for data in frames:
+            size += len(data)
+        link.bytes += size
+        self._strand.post_all([(link, data, None) for data in frames])
+        limit = self.queue_size
+        if limit is None:
+            self._received += size
+            if self._received - self._handled > self.limits.receive_backlog_bytes:
+                self._pause()
+        elif limit:
+            while len(items) > limit:
+                link.dropped += self._drop_oldest()
+
+    def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:
+        """Queue a message of a publisher in this process; called by the publishing thread."""
+        if self._closed:
+            return
+        self._strand.post((link, data, message if data is None else None))
+        limit = self.queue_size or _LOCAL_BACKLOG
+        while len(self._strand.items) > limit:
+            self._drop_oldest()
+
+    def takes(self, message_class: Any) -> bool:
+        """True if objects of that class can be delivered as they are."""
+        return message_class is self.message_class
+
+    def _drop_oldest(self) -> int:
+        try:
+            self._strand.items.popleft()
+        except IndexError:
+            return 0
+        return 1
+
+    # Delivering, on a worker ---------------------------------------------------------------
+
+    def _deliver(self, item: tuple[Any, bytes | None, Any]) -> None:
+        link, data, message = item
+        if data is not None:
+            if isinstance(link, InboundLink) and self.queue_size is None:
+                self._handled += len(data)
+                if self._paused:
+                    self._loop.call_soon(self._resume)
+            if self._closed:
+                return
+            message = self.message_class()
+            message.deserialize(data)
+        if self._marks:
+            message._connection_header = link.header  # noqa: SLF001  # genpy's name
+        if self.hook is not None:
+            self.hook(link, message, len(data) if data is not None else 0)
+        for subscriber in self.subscribers:
+            try:
+                subscriber.callback(message)
+            except Exception as error:  # noqa: BLE001  # a callback must not end its thread
+                report(f"bad callback of {self.topic}", error)
+
+    def _pause(self) -> None:
+        self._paused = True
+        for link in self.links.values():
+            link.pause()
+        # The callbacks may have caught up before the flag was set.
+        self._resume()
+
+    def _resume(self) -> None:
+        if self._received - self._handled <= self.limits.receive_backlog_bytes // 2:
+            self._paused = False
+            for link in self.links.values():
+                link.resume()
+
+    @property
+    def num_connections(self) -> int:
+        """Publishers connected now."""
+        return sum(link.up for link in list(self.links.values())) + len(self.local)
+
+
+class Subscriber:
+    """What `Node.subscribe` returns: a callback that gets the messages of a topic.
+
+    Attributes:
+        name: The topic's resolved name.
+    """
+
+    def __init__(
+        self, subscription: Subscription, callback: Callback, queue_size: int | None
+    ) -> None:
+        self._subscription = subscription
+        self.name = subscription.topic
+        self.message_class = subscription.message_class
+        self.callback = callback
+        self.queue_size = queue_size
+        self._closed = False
+
+    @property
+    def num_connections(self) -> int:
+        """Publishers connected now."""
+        return self._subscription.num_connections
+
+    def close(self) -> None:
+        """Call back no more; the last subscriber of a topic in a node unregisters it."""
+        if not self._closed:
+            self._closed = True
+            self._subscription.node.unsubscribe(self._subscription, self)

@@ -1,0 +1,1 @@
+"""TCPROS (http://wiki.ros.org/ROS/TCPROS): connection headers, then length-prefixed messages."""

@@ -1,0 +1,103 @@
+"""Length-prefixed frames: written, and cut out of what a socket delivers."""
+
+from __future__ import annotations
+
+import socket
+import struct
+from io import BytesIO
+from typing import Any
+
+from gazelle.ros.errors import ProtocolError
+
+LENGTH = struct.Struct("<I")
+CHUNK = 65536
+BIG_CHUNK = 4 * 1024 * 1024
+_ROOM = b"\0\0\0\0"
+
+
+class ClosedError(ConnectionError):
+    """The peer closed the connection."""
+
+
+def frame(message: Any) -> bytes:
+    """A message serialised, with its length before it."""
+    buffer = BytesIO()
+    buffer.write(_ROOM)
+    message.serialize(buffer)
+    length = buffer.tell() - 4
+    buffer.seek(0)
+    buffer.write(LENGTH.pack(length))
+    return buffer.getvalue()
+
+
+class FrameReader:
+    """Cuts frames out of a stream.
+
+    Args:
+        limit: Longest frame, in bytes. A peer that announces a longer one is cut off before
+            anything of it is stored; shorter ones are stored only as they come.
+    """
+
+    __slots__ = ("_have", "_need", "_parts", "limit", "received")
+
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
+        self.received = 0
+        self._parts: list[bytes] = []
+        self._have = 0
+        self._need = 4
+
+    def read(self, sock: socket.socket) -> list[bytes]:
+        """Read what is there now and return the frames that are whole, without their lengths.
+
+        Raises:
+            ClosedError: The stream ended.
+            ProtocolError: A frame is longer than the limit.
+            OSError: The connection broke.
+        """
+        missing = self._need - self._have
+        try:
+            data = sock.recv(CHUNK if missing < CHUNK else min(missing, BIG_CHUNK))
+        except (BlockingIOError, InterruptedError):
+            return []
+        if not data:
+            raise ClosedError("the peer closed the connection")
+        self.received += len(data)
+        if self._parts:
+            self._parts.append(data)
+            self._have += len(data)
+            if self._have < self._need:
+                return []
+            data = b"".join(self._parts)
+            self._parts.clear()
+        return self.cut(data)
+
+    def cut(self, data: bytes) -> list[bytes]:
+        """The whole frames at the start of `data`; the rest is kept for later."""
+        frames: list[bytes] = []
+        position, end, limit = 0, len(data), self.limit
+        unpack = LENGTH.unpack_from
+        while end - position >= 4:
+            length: int = unpack(data, position)[0]
+            if length > limit:
+                raise ProtocolError(f"a message of {length} bytes exceeds the limit of {limit}")
+            start = position + 4
+            stop = start + length
+            if stop > end:
+                self._keep(data, position, stop - position)
+                return frames
+            frames.append(data[start:stop])
+            position = stop
+        self._keep(data, position, 4)
+        return frames
+
+    def rest(self) -> bytes:
+        """What was read beyond the frames returned."""
+        return b"".join(self._parts)
+
+    def _keep(self, data: bytes, position: int, need: int) -> None:
+        rest = data[position:] if position else data
+        self._have = len(rest)
+        self._need = need
+        if rest:
+            self._parts.append(rest)

@@ -1,0 +1,232 @@
+"""A subscriber's side of one connection: find the publisher, connect, read, and come back."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+from typing import Any, Protocol
+
+from gazelle.ros import net
+from gazelle.ros.errors import Md5MismatchError, ProtocolError, RosError, report
+from gazelle.ros.limits import Limits
+from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
+from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.frames import FrameReader
+from gazelle.ros.xmlrpc.client import AsyncClient
+
+_FIRST_RETRY_S = 0.1
+_LAST_RETRY_S = 8.0
+
+
+class Receiver(Protocol):
+    """What an inbound link needs of the subscription it belongs to."""
+
+    topic: str
+    limits: Limits
+
+    def request_header(self) -> dict[str, str]:
+        """The header to send to a publisher."""
+
+    def check_header(self, header: dict[str, str]) -> None:
+        """Raise RosError if the publisher's header does not fit."""
+
+    def receive(self, link: InboundLink, frames: list[bytes]) -> None:
+        """Take whole messages; may pause the link."""
+
+    def connected(self, link: InboundLink) -> None:
+        """The link can carry messages from now on."""
+
+    def disconnected(self, link: InboundLink) -> None:
+        """The link cannot carry messages for now."""
+
+
+class InboundLink:
+    """The connection to one publisher, kept up until it is closed. Only for the leader.
+
+    Args:
+        loop: Where it lives.
+        calls: For the question which port the publisher listens on.
+        receiver: Gets the messages.
+        caller: Name of the subscribing node.
+        uri: Of the publishing node.
+    """
+
+    def __init__(
+        self, loop: EventLoop, calls: AsyncClient, receiver: Receiver, caller: str, uri: str
+    ) -> None:
+        self.uri = uri
+        self.header: dict[str, str] = {}
+        self.peer = ""
+        self.endpoint: tuple[str, int] = ("", 0)
+        self.port = 0
+        self.closed = False
+        self.up = False
+        self.messages = 0
+        self.bytes = 0
+        self.dropped = 0
+        self.number = 0
+        """Identity in bus info."""
+        self._loop = loop
+        self._calls = calls
+        self._receiver = receiver
+        self._caller = caller
+        self._sock: socket.socket | None = None
+        self._reader = FrameReader(receiver.limits.header_bytes)
+        self._outgoing = b""
+        self._retry_s = _FIRST_RETRY_S
+        self._timer: Timer | None = None
+        self._paused = False
+        self._complained = ""
+
+    def open(self) -> None:
+        """Begin: ask the publisher where to connect to."""
+        if self.closed:
+            return
+        protocols = [["TCPROS"]]
+        params = (self._caller, self._receiver.topic, protocols)
+        self._calls.call(self.uri, "requestTopic", params, self._answered)
+
+    def close(self) -> None:
+        """End for good."""
+        self.closed = True
+        if self._timer is not None:
+            self._timer.cancel()
+        self._drop()
+
+    def pause(self) -> None:
+        """Read no more for now; the publisher will notice when the buffers are full."""
+        if not self._paused and self._sock is not None:
+            self._paused = True
+            self._loop.watch(self._sock, 0, self._ready)
+
+    def resume(self) -> None:
+        """Read again."""
+        if self._paused and self._sock is not None:
+            self._paused = False
+            self._loop.watch(self._sock, READ, self._ready)
+
+    def _answered(self, value: Any, error: RosError | None) -> None:
+        if self.closed or self._sock is not None:
+            return
+        if error is not None:
+            self._try_again(error)
+            return
+        try:
+            code, text, choice = value
+            if code != 1:
+                raise ProtocolError(f"{self.uri} refuses {self._receiver.topic}: {text}")
+            protocol, host, port = choice
+            if protocol != "TCPROS" or not 0 < int(port) < 65536:
+                raise ProtocolError(f"{self.uri} offers {choice!r}")
+            self.endpoint = (str(host), int(port))
+        except (TypeError, ValueError):
+            self._try_again(ProtocolError(f"requestTopic of {self.uri} answered {value!r}"))
+        except ProtocolError as refusal:
+            self._try_again(refusal)
+        else:
+            self._find()
+
+    def _find(self) -> None:
+        host = self.endpoint[0]
+        address = net.known_address(host)
+        if address is not None:
+            self._connect(address)
+            return
+
+        def look_up() -> None:
+            try:
+                found = net.find_address(host)
+            except OSError as error:
+                failure = ProtocolError(f"{self.uri} names a host that is not known: {error}")
+                self._loop.call_soon(lambda: self._try_again(failure))
+            else:
+                self._loop.call_soon(lambda: self._connect(found))
+
+        self._loop.submit(look_up)
+
+    def _connect(self, address: str) -> None:
+        if self.closed or self._sock is not None:
+            return
+        try:
+            sock = net.start_connect(address, self.endpoint[1])
+        except OSError as error:
+            self._try_again(ProtocolError(f"cannot connect to {self.endpoint}: {error}"))
+            return
+        net.keep_alive(sock)
+        self._sock = sock
+        self._paused = False
+        self._reader = FrameReader(self._receiver.limits.header_bytes)
+        self._outgoing = headers.encode(self._receiver.request_header())
+        self._timer = self._loop.call_later(self._receiver.limits.handshake_seconds, self._expire)
+        self._loop.watch(sock, READ | WRITE, self._ready)
+
+    def _ready(self, events: int) -> None:
+        sock = self._sock
+        if sock is None:
+            return
+        try:
+            if events & WRITE and self._outgoing:
+                self._write_header(sock)
+            if events & READ:
+                frames = self._reader.read(sock)
+                if not self.up:
+                    frames = self._greet(frames)
+                if frames:
+                    self.messages += len(frames)
+                    self._receiver.receive(self, frames)
+        except OSError as error:
+            self._try_again(ProtocolError(f"the connection to {self.uri} broke: {error}"))
+        except RosError as error:
+            self._try_again(error)
+
+    def _write_header(self, sock: socket.socket) -> None:
+        with contextlib.suppress(BlockingIOError):
+            sent = sock.send(self._outgoing)
+            self._outgoing = self._outgoing[sent:]
+        if not self._outgoing:
+            self._loop.watch(sock, READ, self._ready)
+
+    def _greet(self, frames: list[bytes]) -> list[bytes]:
+        """The first frame is the publisher's header."""
+        if not frames:
+            return frames
+        header = headers.decode(frames[0])
+        self._receiver.check_header(header)
+        self.header = header
+        self.peer = header.get("callerid", self.uri)
+        self.up = True
+        if self._sock is not None:
+            self.port = self._sock.getsockname()[1]
+        self._reader.limit = self._receiver.limits.message_bytes
+        self._retry_s = _FIRST_RETRY_S
+        self._complained = ""
+        if self._timer is not None:
+            self._timer.cancel()
+        self._receiver.connected(self)
+        # What was cut under the header's limit is complete, so within the message's too.
+        return frames[1:]
+
+    def _expire(self) -> None:
+        self._try_again(ProtocolError(f"{self.uri} does not answer the connection header"))
+
+    def _try_again(self, error: RosError) -> None:
+        """Give up this connection, and try another one later."""
+        if self.closed:
+            return
+        self._drop()
+        if isinstance(error, Md5MismatchError) and error.message != self._complained:
+            self._complained = error.message
+            report(f"subscriber of {self._receiver.topic}", error)
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = self._loop.call_later(self._retry_s, self.open)
+        self._retry_s = min(_LAST_RETRY_S, self._retry_s * 2)
+
+    def _drop(self) -> None:
+        if self._sock is not None:
+            self._loop.watch(self._sock, 0, self._ready)
+            self._sock.close()
+            self._sock = None
+        if self.up:
+            self.up = False
+            self._receiver.disconnected(self)

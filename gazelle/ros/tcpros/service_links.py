@@ -1,0 +1,250 @@
+"""The two sides of a service connection."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import time
+from collections.abc import Callable
+
+from gazelle.ros import net
+from gazelle.ros.errors import (
+    ProtocolError,
+    RosTimeoutError,
+    ServiceError,
+    ServiceFailedError,
+)
+from gazelle.ros.limits import Limits
+from gazelle.ros.loop import READ, EventLoop, Strand
+from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.frames import LENGTH, FrameReader
+from gazelle.ros.tcpros.outbound import wait_writable
+
+_MOST_WAITING = 1000
+_SEND_PATIENCE_S = 30.0
+
+Answer = Callable[[bytes, dict[str, str]], bytes]
+"""From a request and the client's header to the whole answer; runs on a worker."""
+
+
+class ServiceConnection:
+    """The server's side: requests in, answers out, in order.
+
+    Args:
+        loop: Where it lives.
+        sock: Connected, header exchanged, non-blocking.
+        fields: The client's header; without ``persistent`` one call ends the connection.
+        answer: Does the work.
+        on_close: Called on the leader when the connection is gone.
+    """
+
+    def __init__(
+        self,
+        loop: EventLoop,
+        sock: socket.socket,
+        fields: dict[str, str],
+        answer: Answer,
+        limits: Limits,
+        on_close: Callable[[ServiceConnection], None],
+    ) -> None:
+        self._loop = loop
+        self._sock = sock
+        self.fields = fields
+        self.peer = fields.get("callerid", "")
+        self._answer = answer
+        self._on_close = on_close
+        self._persistent = headers.flag(fields, "persistent")
+        self._reader = FrameReader(limits.message_bytes)
+        self._strand = Strand(loop, self._work, f"service call of {self.peer}")
+        self._closed = False
+        self._working = False
+
+    def start(self, reply: bytes, rest: bytes) -> None:
+        """Send the header and take requests. Only for the leader."""
+        with contextlib.suppress(OSError):
+            self._sock.send(reply)
+        self._loop.watch(self._sock, READ, self._ready)
+        if rest:
+            self._take(self._reader.cut(rest))
+
+    def close(self) -> None:
+        """Close the connection. Only for the leader."""
+        if self._closed:
+            return
+        self._closed = True
+        self._loop.watch(self._sock, 0, self._ready)
+        self._on_close(self)
+        if not self._working:
+            self._sock.close()
+        else:  # the worker closes it; end its waiting
+            with contextlib.suppress(OSError):
+                self._sock.shutdown(socket.SHUT_RDWR)
+
+    def _ready(self, _events: int) -> None:
+        try:
+            self._take(self._reader.read(self._sock))
+        except (OSError, ProtocolError):
+            self.close()
+
+    def _take(self, requests: list[bytes]) -> None:
+        if not requests:
+            return
+        if not self._persistent:
+            # One call is all there is; what else comes is not read.
+            self._loop.watch(self._sock, 0, self._ready)
+            requests = requests[:1]
+        elif len(self._strand.items) > _MOST_WAITING:
+            self.close()
+            return
+        self._strand.post_all(requests)
+
+    def _work(self, request: bytes) -> None:
+        self._working = True
+        try:
+            if not self._closed:
+                self._send(self._answer(request, self.fields))
+        finally:
+            self._working = False
+            if self._closed:
+                self._sock.close()
+            elif not self._persistent:
+                self._loop.call_soon(self.close)
+
+    def _send(self, data: bytes) -> None:
+        rest = memoryview(data)
+        deadline = time.monotonic() + _SEND_PATIENCE_S
+        try:
+            while rest and not self._closed:
+                try:
+                    rest = rest[self._sock.send(rest) :]
+                except (BlockingIOError, InterruptedError):
+                    if time.monotonic() > deadline:
+                        raise ConnectionError("the client does not take its answer") from None
+                    wait_writable(self._sock, 0.5)
+        except OSError:
+            self._loop.call_soon(self.close)
+
+
+def good_answer(body: bytes) -> bytes:
+    """A response as it goes over the wire."""
+    return b"\x01" + LENGTH.pack(len(body)) + body
+
+
+def bad_answer(text: str) -> bytes:
+    """A failure as it goes over the wire."""
+    body = text.encode(errors="replace")
+    return b"\x00" + LENGTH.pack(len(body)) + body
+
+
+class ServiceChannel:
+    """The client's side: a blocking connection to a service.
+
+    Raises:
+        ServiceError: No connection, or the server refuses; the text says why.
+        RosTimeoutError: It took too long.
+    """
+
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        fields: dict[str, str],
+        limits: Limits,
+        deadline: float | None,
+    ) -> None:
+        self._limits = limits
+        self._sock = self._connect(host, port, deadline)
+        try:
+            self.header = self._greet(fields, deadline)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._sock.close()
+
+    def is_stale(self) -> bool:
+        """True if the server closed the connection, or says what nobody asked for."""
+        self._sock.settimeout(0.0)
+        try:
+            self._sock.recv(1, socket.MSG_PEEK)
+        except (BlockingIOError, InterruptedError):
+            return False
+        except OSError:
+            return True
+        return True
+
+    def call(self, request: bytes, deadline: float | None) -> bytes:
+        """Send a framed request, return the body of the response.
+
+        Raises:
+            ServiceFailedError: The server says it failed.
+            ServiceError: The connection broke, or carries nonsense.
+            RosTimeoutError: No answer in time.
+        """
+        try:
+            self._allow(deadline)
+            self._sock.sendall(request)
+            head = self._read(5, deadline)
+            (length,) = LENGTH.unpack_from(head, 1)
+            if length > self._limits.message_bytes:
+                raise ServiceError(f"a response of {length} bytes exceeds the limit")
+            body = self._read(length, deadline) if length else b""
+        except TimeoutError:
+            raise RosTimeoutError("the service does not answer in time") from None
+        except OSError as error:
+            raise ServiceError(f"transport error completing service call: {error}") from None
+        if head[0] != 1:
+            raise ServiceFailedError(body.decode(errors="replace"))
+        return body
+
+    @staticmethod
+    def _connect(host: str, port: int, deadline: float | None) -> socket.socket:
+        timeout = None if deadline is None else max(0.001, deadline - time.monotonic())
+        try:
+            sock = net.connect(host, port, timeout)
+        except TimeoutError:
+            raise RosTimeoutError("the service does not take the connection in time") from None
+        except OSError as error:
+            raise ServiceError(f"unable to connect to service: {error}") from None
+        net.ignore_delay(sock)
+        return sock
+
+    def _greet(self, fields: dict[str, str], deadline: float | None) -> dict[str, str]:
+        try:
+            self._allow(deadline)
+            self._sock.sendall(headers.encode(fields))
+            (length,) = LENGTH.unpack(self._read(4, deadline))
+            if length > self._limits.header_bytes:
+                raise ServiceError("unable to connect to service: its header is too long")
+            reply = headers.decode(self._read(length, deadline))
+        except TimeoutError:
+            raise RosTimeoutError("the service does not answer in time") from None
+        except (OSError, ProtocolError) as error:
+            raise ServiceError(f"unable to connect to service: {error}") from None
+        if "error" in reply:
+            raise ServiceError(f"unable to connect to service: {reply['error']}")
+        return reply
+
+    def _allow(self, deadline: float | None) -> None:
+        if deadline is None:
+            self._sock.settimeout(None)
+            return
+        left = deadline - time.monotonic()
+        if left <= 0:
+            raise TimeoutError
+        self._sock.settimeout(left)
+
+    def _read(self, size: int, deadline: float | None) -> bytes:
+        data = self._sock.recv(size)
+        if len(data) == size:
+            return data
+        parts, have = [data], len(data)
+        while have < size:
+            if not parts[-1]:
+                raise ConnectionResetError("the server closed the connection")
+            self._allow(deadline)
+            parts.append(self._sock.recv(min(size - have, 1 << 22)))
+            have += len(parts[-1])
+        return b"".join(parts)

@@ -1,0 +1,1 @@
+"""XML-RPC (http://xmlrpc.com/spec.md) on the event loop, strict and with limits."""
