@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,8 +11,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gazelle.description import Inertial, Model, Pose, World
+from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
+from gazelle.engines.mujoco.contacts import Solid, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.options import set_options
@@ -103,10 +105,13 @@ def compile_world(recipe: Recipe) -> Compiled:
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
+    springs = add_pairs(spec, builder.solids, recipe.time_step)
     try:
-        return Compiled(spec.compile(), bodies, builder.geoms)
+        compiled = spec.compile()
     except ValueError as error:
         raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
+    tune_springs(compiled, springs)
+    return Compiled(compiled, bodies, builder.geoms)
 
 
 class _Builder:
@@ -120,6 +125,11 @@ class _Builder:
         self._bodies = bodies
         self._shapes = ShapeBuilder(spec)
         self.geoms: dict[str, list[str]] = {}
+        self._masses = {
+            name: sum((part.link.inertial or Inertial()).mass for part in parts)
+            for name, parts in bodies.items()
+        }
+        self.solids: list[Solid] = []
         self._ranks = friction_ranks(
             collision
             for parts in bodies.values()
@@ -163,6 +173,14 @@ class _Builder:
             for shape in self._shapes.options(collision.geometry, placed, collision.source):
                 names.append(f"{body.name}::{collision.name}#{len(names)}")
                 handle.add_geom(name=names[-1], group=COLLISION_GROUP, mass=0.0, **surface, **shape)
+                self.solids.append(self._solid(names[-1], body, collision))
+
+    def _solid(self, name: str, body: Body, collision: Collision) -> Solid:
+        model = body.name.partition("::")[0]
+        moves = body.root not in ("static", "kinematic")
+        where = body.name if body.root != "static" else ""
+        mass = self._masses[model] if moves else math.inf
+        return Solid(name, where, model, mass, body.self_collide, collision)
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""

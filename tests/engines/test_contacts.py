@@ -1,0 +1,124 @@
+"""Bouncing and springy contacts against closed-form mechanics."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import (
+    Bounce,
+    Box,
+    Collision,
+    Contact,
+    Friction,
+    Link,
+    Model,
+    Pose,
+    Surface,
+)
+from gazelle.engines import make_engine
+from gazelle.engines.mujoco.contacts import damping_ratio_for
+
+G = 9.8
+
+
+def with_surface(model, surface):
+    link = model.links[0]
+    collisions = tuple(dataclasses.replace(c, surface=surface) for c in link.collisions)
+    return dataclasses.replace(model, links=(dataclasses.replace(link, collisions=collisions),))
+
+
+def bouncy(e, threshold=0.01):
+    return Surface(bounce=Bounce(e, threshold))
+
+
+def drop(e_ball, e_ground, height=1.0, step=0.001, threshold=0.01):
+    """Height of the bottom of a ball at the top of its first bounce."""
+    ball = with_surface(
+        scenes.ball(radius=0.1, pose=Pose(z=0.1 + height)), bouncy(e_ball, threshold)
+    )
+    floor = with_surface(scenes.ground(), bouncy(e_ground, threshold))
+    engine = make_engine("mujoco", scenes.world(floor, ball, step=step))
+    heights = []
+    for _ in range(round(1.6 / step)):
+        engine.step()
+        heights.append(engine.model_placement("ball").position[0, 2] - 0.1)
+    low = int(np.argmin(heights[: round(0.7 / step)]))
+    return max(heights[low:])
+
+
+@pytest.mark.parametrize(
+    ("e", "mean", "worst"), [(0.5, 0.02, 0.1), (0.8, 0.01, 0.03), (0.95, 0.01, 0.03)]
+)
+def test_a_ball_bounces_to_e_squared_of_its_height(e, mean, worst):
+    """Where in a step the contact begins scatters single bounces, the less the livelier."""
+    heights = np.linspace(0.35, 1.45, 7)
+    errors = np.array([drop(e, e, height) / (e * e * height) - 1.0 for height in heights])
+    assert abs(errors.mean()) < mean
+    assert np.abs(errors).max() < worst
+
+
+def test_the_smaller_coefficient_counts():
+    assert drop(0.9, 0.5) == pytest.approx(0.25, rel=0.1)
+    assert drop(0.9, 0.0) < 0.01
+
+
+def test_a_threshold_above_all_speeds_means_no_bounce_as_in_most_files():
+    assert drop(0.9, 0.9, threshold=100000.0) < 0.01
+
+
+def test_the_damping_ratio_is_monotonic():
+    ratios = [damping_ratio_for(e, 0.001) for e in (1.0, 0.9, 0.5, 0.2, 0.05)]
+    assert ratios[0] == 0.0
+    assert ratios == sorted(ratios)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.1, 0.6, 1.0])
+@pytest.mark.parametrize(("kp", "mass"), [(1000.0, 1.0), (5000.0, 10.0), (300.0, 2.0)])
+def test_a_body_sinks_m_g_over_kp_into_a_spring(kp, mass, mu):
+    soft = Surface(Friction(mu, mu), Contact(kp=kp, kd=2.0 * math.sqrt(kp * mass)))
+    ball = with_surface(scenes.ball(radius=0.3, mass=mass, pose=Pose(z=0.3)), soft)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(mu=10.0), ball))
+    engine.step(6000)
+    depth = 0.3 - engine.model_placement("ball").position[0, 2]
+    assert depth == pytest.approx(mass * G / kp, rel=0.05)
+
+
+def test_a_springy_body_swings_at_its_frequency():
+    kp, mass = 2000.0, 1.0
+    soft = Surface(Friction(0.0, 0.0), Contact(kp=kp, kd=1.0))
+    start = 0.3 - 1.6 * mass * G / kp
+    ball = with_surface(scenes.ball(radius=0.3, mass=mass, pose=Pose(z=start)), soft)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
+    heights = []
+    for _ in range(1500):
+        engine.step()
+        heights.append(engine.model_placement("ball").position[0, 2])
+    level = 0.3 - mass * G / kp
+    ups = [i for i in range(1, 1500) if heights[i - 1] < level <= heights[i]]
+    period = (ups[5] - ups[0]) / 5 * 0.001
+    assert period == pytest.approx(2 * math.pi * math.sqrt(mass / kp), rel=0.05)
+
+
+def test_stiffness_of_files_like_turtlebot3_is_as_good_as_rigid():
+    stiff = Surface(Friction(0.1, 0.1), Contact(kp=500000.0, kd=10.0))
+    ball = with_surface(scenes.ball(pose=Pose(z=0.1)), stiff)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), ball, step=0.01))
+    engine.step(500)
+    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+
+
+def test_bitmasks_decide_who_touches():
+    def stack(mask):
+        upper = Surface(contact=Contact(collide_bitmask=mask), bounce=Bounce(0.5, 0.01))
+        lower = Surface(contact=Contact(collide_bitmask=0x01), bounce=Bounce(0.5, 0.01))
+        slab = Link("l", collisions=(Collision("c", Box((1, 1, 0.2)), surface=lower),))
+        box = with_surface(scenes.box(pose=Pose(z=0.25)), upper)
+        engine = make_engine("mujoco", scenes.world(Model("slab", static=True, links=(slab,)), box))
+        engine.step(1500)
+        return engine.model_placement("box").position[0, 2]
+
+    assert stack(0x03) == pytest.approx(0.2, abs=5e-3)
+    assert stack(0x02) < -1.0
