@@ -88,7 +88,10 @@ def octets(value: Any, count: int | None) -> bytes | bytearray | memoryview:
         raise TypeError(f"an array of bytes is needed, not of items of {data.itemsize} bytes")
     if count is not None and data.nbytes != count:
         raise TypeError(f"expecting {count} bytes, but found {data.nbytes}")
-    return data.cast("B") if data.c_contiguous and data.nbytes else data.tobytes()
+    # A struct takes no memoryview, and an empty one cannot be cast.
+    if count is not None or not data.c_contiguous or not data.nbytes:
+        return data.tobytes()
+    return data.cast("B")
 
 
 def numbers(value: Any, base: str, count: int | None) -> bytes:

@@ -169,11 +169,16 @@ def _equal(mine: Any, theirs: Any) -> bool:
     kinds = type(mine), type(theirs)
     if kinds[0] in _SEQUENCES and kinds[1] in _SEQUENCES:
         return tuple(mine) == tuple(theirs)
-    same = mine == theirs
-    if isinstance(same, bool):
-        return same
-    # A numpy array compares element by element, and not at all where lengths differ.
-    return len(mine) == len(theirs) and all(same)
+    if getattr(mine, "ndim", 0) or getattr(theirs, "ndim", 0):
+        return _listed(mine) == _listed(theirs)
+    return bool(mine == theirs)
+
+
+def _listed(value: Any) -> Any:
+    """A numpy array, or what it is compared with, as a list."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return list(value) if isinstance(value, (list, tuple, bytes, bytearray)) else value
 
 
 _SEQUENCES = frozenset({list, tuple})

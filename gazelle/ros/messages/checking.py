@@ -49,7 +49,8 @@ _SIMPLE: dict[str, tuple[Callable[[Any], bool], str]] = {
     "float32": (_is_float, "must be float type"),
     "float64": (_is_float, "must be float type"),
     "bool": (_is_bool, "is not a bool"),
-    "string": (lambda value: isinstance(value, str), "must be of type str"),
+    # Bytes are left to the error of the encoder, as in genpy.
+    "string": (lambda value: isinstance(value, (str, bytes)), "must be of type str"),
     "time": (lambda value: isinstance(value, Time), "must be of type Time"),
     "duration": (lambda value: isinstance(value, Duration), "must be of type Duration"),
 }

@@ -188,6 +188,9 @@ def write_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]
         encoder.flush()
     with code.block("except _struct_errors as err:"):
         code.line("self._check_types(err)")
+    with code.block("except AttributeError:"):
+        code.line("self._check_types()")
+        code.line("raise")
     source = code.source("def serialize(self, buff):")
     if source.count(" w(") != 1 or " for " in source:
         return source
