@@ -1,0 +1,33 @@
+"""What goes wrong when a world is made by code."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.errors import Error
+
+
+class BuildError(Error):
+    """A world or robot cannot be built as asked, and why."""
+
+
+def positive(value: float, what: str) -> float:
+    """The value, if it is a finite number above zero.
+
+    Raises:
+        BuildError: It is not.
+    """
+    if not (value > 0.0 and math.isfinite(value)):
+        raise BuildError(f"{what} must be a finite number above zero, found {value:g}")
+    return float(value)
+
+
+def finite(values: tuple[float, ...], what: str) -> None:
+    """Check that all values are finite.
+
+    Raises:
+        BuildError: One is not.
+    """
+    if not all(map(math.isfinite, values)):
+        shown = ", ".join(f"{value:g}" for value in values)
+        raise BuildError(f"{what} must be finite, found {shown}")
