@@ -102,6 +102,7 @@ def gazelle_stepper(rays: int, worlds: int) -> Callable[[], None]:
 
 def irsim_stepper(rays: int) -> Callable[[], None] | None:
     """One step of the same robot, room and beams in IR-SIM; None when it is not installed."""
+    os.environ.setdefault("MPLBACKEND", "Agg")
     try:
         import irsim
     except ImportError:

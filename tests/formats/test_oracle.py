@@ -6,6 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from missing import skip_or_fail
 
 from gazelle import Error, formats
 from gazelle.formats import xacro
@@ -13,13 +14,7 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.urdf.lump import tensor
 
-pytestmark = [
-    pytest.mark.corpus,
-    pytest.mark.skipif(
-        shutil.which("ign") is None,
-        reason="libsdformat's `ign sdf` is not installed (Debian: libsdformat-dev ignition-tools)",
-    ),
-]
+pytestmark = pytest.mark.corpus
 
 ROBOTS = "ROBOTIS-GIT__turtlebot3/turtlebot3_description/urdf"
 MODELS = "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models"
@@ -49,6 +44,12 @@ FILES = [
     "elysia-best__gazebo-classic/worlds/joints.world",
     "elysia-best__gazebo-classic/worlds/friction_demo.world",
 ]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _tool():
+    if shutil.which("ign") is None:
+        skip_or_fail("`ign sdf` is not installed (Debian: libsdformat-dev ignition-tools)")
 
 
 def oracle(path):
