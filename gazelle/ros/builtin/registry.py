@@ -1,0 +1,139 @@
+"""What packages and nodes are built in, and where others add theirs.
+
+A distribution adds a package with an entry point of the group ``gazelle.ros.nodes``: its name is the
+package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+
+from gazelle.errors import RosError
+
+GROUP = "gazelle.ros.nodes"
+
+Main = Callable[[Sequence[str]], int]
+"""Runs a node until it ends: takes its command line without the program, returns an exit code."""
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltinPackage:
+    """A ROS package that Gazelle stands in for where it is not installed."""
+
+    name: str
+    nodes: Mapping[str, str] = field(default_factory=dict)
+    """From the type of a node to ``module:function``, a `Main`."""
+    folder: Path | None = None
+    """What ``$(find PACKAGE)`` gives, if it has files."""
+    skipped: str | None = None
+    """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
+    preferred: frozenset[str] = frozenset()
+    """Node types run from here even where the installed package has a program for them."""
+
+
+_SHARE = Path(__file__).parent / "share"
+_NO_SCREEN = "it is a window for people"
+
+_OWN = {
+    package.name: package
+    for package in (
+        BuiltinPackage(
+            "map_server",
+            {
+                "map_server": "gazelle.ros.builtin.map_server:main",
+                "map_saver": "gazelle.ros.builtin.map_saver:main",
+            },
+        ),
+        BuiltinPackage("rosbag", {
+            "record": "gazelle.ros.builtin.bags:record",
+            "play": "gazelle.ros.builtin.bags:play",
+        }),
+        BuiltinPackage("rostopic", {"rostopic": "gazelle.ros.builtin.commands:topic"}),
+        BuiltinPackage("rosservice", {"rosservice": "gazelle.ros.builtin.commands:service"}),
+        BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),
+        BuiltinPackage("tf", {
+            "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf",
+        }),
+        BuiltinPackage("tf2_ros", {
+            "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf2",
+        }),
+        BuiltinPackage("topic_tools", {
+            "relay": "gazelle.ros.builtin.topic_tools:relay",
+            "throttle": "gazelle.ros.builtin.topic_tools:throttle",
+            "drop": "gazelle.ros.builtin.topic_tools:drop",
+            "mux": "gazelle.ros.builtin.topic_tools:mux",
+        }),
+        BuiltinPackage("xacro", {
+            "xacro": "gazelle.ros.builtin.xacro:main",
+            "xacro.py": "gazelle.ros.builtin.xacro:main",
+        }, folder=_SHARE / "xacro"),
+        BuiltinPackage("rviz", skipped=_NO_SCREEN),
+    )
+}  # fmt: skip
+_WINDOWS = ("rqt", "rviz")
+
+_registered: dict[str, BuiltinPackage] = {}
+
+
+def register(package: BuiltinPackage) -> None:
+    """Add a package for this process, in place of one of the same name."""
+    _registered[package.name] = package
+
+
+def packages() -> list[str]:
+    """Names of all built-in packages."""
+    return sorted({*_OWN, *_registered, *_entry_points()})
+
+
+def package(name: str) -> BuiltinPackage | None:
+    """The built-in package of a name, or None.
+
+    Raises:
+        RosError: An entry point of that name does not lead to a package.
+    """
+    if name in _registered:
+        return _registered[name]
+    point = _entry_points().get(name)
+    if point is not None:
+        return _load(point)
+    if name in _OWN:
+        return _OWN[name]
+    if name.startswith(_WINDOWS):
+        return BuiltinPackage(name, skipped=_NO_SCREEN)
+    return None
+
+
+def main_of(name: str, kind: str) -> Main:
+    """The function that runs a built-in node.
+
+    Raises:
+        RosError: There is no such node.
+    """
+    found = package(name)
+    target = found.nodes.get(kind) if found is not None else None
+    if target is None:
+        raise RosError(f"no built-in package '{name}' has a node '{kind}'")
+    module, _, function = target.partition(":")
+    main: Main = getattr(importlib.import_module(module), function)
+    return main
+
+
+@functools.cache
+def _entry_points() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=GROUP)}
+
+
+@functools.cache
+def _load(point: EntryPoint) -> BuiltinPackage:
+    try:
+        found = point.load()
+    except Exception as error:
+        raise RosError(f"the built-in package '{point.name}' cannot be loaded: {error}") from error
+    if not isinstance(found, BuiltinPackage):
+        raise RosError(f"the entry point '{point.name}' of {GROUP} is no BuiltinPackage")
+    return found

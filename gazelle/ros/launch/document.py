@@ -1,0 +1,127 @@
+"""XML of launch files as elements that know their lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.parsers import expat
+
+from gazelle.ros.launch.errors import LaunchError
+
+_DEEPEST = 200
+
+
+@dataclass(slots=True)
+class Element:
+    """One element of a launch file."""
+
+    tag: str
+    attributes: dict[str, str]
+    file: str
+    line: int
+    children: list[Element] = field(default_factory=list)
+    text: str = ""
+    """Its own character data, without that of its children."""
+
+    @property
+    def label(self) -> str:
+        """The element as errors name it, such as ``node[@name='talker']``."""
+        for key in ("name", "file", "from", "param", "ns"):
+            if key in self.attributes:
+                return f"{self.tag}[@{key}='{self.attributes[key]}']"
+        return self.tag
+
+    def all(self, tag: str) -> Iterator[Element]:
+        """This element and those below it that have a tag, from top to bottom."""
+        if self.tag == tag:
+            yield self
+        for child in self.children:
+            yield from child.all(tag)
+
+    def error(self, message: str, hint: str | None = None) -> LaunchError:
+        """An error that names this element."""
+        return LaunchError(message, file=self.file, line=self.line, element=self.label, hint=hint)
+
+
+def read_document(path: str) -> Element:
+    """The ``<launch>`` element of a file.
+
+    Raises:
+        LaunchError: There is no such file, it is not XML, or it has not exactly one ``<launch>``.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except FileNotFoundError:
+        raise LaunchError("there is no such launch file", file=path) from None
+    except IsADirectoryError:
+        raise LaunchError("this is a folder, not a launch file", file=path) from None
+    return parse_document(data, path)
+
+
+def parse_document(data: bytes, name: str) -> Element:
+    """The ``<launch>`` element of XML; ``name`` stands for the file in errors.
+
+    Raises:
+        LaunchError: It is not XML, or has not exactly one ``<launch>``.
+    """
+    root = _Builder(name).parse(data)
+    found = list(root.all("launch"))
+    if not found:
+        raise LaunchError(
+            "a launch file has a <launch> element", file=name, line=root.line, element=root.tag
+        )
+    if len(found) > 1:
+        raise LaunchError("there is more than one <launch> element", file=name, line=found[1].line)
+    return found[0]
+
+
+class _Builder:
+    """Makes elements of what expat reports."""
+
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._root: Element | None = None
+        self._open: list[Element] = []
+        self._parser = expat.ParserCreate()
+        self._parser.buffer_text = True
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.CharacterDataHandler = self._data
+        self._parser.EntityDeclHandler = self._entity
+
+    def parse(self, data: bytes) -> Element:
+        try:
+            self._parser.Parse(data, True)
+        except expat.ExpatError as error:
+            text = expat.ErrorString(error.code)
+            raise LaunchError(
+                f"this is not well-formed XML: {text}", file=self._file, line=error.lineno
+            ) from None
+        if self._root is None:
+            raise LaunchError("there is no element in it", file=self._file)
+        return self._root
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, self._file, self._parser.CurrentLineNumber)
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self._root = element
+        self._open.append(element)
+        if len(self._open) > _DEEPEST:
+            raise element.error(f"elements are nested more than {_DEEPEST} deep")
+
+    def _end(self, _tag: str) -> None:
+        self._open.pop()
+
+    def _data(self, text: str) -> None:
+        if self._open:
+            self._open[-1].text += text
+
+    def _entity(self, name: str, *_rest: object) -> None:
+        raise LaunchError(
+            f"the file declares the entity '{name}'; entities are not read",
+            file=self._file,
+            line=self._parser.CurrentLineNumber,
+        )

@@ -1,0 +1,48 @@
+"""What can be wrong with a launch file."""
+
+from __future__ import annotations
+
+from gazelle.errors import RosError
+
+
+class LaunchError(RosError):
+    """A launch file is malformed, or asks for something that cannot be."""
+
+
+class SubstitutionError(LaunchError):
+    """A ``$(...)`` in a launch file cannot be replaced by a value."""
+
+
+class MissingPackageError(SubstitutionError):
+    """A package is neither on ROS_PACKAGE_PATH nor built in.
+
+    Attributes:
+        package: Its name.
+    """
+
+    def __init__(self, message: str, *, package: str, hint: str | None = None) -> None:
+        super().__init__(message, hint=hint)
+        self.package = package
+
+
+class MissingArgumentError(SubstitutionError):
+    """An argument has no value.
+
+    Attributes:
+        argument: Its name.
+    """
+
+    def __init__(self, message: str, *, argument: str, hint: str | None = None) -> None:
+        super().__init__(message, hint=hint)
+        self.argument = argument
+
+
+def place_error(error: LaunchError, file: str, line: int, element: str) -> None:
+    """Say where an error was found; one that knows its place keeps it."""
+    if error.file is not None:
+        return
+    error.file, error.line, error.element = file, line, element
+    from gazelle.errors import describe
+
+    text = describe(error.message, file=file, line=line, element=element, hint=error.hint)
+    error.args = (text,)

@@ -1,0 +1,157 @@
+"""Text of launch files as values: numbers, booleans, YAML."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from gazelle.ros.launch.errors import LaunchError
+
+_TRUE, _FALSE = {"true", "1"}, {"false", "0"}
+KINDS = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
+_ANGLE = re.compile(r"(deg|rad)\(([^()]*)\)")
+_PLAIN_NUMBER = re.compile(r"[-+*/ .0-9eEpi]+")
+
+
+def convert(text: str, kind: str) -> Any:
+    """Text as a value of a kind (`KINDS`).
+
+    Raises:
+        LaunchError: The kind is unknown, or the text is no such value.
+    """
+    try:
+        return _convert(text, kind)
+    except ValueError:
+        raise LaunchError(f"'{text}' is no {kind}") from None
+
+
+def _convert(text: str, kind: str) -> Any:
+    if kind == "auto":
+        return automatic(text)
+    if kind in {"str", "string"}:
+        return text
+    if kind == "int":
+        return int(text)
+    if kind == "double":
+        return float(text)
+    if kind in {"bool", "boolean"}:
+        return truth(text)
+    if kind == "yaml":
+        return load_yaml(text)
+    raise LaunchError(f"'{kind}' is no type", hint="types are: " + ", ".join(KINDS))
+
+
+def automatic(text: str) -> Any:
+    """Text as the number or boolean it looks like, else as it is."""
+    try:
+        if "." in text:
+            return float(text)
+        if "_" not in text:
+            return int(text)
+    except ValueError:
+        pass
+    lower = text.lower()
+    return lower == "true" if lower in {"true", "false"} else text
+
+
+def truth(text: str) -> bool:
+    """``true``, ``1``, ``false`` or ``0`` as a boolean.
+
+    Raises:
+        LaunchError: It is none of them.
+    """
+    lower = text.strip().lower()
+    if lower in _TRUE:
+        return True
+    if lower in _FALSE:
+        return False
+    raise LaunchError(f"'{text}' is neither true (1) nor false (0)")
+
+
+def load_yaml(text: str) -> Any:
+    """YAML with rosparam's extras: ``!degrees 90``, ``!radians pi/2``, ``deg(90)``, ``rad(pi/2)``.
+
+    All angles come out in radians (http://wiki.ros.org/rosparam#YAML_Format).
+
+    Raises:
+        LaunchError: It is not YAML.
+    """
+    import yaml
+
+    try:
+        return yaml.load(text, _loader())  # noqa: S506  # a safe loader, with angles
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f" in line {mark.line + 1}" if mark is not None else ""
+        problem = getattr(error, "problem", None) or str(error)
+        raise LaunchError(f"this is no YAML{line}: {problem}") from None
+    except RecursionError:
+        raise LaunchError("this YAML is nested too deep") from None
+
+
+def load_yaml_documents(text: str) -> list[Any]:
+    """All documents of YAML text, as `load_yaml` reads one.
+
+    Raises:
+        LaunchError: It is not YAML.
+    """
+    import yaml
+
+    try:
+        return list(yaml.load_all(text, _loader()))  # a safe loader, with angles
+    except yaml.YAMLError as error:
+        raise LaunchError(f"this is no YAML: {error}") from None
+
+
+_loaders: list[Any] = []
+
+
+def _loader() -> Any:
+    """The YAML loader, made once and when it is needed."""
+    if _loaders:
+        return _loaders[0]
+    import yaml
+
+    base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+    class Loader(base):  # type: ignore[misc]  # the base is chosen above
+        """Safe YAML with angles."""
+
+    def degrees(loader: Any, node: Any) -> float:
+        return math.radians(angle(loader.construct_scalar(node), "deg"))
+
+    def radians(loader: Any, node: Any) -> float:
+        return angle(loader.construct_scalar(node), "rad")
+
+    def written(loader: Any, node: Any) -> float:
+        text = loader.construct_scalar(node)
+        value = angle(text, text[:3])
+        return math.radians(value) if text.startswith("deg") else value
+
+    Loader.add_constructor("!degrees", degrees)
+    Loader.add_constructor("!radians", radians)
+    Loader.add_constructor("!angle", written)
+    Loader.add_implicit_resolver("!angle", re.compile(r"^(deg|rad)\([^()]*\)$"), list("dr"))
+    _loaders.append(Loader)
+    return Loader
+
+
+def angle(text: str, unit: str) -> float:
+    """A number, or a product of numbers and ``pi``, with or without ``deg(...)`` around it.
+
+    Raises:
+        LaunchError: It is something else.
+    """
+    match = _ANGLE.fullmatch(text.strip())
+    inner = match.group(2) if match else text
+    try:
+        return float(inner)
+    except ValueError:
+        pass
+    if not _PLAIN_NUMBER.fullmatch(inner) or "**" in inner:
+        raise LaunchError(f"'{text}' is no number ({unit})")
+    try:
+        return float(eval(inner, {"__builtins__": {}}, {"pi": math.pi}))  # noqa: S307  # digits and pi only
+    except Exception:  # noqa: BLE001  # whatever an expression may raise
+        raise LaunchError(f"'{text}' is no number ({unit})") from None
