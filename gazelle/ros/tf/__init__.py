@@ -1,0 +1,22 @@
+"""Coordinate frames over time: what tf2 does, without its server."""
+
+from gazelle.ros.tf.core import FrameTree, Transform
+from gazelle.ros.tf.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+__all__ = [
+    "ConnectivityException",
+    "ExtrapolationException",
+    "FrameTree",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "Transform",
+    "TransformException",
+]

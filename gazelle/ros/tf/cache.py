@@ -1,0 +1,190 @@
+"""What is known of one frame: where it stood in its parent, at which times."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+from typing import Protocol
+
+from gazelle.ros.tf.rotations import Quaternion, Vector, mix, slerp
+
+_COMPACT = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """A frame in its parent.
+
+    Attributes:
+        parent: Name of the parent.
+        translation: [m].
+        rotation: (x, y, z, w).
+    """
+
+    parent: str
+    translation: Vector
+    rotation: Quaternion
+
+
+class OutsideError(Exception):
+    """The time asked for is not held; the text says how far off it is."""
+
+
+class Cache(Protocol):
+    """The placements of one frame."""
+
+    def insert(self, stamp: int, placement: Placement) -> str:
+        """Keep a placement; what is returned says why not, and is empty if it is kept."""
+
+    def at(self, stamp: int) -> Placement | None:
+        """The placement at a time [ns], 0 for the latest; None if nothing is known.
+
+        Raises:
+            OutsideError: The time is outside of what is known.
+        """
+
+    def latest(self) -> tuple[int, str] | None:
+        """Time [ns] and parent of the latest placement; time 0 means at all times."""
+
+    def span(self) -> tuple[int, int, int]:
+        """Number of placements, and the times [ns] of the oldest and the latest."""
+
+    def clear(self) -> None:
+        """Forget what may change with time."""
+
+
+class StaticCache:
+    """A frame that never moves."""
+
+    __slots__ = ("_placement",)
+
+    def __init__(self) -> None:
+        self._placement: Placement | None = None
+
+    def insert(self, stamp: int, placement: Placement) -> str:
+        """Keep the placement instead of the one before."""
+        del stamp
+        self._placement = placement
+        return ""
+
+    def at(self, stamp: int) -> Placement | None:
+        """The placement, at any time."""
+        del stamp
+        return self._placement
+
+    def latest(self) -> tuple[int, str] | None:
+        """Time 0, and the parent."""
+        return (0, self._placement.parent) if self._placement else None
+
+    def span(self) -> tuple[int, int, int]:
+        """One placement, without a time."""
+        return (1, 0, 0)
+
+    def clear(self) -> None:
+        """Static frames stay."""
+
+
+class MovingCache:
+    """A frame that moves: placements by time, over the last seconds.
+
+    Args:
+        length: How long before the latest a placement is kept [ns].
+    """
+
+    __slots__ = ("_first", "_length", "_placements", "_stamps")
+
+    def __init__(self, length: int) -> None:
+        self._length = length
+        self._stamps: list[int] = []
+        self._placements: list[Placement] = []
+        self._first = 0
+
+    def insert(self, stamp: int, placement: Placement) -> str:
+        """Keep the placement, unless it is older than all that is kept or known already."""
+        stamps = self._stamps
+        if not stamps or stamp > stamps[-1]:
+            stamps.append(stamp)
+            self._placements.append(placement)
+            self._prune(stamp - self._length)
+            return ""
+        if stamps[-1] > stamp + self._length:
+            return (
+                "TF_OLD_DATA ignoring data from the past (Possible reasons are listed at "
+                "http://wiki.ros.org/tf/Errors%20explained)"
+            )
+        where = bisect_left(stamps, stamp, self._first)
+        if where < len(stamps) and stamps[where] == stamp:
+            return "TF_REPEATED_DATA ignoring data with redundant timestamp"
+        stamps.insert(where, stamp)
+        self._placements.insert(where, placement)
+        return ""
+
+    def _prune(self, oldest: int) -> None:
+        stamps, first = self._stamps, self._first
+        while stamps[first] < oldest:
+            first += 1
+        if first > _COMPACT:
+            del stamps[:first], self._placements[:first]
+            first = 0
+        self._first = first
+
+    def at(self, stamp: int) -> Placement | None:
+        """The placement at a time, between two known ones interpolated."""
+        stamps, first = self._stamps, self._first
+        if not stamps:
+            return None
+        last = stamps[-1]
+        if stamp in {0, last}:
+            return self._placements[-1]
+        if len(stamps) - first == 1:
+            raise OutsideError(
+                f"Lookup would require extrapolation at time {seconds(stamp)}, "
+                f"but only time {seconds(last)} is in the buffer"
+            )
+        if stamp > last:
+            raise OutsideError(
+                f"Lookup would require extrapolation {seconds(stamp - last)}s into the future.  "
+                f"Requested time {seconds(stamp)} but the latest data is at time {seconds(last)}"
+            )
+        if stamp < stamps[first]:
+            raise OutsideError(
+                f"Lookup would require extrapolation {seconds(stamps[first] - stamp)}s into the "
+                f"past.  Requested time {seconds(stamp)} but the earliest data is at time "
+                f"{seconds(stamps[first])}"
+            )
+        return self._between(bisect_right(stamps, stamp, first), stamp)
+
+    def _between(self, after: int, stamp: int) -> Placement:
+        before, begin = self._placements[after - 1], self._stamps[after - 1]
+        if begin == stamp:
+            return before
+        behind, end = self._placements[after], self._stamps[after]
+        if before.parent != behind.parent:
+            return before
+        ratio = ((stamp - begin) * 1e-9) / ((end - begin) * 1e-9)
+        return Placement(
+            before.parent,
+            mix(before.translation, behind.translation, ratio),
+            slerp(before.rotation, behind.rotation, ratio),
+        )
+
+    def latest(self) -> tuple[int, str] | None:
+        """Time and parent of the latest placement."""
+        return (self._stamps[-1], self._placements[-1].parent) if self._stamps else None
+
+    def span(self) -> tuple[int, int, int]:
+        """How many placements are kept, from when to when."""
+        if not self._stamps:
+            return (0, 0, 0)
+        return (len(self._stamps) - self._first, self._stamps[self._first], self._stamps[-1])
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._stamps.clear()
+        self._placements.clear()
+        self._first = 0
+
+
+def seconds(stamp: int) -> str:
+    """A time [ns] as tf2 writes it."""
+    return f"{stamp // 1_000_000_000}.{stamp % 1_000_000_000:09d}"
