@@ -1,0 +1,113 @@
+"""Descriptions to files and texts of any format that can be written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal, get_args
+
+from gazelle.description import Model, Parameters, World
+from gazelle.errors import FormatError, did_you_mean
+from gazelle.formats.write.sdf import write_sdf
+from gazelle.formats.write.urdf import write_urdf
+from gazelle.formats.write.writing import Writing
+from gazelle.formats.write.xml import document
+
+Format = Literal["sdf", "urdf"]
+
+SUFFIXES: dict[str, Format] = {".sdf": "sdf", ".world": "sdf", ".urdf": "urdf"}
+_WRITERS: dict[str, Callable[[World | Model, Writing], Parameters]] = {
+    "sdf": write_sdf,
+    "urdf": write_urdf,
+}
+
+
+def save(
+    content: World | Model,
+    path: str | os.PathLike[str],
+    *,
+    format: Format | None = None,  # noqa: A002  # the word users know
+) -> None:
+    """Write a world or model to a file, so that ``load`` gives it back.
+
+    SDF holds everything. What URDF has no words for is an error, or a warning that names it.
+    Meshes are not copied: a relative name in the file is rewritten to lead to the same mesh.
+
+    Args:
+        content: What to write; a model alone makes a model file.
+        path: The file; an existing one is replaced, once all of the new one is there.
+        format: ``sdf`` or ``urdf``; by default what the file's suffix says.
+
+    Raises:
+        FormatError: The format is not known, or cannot say what there is to write; or the
+            file cannot be written.
+    """
+    file = Path(path).expanduser().absolute()
+    text = _text(content, format or format_of(file), Writing(file.parent))
+    replace_file(file, text)
+
+
+def to_string(
+    content: World | Model,
+    format: Format,
+    *,
+    folder: str | os.PathLike[str] | None = None,  # as above
+) -> str:
+    """The text that ``save`` would write.
+
+    Args:
+        content: What to write.
+        format: ``sdf`` or ``urdf``.
+        folder: Folder the text will stand in, which decides how files are named; by
+            default relative names become absolute ones.
+
+    Raises:
+        FormatError: As ``save``.
+    """
+    return _text(content, format, Writing(None if folder is None else Path(folder).absolute()))
+
+
+def format_of(file: Path) -> Format:
+    """The format that a file's suffix stands for.
+
+    Raises:
+        FormatError: None of those that can be written.
+    """
+    found = SUFFIXES.get(file.suffix.lower())
+    if found is None:
+        raise FormatError(
+            f"the suffix '{file.suffix}' stands for no format that can be written",
+            file=str(file),
+            hint=f"there are: {', '.join(sorted(SUFFIXES))}; or give the format",
+        )
+    return found
+
+
+def replace_file(file: Path, text: str) -> None:
+    """Write a whole file or nothing.
+
+    Raises:
+        FormatError: It cannot be written.
+    """
+    partial = file.with_name(f".{file.name}.part")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(file)
+    except (OSError, UnicodeError) as error:
+        partial.unlink(missing_ok=True)
+        raise FormatError(f"the file cannot be written: {error}", file=str(file)) from error
+
+
+def _text(content: World | Model, kind: str, writing: Writing) -> str:
+    writer = _WRITERS.get(kind)
+    if writer is None:
+        hint = (
+            "gazelle.engines.mujoco.to_mjcf writes MJCF"
+            if kind == "mjcf"
+            else did_you_mean(kind, get_args(Format))
+        )
+        raise FormatError(f"'{kind}' is no format that can be written here", hint=hint)
+    text = document(writer(content, writing))
+    writing.report()
+    return text

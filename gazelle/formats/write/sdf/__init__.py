@@ -1,0 +1,47 @@
+"""Descriptions as SDF: one small writer an element, the counterpart of the readers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gazelle.description import Model, Parameters, World
+from gazelle.formats.write.element import element
+from gazelle.formats.write.sdf.model import write_model
+from gazelle.formats.write.sdf.world import write_world
+from gazelle.formats.write.writing import Writing
+
+__all__ = ["write_sdf"]
+
+_OLDEST = (1, 7)
+# the version of SDF that brought an element
+_SINCE = {"capsule": (1, 8), "ellipsoid": (1, 8), "mimic": (1, 11), "cone": (1, 12)}
+_QUATERNIONS = (1, 9)
+_WORLD_JOINTS = (1, 10)
+
+
+def write_sdf(content: World | Model, writing: Writing) -> Parameters:
+    """The root element, of the oldest version since 1.7 that can say it all.
+
+    Older programs read older versions only, so no newer one is asked for than is needed.
+    """
+    body = (
+        write_world(content, writing)
+        if isinstance(content, World)
+        else write_model(content, writing)
+    )
+    major, minor = max(_versions(body))
+    return element("sdf", body, version=f"{major}.{minor}")
+
+
+def _versions(body: Parameters) -> Iterator[tuple[int, int]]:
+    yield _OLDEST
+    if body.tag == "world" and "joint" in body:
+        yield _WORLD_JOINTS
+    waiting = [body]
+    while waiting:
+        node = waiting.pop()
+        if node.tag in _SINCE:
+            yield _SINCE[node.tag]
+        if "rotation_format" in node.attributes:
+            yield _QUATERNIONS
+        waiting.extend(node.children)

@@ -1,0 +1,121 @@
+"""``<geometry>``: one writer a shape, in the table ``SHAPES``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Image,
+    Mesh,
+    Parameters,
+    Plane,
+    Polyline,
+    Sphere,
+)
+from gazelle.formats.write.element import element, group, leaf
+from gazelle.formats.write.writing import Writing
+
+
+def write_geometry(shape: Geometry, writing: Writing) -> Parameters:
+    """A shape in its ``<geometry>``."""
+    return element("geometry", *SHAPES[type(shape)](shape, writing))
+
+
+def _empty(_: Empty, __: Writing) -> list[Parameters]:
+    return [element("empty")]
+
+
+def _box(shape: Box, _: Writing) -> list[Parameters]:
+    return [element("box", leaf("size", shape.size))]
+
+
+def _sphere(shape: Sphere, _: Writing) -> list[Parameters]:
+    return [element("sphere", leaf("radius", shape.radius))]
+
+
+def _round(shape: Cylinder | Capsule | Cone, _: Writing) -> list[Parameters]:
+    tag = type(shape).__name__.lower()
+    return [element(tag, leaf("radius", shape.radius), leaf("length", shape.length))]
+
+
+def _ellipsoid(shape: Ellipsoid, _: Writing) -> list[Parameters]:
+    return [element("ellipsoid", leaf("radii", shape.radii))]
+
+
+def _plane(shape: Plane, _: Writing) -> list[Parameters]:
+    return [element("plane", leaf("normal", shape.normal), leaf("size", shape.size))]
+
+
+def _mesh(shape: Mesh, writing: Writing) -> list[Parameters]:
+    submesh = None
+    if shape.submesh is not None or shape.center_submesh:
+        submesh = group(
+            "submesh", leaf("name", shape.submesh), leaf("center", shape.center_submesh, False)
+        )
+    return [
+        element(
+            "mesh",
+            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("scale", shape.scale, (1.0, 1.0, 1.0)),
+            submesh,
+        )
+    ]
+
+
+def _heightmap(shape: Heightmap, writing: Writing) -> list[Parameters]:
+    return [
+        element(
+            "heightmap",
+            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("size", shape.size),
+            leaf("pos", shape.position),
+            leaf("sampling", shape.sampling, 1),
+        )
+    ]
+
+
+def _image(shape: Image, writing: Writing) -> list[Parameters]:
+    return [
+        element(
+            "image",
+            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("scale", shape.scale),
+            leaf("threshold", shape.threshold),
+            leaf("height", shape.height),
+            leaf("granularity", shape.granularity),
+        )
+    ]
+
+
+def _polyline(shape: Polyline, _: Writing) -> list[Parameters]:
+    return [
+        element(
+            "polyline", *(leaf("point", point) for point in outline), leaf("height", shape.height)
+        )
+        for outline in shape.outlines
+    ]
+
+
+SHAPES: dict[type, Callable[[Any, Writing], list[Parameters]]] = {
+    Box: _box,
+    Capsule: _round,
+    Cone: _round,
+    Cylinder: _round,
+    Ellipsoid: _ellipsoid,
+    Empty: _empty,
+    Heightmap: _heightmap,
+    Image: _image,
+    Mesh: _mesh,
+    Plane: _plane,
+    Polyline: _polyline,
+    Sphere: _sphere,
+}

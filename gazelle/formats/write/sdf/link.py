@@ -1,0 +1,176 @@
+"""``<link>`` with its collisions, visuals and lights."""
+
+from __future__ import annotations
+
+from gazelle.description import (
+    Collision,
+    Inertial,
+    Light,
+    Link,
+    Material,
+    Parameters,
+    Visual,
+)
+from gazelle.errors import FormatError
+from gazelle.formats import values
+from gazelle.formats.materials import script_colors
+from gazelle.formats.sdf.inertial import check_inertia
+from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf
+from gazelle.formats.write.sdf.geometry import write_geometry
+from gazelle.formats.write.sdf.sensor import write_sensor
+from gazelle.formats.write.sdf.surface import write_surface
+from gazelle.formats.write.writing import Writing
+
+_ALL_FLAGS = 0xFFFFFFFF
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def write_link(link: Link, writing: Writing, *, static: bool = False) -> Parameters:
+    """A link; in a static model an inertia that cannot be does not matter and is left out."""
+    with inside("link", link):
+        return element(
+            "link",
+            pose_leaf(link.pose),
+            _inertial(link, writing, static=static),
+            leaf("gravity", link.gravity, True),
+            leaf("enable_wind", link.enable_wind, False),
+            leaf("self_collide", link.self_collide),
+            leaf("kinematic", link.kinematic, False),
+            group(
+                "velocity_decay",
+                leaf("linear", link.velocity_decay_linear, 0.0),
+                leaf("angular", link.velocity_decay_angular, 0.0),
+            ),
+            *(write_collision(collision, writing) for collision in link.collisions),
+            *(write_visual(visual, writing) for visual in link.visuals),
+            *map(write_sensor, link.sensors),
+            *map(write_light, link.lights),
+            *link.extras,
+            name=link.name,
+        )
+
+
+def _inertial(link: Link, writing: Writing, *, static: bool) -> Parameters | None:
+    if link.inertial is None:
+        return None
+    try:
+        return write_inertial(link.inertial)
+    except FormatError as error:
+        if not static:
+            raise
+        writing.note(f"{error.message}: it is left out", link.inertial.source or link.source)
+        return None
+
+
+def write_inertial(inertial: Inertial) -> Parameters:
+    """``<inertial>``, with every number.
+
+    Raises:
+        FormatError: It is that of no body, which readers of SDF refuse.
+    """
+    place = Parameters("inertial", source=inertial.source)
+    values.positive(place, inertial.mass, "the mass")
+    check_inertia(inertial.inertia, place)
+    inertia = (leaf(name, getattr(inertial.inertia, name)) for name in _MOMENTS)
+    return element(
+        "inertial",
+        pose_leaf(inertial.pose),
+        leaf("mass", inertial.mass),
+        element("inertia", *inertia),
+    )
+
+
+def write_collision(collision: Collision, writing: Writing) -> Parameters:
+    """``<collision>``."""
+    with inside("collision", collision):
+        return element(
+            "collision",
+            pose_leaf(collision.pose),
+            leaf("laser_retro", collision.laser_retro, 0.0),
+            leaf("max_contacts", collision.max_contacts, 10),
+            write_geometry(collision.geometry, writing),
+            write_surface(collision.surface),
+            name=collision.name,
+        )
+
+
+def write_visual(visual: Visual, writing: Writing) -> Parameters:
+    """``<visual>``."""
+    with inside("visual", visual):
+        return element(
+            "visual",
+            pose_leaf(visual.pose),
+            *visual_extras(visual),
+            write_geometry(visual.geometry, writing),
+            None if visual.material is None else write_material(visual.material, writing),
+            name=visual.name,
+        )
+
+
+def visual_extras(visual: Visual) -> tuple[Parameters | None, ...]:
+    """What a visual has besides its pose, shape and material."""
+    return (
+        leaf("cast_shadows", visual.cast_shadows, True),
+        leaf("laser_retro", visual.laser_retro, 0.0),
+        leaf("transparency", visual.transparency, 0.0),
+        leaf("visibility_flags", visual.visibility_flags, _ALL_FLAGS),
+    )
+
+
+def write_material(material: Material, writing: Writing) -> Parameters:
+    """``<material>``; colours that its script gives anyway are left to it."""
+    known = script_colors(material.script) if material.script else None
+    ambient, diffuse = known or (None, None)
+    texture = material.texture
+    albedo = None if texture is None else leaf("albedo_map", writing.name(texture))
+    return element(
+        "material",
+        leaf("ambient", material.ambient, ambient),
+        leaf("diffuse", material.diffuse, diffuse),
+        leaf("specular", material.specular),
+        leaf("emissive", material.emissive),
+        group(
+            "script",
+            *(leaf("uri", uri) for uri in material.script_uris),
+            leaf("name", material.script),
+        ),
+        group("pbr", group("metal", albedo)),
+    )
+
+
+def write_light(light: Light) -> Parameters:
+    """``<light>`` of a world or a link."""
+    with inside("light", light):
+        return element(
+            "light",
+            pose_leaf(light.pose),
+            leaf("cast_shadows", light.cast_shadows, False),
+            leaf("intensity", light.intensity, 1.0),
+            leaf("diffuse", light.diffuse),
+            leaf("specular", light.specular),
+            leaf("direction", light.direction),
+            _attenuation(light),
+            _spot(light),
+            name=light.name,
+            type=light.type,
+        )
+
+
+def _attenuation(light: Light) -> Parameters:
+    fades = light.attenuation
+    return element(
+        "attenuation",
+        limit("range", fades.range),
+        leaf("constant", fades.constant),
+        leaf("linear", fades.linear),
+        leaf("quadratic", fades.quadratic),
+    )
+
+
+def _spot(light: Light) -> Parameters | None:
+    return group(
+        "spot",
+        leaf("inner_angle", light.spot_inner_angle, 0.0),
+        leaf("outer_angle", light.spot_outer_angle, 0.0),
+        leaf("falloff", light.spot_falloff, 0.0),
+    )

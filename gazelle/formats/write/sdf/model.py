@@ -1,0 +1,73 @@
+"""``<model>`` with its frames and transmissions."""
+
+from __future__ import annotations
+
+from gazelle.description import Frame, Model, Parameters, Transmission
+from gazelle.errors import FormatError
+from gazelle.formats.sdf.own import TRANSMISSION
+from gazelle.formats.write.element import distinct, element, inside, leaf, pose_leaf
+from gazelle.formats.write.sdf.joint import write_joint
+from gazelle.formats.write.sdf.link import write_link
+from gazelle.formats.write.sdf.plugin import write_plugin
+from gazelle.formats.write.writing import Writing
+
+
+def write_model(model: Model, writing: Writing) -> Parameters:
+    """A model and all that is nested in it."""
+    with inside("model", model):
+        _refuse_unreadable(model)
+        return element(
+            "model",
+            pose_leaf(model.pose),
+            leaf("static", model.static, False),
+            leaf("self_collide", model.self_collide, False),
+            leaf("allow_auto_disable", model.allow_auto_disable, True),
+            leaf("enable_wind", model.enable_wind, False),
+            *(write_link(link, writing, static=model.static) for link in model.links),
+            *(write_joint(joint, writing) for joint in model.joints),
+            *map(write_frame, model.frames),
+            *(write_model(nested, writing) for nested in model.models),
+            *model.extras,
+            *map(write_plugin, model.plugins),
+            *(write_transmission(each, TRANSMISSION) for each in model.transmissions),
+            name=model.name,
+            canonical_link=model.canonical_link,
+        )
+
+
+def _refuse_unreadable(model: Model) -> None:
+    for tag, parts in (
+        ("link", model.links),
+        ("joint", model.joints),
+        ("frame", model.frames),
+        ("model", model.models),
+    ):
+        distinct(tag, parts)
+    if not (model.static or any(placed.model.links for placed in model.walk())):
+        raise FormatError(
+            f"the model '{model.name}' has no link",
+            hint="give it one, or make it static; perhaps what it includes was not found",
+        )
+
+
+def write_frame(frame: Frame) -> Parameters:
+    """``<frame>``."""
+    with inside("frame", frame):
+        return element(
+            "frame", pose_leaf(frame.pose), name=frame.name, attached_to=frame.attached_to
+        )
+
+
+def write_transmission(transmission: Transmission, tag: str) -> Parameters:
+    """URDF's ``<transmission>``."""
+    joints = (
+        element("joint", *(leaf("hardwareInterface", i) for i in interfaces), name=name)
+        for name, interfaces in transmission.joints
+    )
+    actuators = (
+        element("actuator", leaf("mechanicalReduction", reduction), name=name)
+        for name, reduction in transmission.actuators
+    )
+    return element(
+        tag, leaf("type", transmission.type, ""), *joints, *actuators, name=transmission.name
+    )

@@ -1,0 +1,160 @@
+"""``<world>`` and what holds in all of it."""
+
+from __future__ import annotations
+
+from gazelle.description import (
+    Atmosphere,
+    Ode,
+    Parameters,
+    Physics,
+    Pose,
+    Scene,
+    SphericalCoordinates,
+    World,
+)
+from gazelle.errors import FormatError
+from gazelle.formats.reading import Reading
+from gazelle.formats.resolve import Resolver
+from gazelle.formats.sdf import state
+from gazelle.formats.sdf.world import USER_CAMERA
+from gazelle.formats.write.element import distinct, element, group, inside, leaf, overlay, pose_leaf
+from gazelle.formats.write.sdf.joint import write_joint
+from gazelle.formats.write.sdf.link import write_light
+from gazelle.formats.write.sdf.model import write_frame, write_model
+from gazelle.formats.write.sdf.plugin import write_plugin
+from gazelle.formats.write.writing import Writing
+
+
+def write_world(world: World, writing: Writing) -> Parameters:
+    """A world with everything in it."""
+    usual = World()
+    with inside("world", world):
+        distinct("model", world.models)
+        return element(
+            "world",
+            *map(write_physics, world.physics),
+            leaf("gravity", world.gravity, usual.gravity),
+            leaf("magnetic_field", world.magnetic_field, usual.magnetic_field),
+            group("wind", leaf("linear_velocity", world.wind, usual.wind)),
+            write_atmosphere(world.atmosphere),
+            write_spherical(world.spherical_coordinates),
+            write_scene(world.scene),
+            *_extras(world),
+            *map(write_light, world.lights),
+            *(write_model(model, writing) for model in world.models),
+            *world.actors,
+            *map(write_frame, world.frames),
+            *(write_joint(joint, writing) for joint in world.joints),
+            *map(write_plugin, world.plugins),
+            *_states(world, writing),
+            name=world.name,
+        )
+
+
+def write_physics(physics: Physics) -> Parameters:
+    """``<physics>``: one profile."""
+    usual = Physics()
+    with inside("physics", physics):
+        return element(
+            "physics",
+            leaf("max_step_size", physics.max_step_size),
+            leaf("real_time_factor", physics.real_time_factor),
+            leaf("real_time_update_rate", physics.real_time_update_rate),
+            leaf("max_contacts", physics.max_contacts, usual.max_contacts),
+            write_ode(physics.ode),
+            name=physics.name,
+            default="true" if physics.default else "",
+            type=physics.type,
+        )
+
+
+def write_ode(ode: Ode) -> Parameters | None:
+    """``<ode>``, what differs from the defaults."""
+    usual = Ode()
+    solver = ("min_step_size", "iters", "precon_iters", "sor", "friction_model")
+    constraints = ("cfm", "erp", "contact_max_correcting_vel", "contact_surface_layer")
+    return group(
+        "ode",
+        group(
+            "solver",
+            leaf("type", ode.solver, usual.solver),
+            *(leaf(name, getattr(ode, name), getattr(usual, name)) for name in solver),
+        ),
+        group(
+            "constraints",
+            *(leaf(name, getattr(ode, name), getattr(usual, name)) for name in constraints),
+        ),
+    )
+
+
+def write_atmosphere(air: Atmosphere) -> Parameters | None:
+    """``<atmosphere>``; None for the usual one."""
+    if air == Atmosphere():
+        return None
+    return element(
+        "atmosphere",
+        leaf("temperature", air.temperature),
+        leaf("temperature_gradient", air.temperature_gradient),
+        leaf("pressure", air.pressure),
+        type=air.type,
+    )
+
+
+def write_spherical(place: SphericalCoordinates | None) -> Parameters | None:
+    """``<spherical_coordinates>``."""
+    if place is None:
+        return None
+    return element(
+        "spherical_coordinates",
+        leaf("surface_model", place.surface_model),
+        leaf("latitude_deg", place.latitude),
+        leaf("longitude_deg", place.longitude),
+        leaf("elevation", place.elevation),
+        leaf("heading_deg", place.heading),
+    )
+
+
+def write_scene(scene: Scene) -> Parameters | None:
+    """``<scene>``; None for the usual one."""
+    if scene == Scene():
+        return None
+    return element(
+        "scene",
+        leaf("ambient", scene.ambient),
+        leaf("background", scene.background),
+        leaf("shadows", scene.shadows),
+        leaf("grid", scene.grid, True),
+        element("sky") if scene.sky else None,
+    )
+
+
+def _extras(world: World) -> list[Parameters]:
+    """What is kept whole, the user's camera put into the ``<gui>``."""
+    if world.camera is None:
+        return list(world.extras)
+    shown = _gui(world.camera)
+    guis = [extra for extra in world.extras if extra.tag == "gui"]
+    if not guis:
+        return [shown, *world.extras]
+    return [overlay(e, shown) if e is guis[0] else e for e in world.extras]
+
+
+def _gui(camera: Pose) -> Parameters:
+    return element("gui", element("camera", pose_leaf(camera, always=True), name=USER_CAMERA))
+
+
+def _states(world: World, writing: Writing) -> tuple[Parameters, ...]:
+    """Saved states, unless they would move what is no longer where the first one put it."""
+    if not world.states:
+        return ()
+    try:
+        restored = state.apply(world, Reading(Resolver()))
+    except FormatError:
+        restored = None
+    if restored == world:
+        return world.states
+    writing.note(
+        "the poses differ from those of the saved <state>, which is left out",
+        world.states[0].source,
+    )
+    return ()

@@ -1,0 +1,138 @@
+"""A model's links and joints as the tree that URDF wants, and where its frames are.
+
+URDF has a link's frame at its joint, and the root's at the robot's; SDF has it anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from gazelle.description import Joint, Link, Model, Pose
+from gazelle.errors import FormatError
+from gazelle.formats.write.writing import Writing
+
+WORLD = "world"
+
+_TYPES = {"continuous", "fixed", "floating", "planar", "prismatic", "revolute"}
+
+
+@dataclass(slots=True)
+class Tree:
+    """What becomes of links and joints.
+
+    Attributes:
+        links: By name, in order.
+        joints: That hold each link to the one above it, by the name of the link.
+        loops: Joints that close a loop, which URDF has only in SDF's words.
+        frames: Pose of each URDF link frame in the model.
+        shifts: Pose of each SDF link frame in the URDF one.
+    """
+
+    links: Mapping[str, Link]
+    joints: dict[str, Joint]
+    loops: list[Joint]
+    frames: dict[str, Pose] = field(default_factory=dict)
+    shifts: dict[str, Pose] = field(default_factory=dict)
+
+    def origin(self, joint: Joint) -> Pose:
+        """The joint, and the child's frame, in the frame of the parent."""
+        if joint.parent == WORLD:
+            return self.frames[joint.child]
+        return self.frames[joint.parent].inverse() * self.frames[joint.child]
+
+
+def tree_of(model: Model, writing: Writing) -> Tree:
+    """The tree of a model.
+
+    Raises:
+        FormatError: The links and joints are no tree, or a joint is of a type that URDF lacks.
+    """
+    if not model.links:
+        raise FormatError("URDF needs a link")
+    links = {link.name: link for link in model.links}
+    tree = Tree(links, *_holding(model, links))
+    _join_roots(model, tree, writing)
+    _refuse_circles(tree)
+    _place(tree)
+    moved = [name for name, shift in tree.shifts.items() if shift != Pose()]
+    if moved:
+        writing.note(
+            f"URDF has a link's frame at its joint, to where those of {_listed(moved)} moved",
+            model.source,
+        )
+    return tree
+
+
+def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint], list[Joint]]:
+    """The joint that holds each link, and those that are left."""
+    held: dict[str, Joint] = {}
+    rest: list[Joint] = []
+    for joint in model.joints:
+        for name in (joint.parent, joint.child):
+            if name not in links and name != WORLD:
+                raise FormatError(
+                    f"the joint '{joint.name}' holds '{name}', which is no link of this model",
+                    source=joint.source,
+                )
+        if joint.child in held or joint.type not in _TYPES:
+            rest.append(joint)
+        else:
+            held[joint.child] = joint
+    for joint in rest:
+        if joint.child not in held:
+            raise FormatError(
+                f"URDF has no '{joint.type}' joint, as '{joint.name}' is", source=joint.source
+            )
+    return held, rest
+
+
+def _join_roots(model: Model, tree: Tree, writing: Writing) -> None:
+    """Hold all roots of a static model together; of another one only one is allowed."""
+    roots = [name for name in tree.links if name not in tree.joints]
+    on_world = any(joint.parent == WORLD for joint in tree.joints.values())
+    if len(roots) + on_world <= 1:
+        return
+    if not model.static:
+        shown = _listed([*roots, *([WORLD] if on_world else [])])
+        raise FormatError(
+            f"URDF needs one tree of links, but nothing joins {shown}", source=model.source
+        )
+    parent = WORLD if on_world else roots.pop(0)
+    for name in roots:
+        link = tree.links[name]
+        tree.joints[name] = Joint(f"{parent}_to_{name}", "fixed", parent, name, source=link.source)
+    writing.note(
+        f"URDF needs one tree of links: fixed joints hold {_listed(roots)} to {parent}",
+        model.source,
+    )
+
+
+def _refuse_circles(tree: Tree) -> None:
+    for name in tree.links:
+        seen = {name}
+        joint = tree.joints.get(name)
+        while joint is not None:
+            if joint.parent in seen:
+                raise FormatError(
+                    f"the joints lead in a circle through '{joint.name}'", source=joint.source
+                )
+            seen.add(joint.parent)
+            joint = tree.joints.get(joint.parent)
+
+
+def _place(tree: Tree) -> None:
+    for name, link in tree.links.items():
+        joint = tree.joints.get(name)
+        if joint is None:
+            tree.frames[name], tree.shifts[name] = Pose(), link.pose
+        elif joint.pose == Pose():
+            tree.frames[name], tree.shifts[name] = link.pose, Pose()
+        else:
+            tree.frames[name], tree.shifts[name] = link.pose * joint.pose, joint.pose.inverse()
+
+
+def _listed(names: Iterable[str]) -> str:
+    found = [f"'{name}'" for name in names]
+    more = f" and {len(found) - 5} more" if len(found) > 5 else ""
+    return ", ".join(found[:5]) + more

@@ -1,0 +1,56 @@
+"""What one save carries along: where the file will be, and what it cannot say."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gazelle.description import Source
+from gazelle.errors import FormatWarning
+from gazelle.formats.reading import Note, note_text
+
+
+@dataclass(slots=True)
+class Writing:
+    """The state of one save.
+
+    Attributes:
+        folder: Folder that the file will stand in, or None.
+        notes: What the format cannot say.
+    """
+
+    folder: Path | None = None
+    notes: list[Note] = field(default_factory=list)
+
+    def note(self, message: str, source: Source | None, hint: str | None = None) -> None:
+        """Record a remark, once for each place."""
+        note = Note(message, source, hint)
+        if note not in self.notes:
+            self.notes.append(note)
+
+    def uri(self, uri: str, path: Path | None) -> str:
+        """A URI that leads to the same file from the new place.
+
+        Only relative names change: to the way from there, or to an absolute one.
+        """
+        if path is None or "://" in uri or Path(uri).is_absolute():
+            return uri
+        if self.folder is not None and _same(self.folder / uri, path):
+            return uri
+        return self.name(path)
+
+    def name(self, path: Path) -> str:
+        """A file by its way from the folder if it is below it, else by its absolute path."""
+        if self.folder is not None and path.is_relative_to(self.folder):
+            return path.relative_to(self.folder).as_posix()
+        return path.absolute().as_uri()
+
+    def report(self) -> None:
+        """Issue the remarks as warnings."""
+        for note in self.notes:
+            warnings.warn(note_text(note), FormatWarning, stacklevel=4)
+
+
+def _same(one: Path, other: Path) -> bool:
+    return one.resolve() == other.resolve()
