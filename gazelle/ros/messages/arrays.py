@@ -104,24 +104,31 @@ def numbers(value: Any, base: str, count: int | None) -> bytes:
 
     Raises:
         TypeError: The elements are of another kind, or not ``count``.
-        OverflowError: A number does not fit.
+        struct.error: An element does not fit the type.
+        OverflowError: A number in a numpy array does not fit.
     """
+    size = value.size if hasattr(value, "dtype") else len(value)
+    if count is not None and size != count:
+        raise TypeError(f"expecting {count} items but found {size}")
+    if hasattr(value, "dtype"):
+        data = _numpy_bytes(value, base)
+    else:
+        data = struct.pack(f"<{size}{STRUCT_CODES[base]}", *value)
+    return data if count is not None else struct.pack("<I", size) + data
+
+
+def _numpy_bytes(value: Any, base: str) -> bytes:
     import numpy as np
 
-    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__"):
-        raise TypeError(f"an array of {base} is needed, not {type(value).__name__}")
-    given = np.asarray(value)
     wanted = np.dtype(DTYPES[base])
-    if given.size and not np.can_cast(given.dtype, wanted, "same_kind"):
-        _check_unlike(given, wanted)
-    if given.dtype != wanted and wanted.kind in "iu" and given.size:
+    if value.size and not np.can_cast(value.dtype, wanted, "same_kind"):
+        _check_unlike(value, wanted)
+    if value.dtype != wanted and wanted.kind in "iu" and value.size:
         limits = np.iinfo(wanted)
-        if int(given.min()) < limits.min or int(given.max()) > limits.max:
+        if int(value.min()) < limits.min or int(value.max()) > limits.max:
             raise OverflowError(f"a number in the array does not fit into {base}")
-    if count is not None and given.size != count:
-        raise TypeError(f"expecting {count} items but found {given.size}")
-    data = np.ascontiguousarray(given, dtype=wanted).tobytes()
-    return data if count is not None else struct.pack("<I", given.size) + data
+    data: bytes = np.ascontiguousarray(value, dtype=wanted).tobytes()
+    return data
 
 
 def _check_unlike(given: Any, wanted: Any) -> None:

@@ -170,7 +170,7 @@ def _equal(mine: Any, theirs: Any) -> bool:
     if kinds[0] in _SEQUENCES and kinds[1] in _SEQUENCES:
         return tuple(mine) == tuple(theirs)
     if getattr(mine, "ndim", 0) or getattr(theirs, "ndim", 0):
-        return _listed(mine) == _listed(theirs)
+        return bool(_listed(mine) == _listed(theirs))
     return bool(mine == theirs)
 
 

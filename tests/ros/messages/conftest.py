@@ -60,6 +60,8 @@ def genpy() -> Iterator[SimpleNamespace]:
     def class_of(ours: type[Message]) -> Any:
         if ours._type not in made:
             made[ours._type] = genpy.dynamic.generate_dynamic(ours._type, ours._full_text)
+        # Where it looks for the classes of messages in arrays, before it imports packages.
+        genpy.message._message_class_cache.update(made[ours._type])
         return made[ours._type][ours._type]
 
     def copy_of(message: Message) -> Any:

@@ -116,6 +116,7 @@ def test_md5_sums_are_those_of_rosbags():
     assert compared >= 160
 
 
+@pytest.mark.slow
 def test_md5_sums_are_those_of_genpy(genpy):
     for name in definitions():
         ours = load_message(name)
