@@ -33,11 +33,14 @@ class Stream:
     """
 
     def __init__(self, seed: int, name: str, nworld: int) -> None:
-        digest = hashlib.blake2b(f"{seed}:{name}".encode(), digest_size=8).digest()
-        worlds = np.arange(1, nworld + 1, dtype=np.uint64)
-        with np.errstate(over="ignore"):
-            self._keys = _mix(np.uint64(int.from_bytes(digest)) + _mix(worlds * _GOLDEN))
+        self._name = name
+        self._keys = _keys_of(seed, name, nworld)
         self._counters = np.zeros(nworld, dtype=np.uint64)
+
+    @property
+    def keys(self) -> Uint64:
+        """What makes each world's numbers its own, shape (nworld,); writable, for restoring."""
+        return self._keys
 
     @property
     def counters(self) -> Uint64:
@@ -47,6 +50,12 @@ class Stream:
     def rewind(self, worlds: NDArray[np.intp] | None = None) -> None:
         """Start over in these worlds (all if None), as if nothing had been drawn."""
         self._counters[slice(None) if worlds is None else worlds] = 0
+
+    def reseed(self, seed: int, worlds: NDArray[np.intp] | None = None) -> None:
+        """Start over in these worlds (all if None) as a stream made with another seed."""
+        chosen = slice(None) if worlds is None else worlds
+        self._keys[chosen] = _keys_of(seed, self._name, len(self._keys))[chosen]
+        self._counters[chosen] = 0
 
     def uniform(self, size: int, worlds: NDArray[np.intp] | None = None) -> Float64:
         """Uniform numbers in [0, 1), shape (n, size), n the number of worlds asked for."""
@@ -72,6 +81,13 @@ class Stream:
     ) -> NDArray[np.intp]:
         """Whole numbers in [0, high), shape (n, size)."""
         return (self.uniform(size, worlds) * high).astype(np.intp)
+
+
+def _keys_of(seed: int, name: str, nworld: int) -> Uint64:
+    digest = hashlib.blake2b(f"{seed}:{name}".encode(), digest_size=8).digest()
+    worlds = np.arange(1, nworld + 1, dtype=np.uint64)
+    with np.errstate(over="ignore"):
+        return _mix(np.uint64(int.from_bytes(digest)) + _mix(worlds * _GOLDEN))
 
 
 def _mix(z: Uint64) -> Uint64:

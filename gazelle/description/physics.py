@@ -49,6 +49,9 @@ class Physics:
         real_time_update_rate: Steps a wall second to aim at [Hz]; 0 means as fast as possible.
         max_contacts: At most so many contact points between two collisions.
         ode: Solver terms.
+        auto_disable: Whether bodies at rest go to sleep; None leaves it to the engine.
+        speculative_contacts: Whether contacts are looked for on the way of the coming step,
+            so that fast bodies do not pass through thin ones; None leaves it to the engine.
     """
 
     name: str = "default_physics"
@@ -59,4 +62,6 @@ class Physics:
     real_time_update_rate: float = 1000.0
     max_contacts: int = 20
     ode: Ode = field(default_factory=Ode)
+    auto_disable: bool | None = None
+    speculative_contacts: bool | None = None
     source: Source | None = field(default=None, compare=False, repr=False)

@@ -3,12 +3,32 @@
 from __future__ import annotations
 
 from gazelle.description import World
-from gazelle.engines.engine import Engine, Hits, Motion, Placement
+from gazelle.engines.engine import (
+    CHANGES,
+    PARAMETERS,
+    Call,
+    DivergenceError,
+    Engine,
+    Hits,
+    Motion,
+    Placement,
+)
 from gazelle.errors import EngineError, did_you_mean
 
 ENGINES = ("mujoco",)
 
-__all__ = ["ENGINES", "Engine", "Hits", "Motion", "Placement", "make_engine"]
+__all__ = [
+    "CHANGES",
+    "ENGINES",
+    "PARAMETERS",
+    "Call",
+    "DivergenceError",
+    "Engine",
+    "Hits",
+    "Motion",
+    "Placement",
+    "make_engine",
+]
 
 
 def make_engine(

@@ -7,13 +7,15 @@ metres, velocities in m/s and rad/s, both in the world frame; quaternions are (x
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Model, World
+from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -58,6 +60,82 @@ class Hits:
     from_inside: NDArray[np.bool_]
 
 
+class DivergenceError(EngineError):
+    """The state of some worlds became infinite or undefined; the others went on.
+
+    Attributes:
+        worlds: Indices of those worlds, shape (k,).
+        before: Their states before the steps that failed, shape (k, size).
+        steps: How many steps were asked for.
+    """
+
+    def __init__(self, message: str, worlds: Worlds, before: Floats, steps: int) -> None:
+        super().__init__(
+            message, hint="take a smaller physics step, or check masses, inertias and gains"
+        )
+        self.worlds = worlds
+        self.before = before
+        self.steps = steps
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A call of one of an engine's methods that change something.
+
+    Attributes:
+        method: Its name.
+        arguments: In order.
+    """
+
+    method: str
+    arguments: tuple[Any, ...]
+
+
+# Kinds of physical parameters that each world can have of its own: what they belong to, the
+# number of values, and the unit. Tensors are xx, yy, zz, xy, xz, yz about the centre of mass.
+# Joints have as many values as axes. An attachment is named ``parent>child``; it is where the
+# child is held in the frame of the parent, position and quaternion (x, y, z, w).
+PARAMETERS: dict[str, tuple[str, int, str]] = {
+    "attachment": ("attachment", 7, "m"),
+    "collision_friction": ("collision", 1, ""),
+    "gravity": ("world", 3, "m/s²"),
+    "joint_damping": ("joint", 1, "N s/m or N m s/rad"),
+    "joint_friction": ("joint", 1, "N or N m"),
+    "joint_lower": ("joint", 1, "m or rad"),
+    "joint_upper": ("joint", 1, "m or rad"),
+    "link_centre": ("link", 3, "m"),
+    "link_gravity": ("link", 1, "share of gravity, 0 to 1"),
+    "link_inertia": ("link", 6, "kg m²"),
+    "link_mass": ("link", 1, "kg"),
+    "motor_effort": ("motor", 1, "N or N m"),
+}
+
+# Every method of ``Engine`` that changes what it computes. All else only reads.
+CHANGES = (
+    "add_motor",
+    "adopt",
+    "attach",
+    "delete",
+    "detach",
+    "make_kinematic",
+    "reset",
+    "restore",
+    "set_joint_effort",
+    "set_joint_position",
+    "set_joint_velocity",
+    "set_link_motion",
+    "set_link_placement",
+    "set_link_wrench",
+    "set_model_motion",
+    "set_model_placement",
+    "set_motor_velocity",
+    "set_parameter",
+    "spawn",
+    "step",
+    "update_world",
+)
+
+
 class Engine(Protocol):
     """A batch of copies of one world, all made of the same models."""
 
@@ -85,7 +163,8 @@ class Engine(Protocol):
         """Advance every world by ``count`` physics steps.
 
         Raises:
-            EngineError: The state of a world became infinite or undefined.
+            DivergenceError: The state of some worlds became infinite or undefined. They are
+                back in their initial state; all others made their steps.
         """
 
     def reset(self, worlds: Worlds | None = None) -> None:
@@ -130,6 +209,45 @@ class Engine(Protocol):
             worlds: Which worlds.
         """
 
+    def set_link_placement(
+        self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Move the links that hang together with a link so that it is there, joints as they are.
+
+        Args:
+            link: Scoped name.
+            position: [m], shape (3,) or (n, 3).
+            quaternion: (x, y, z, w), shape (4,) or (n, 4).
+            worlds: Which worlds.
+        """
+
+    def set_link_motion(
+        self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Give a link a velocity; those that hang together with it keep their joints' speeds.
+
+        Args:
+            link: Scoped name.
+            linear: Of the link's origin, in the world frame [m/s], shape (3,) or (n, 3).
+            angular: In the world frame [rad/s], shape (3,) or (n, 3).
+            worlds: Which worlds.
+        """
+
+    def link_centre(self, link: str, worlds: Worlds | None = None) -> Floats:
+        """Where a link's centre of mass is [m], in the world frame, shape (n, 3)."""
+
+    def set_link_wrench(
+        self, link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Push a link at its centre of mass until told otherwise, in the world frame.
+
+        Args:
+            link: Scoped name.
+            force: [N], shape (3,) or (n, 3).
+            torque: About the centre of mass [N m], shape (3,) or (n, 3).
+            worlds: Which worlds.
+        """
+
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
 
@@ -149,6 +267,9 @@ class Engine(Protocol):
     def set_joint_effort(self, joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply an effort [N or N m] until told otherwise, shape (axes,) or (n, axes)."""
 
+    def joint_effort(self, joint: str, worlds: Worlds | None = None) -> Floats:
+        """The effort that ``set_joint_effort`` applies now [N or N m], shape (n, axes)."""
+
     def add_motor(self, joint: str, max_effort: float) -> None:
         """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""
 
@@ -159,6 +280,39 @@ class Engine(Protocol):
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
+
+    def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+        """Hold two links together as they are to each other now, until ``detach`` or a reset."""
+
+    def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+        """Let go two links that ``attach`` holds together."""
+
+    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
+        """A physical parameter, shape (n, width).
+
+        Args:
+            kind: One of ``PARAMETERS``.
+            name: Scoped name of the link, joint or collision it is of; empty for the world.
+            worlds: Which worlds.
+        """
+
+    def set_parameter(
+        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Change a physical parameter, shape (width,) or (n, width); a reset does not undo it.
+
+        Raises:
+            EngineError: There is no such parameter, or a value cannot be.
+        """
+
+    def update_world(self, world: World) -> None:
+        """Take over all of a world but its models: physics, gravity, air, lights, scene.
+
+        Every state stays as it is. Gravity that worlds have of their own is forgotten.
+
+        Raises:
+            EngineError: A value cannot be; nothing is changed.
+        """
 
     def cast_rays(
         self,
@@ -189,12 +343,21 @@ class Engine(Protocol):
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
 
+    def peek(self) -> Floats:
+        """The same as ``snapshot`` without a copy; it must be read at once and not kept."""
+
     def restore(self, state: Floats) -> None:
         """Put back what ``snapshot`` gave; the models must be the same.
 
         Raises:
             EngineError: The state does not fit the models that run now.
         """
+
+    def history(self) -> list[Call]:
+        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+
+    def adopt(self, history: Sequence[Call]) -> None:
+        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
 
     def close(self) -> None:
         """Free threads and memory."""

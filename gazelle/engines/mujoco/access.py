@@ -131,7 +131,7 @@ class StateAccess(ABC):
         if len(slot.roots) == 1:
             self._put_only(slot, goal_p, goal_q, worlds)
         else:
-            self._put_all(model, slot, goal_p, _unit(goal_q), worlds)
+            self._put_all(model, slot, goal_p, unit(goal_q), worlds)
         self._stale = True
 
     def _put_only(
@@ -140,7 +140,7 @@ class StateAccess(ABC):
         """Place a model that one link carries: no need to know where it was."""
         if slot.offset != Pose():
             back = slot.offset.inverse()
-            quaternion = _unit(quaternion)
+            quaternion = unit(quaternion)
             position = position + rotate(quaternion, np.asarray(back.position))
             quaternion = multiply(quaternion, np.asarray(back.quaternion))
         self._put(self._layout.link(slot.roots[0]), position, quaternion, worlds)
@@ -166,7 +166,7 @@ class StateAccess(ABC):
     ) -> None:
         rows = rows_of(worlds)
         # Normalised, or rounding errors would grow with every relative move.
-        wxyz = wxyz_from_xyzw(_unit(quaternion))
+        wxyz = wxyz_from_xyzw(unit(quaternion))
         if slot.mocap is not None:
             self._state.mocap_pos[rows, slot.mocap] = position
             self._state.mocap_quat[rows, slot.mocap] = wxyz
@@ -278,7 +278,7 @@ def rows_of(worlds: Worlds | None) -> slice | Worlds:
     return slice(None) if worlds is None else worlds
 
 
-def _unit(q: Floats) -> Floats:
+def unit(q: Floats) -> Floats:
     """Quaternions normalised; zero becomes the identity, as in Gazebo."""
     norm: Floats = np.linalg.norm(q, axis=-1, keepdims=True)
     unit: Floats = q / np.where(norm > 0.0, norm, 1.0)

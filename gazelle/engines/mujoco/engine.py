@@ -3,20 +3,33 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import mujoco
 import numpy as np
 from mujoco.batch import Batch, SimulationError
+from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
-from gazelle.engines.engine import Floats, Worlds
-from gazelle.engines.mujoco.access import VELOCITY_STAGE, StateAccess, rows_of
-from gazelle.engines.mujoco.compiler import Motor, Recipe, compile_world
+from gazelle.engines.engine import Call, Floats, DivergenceError, Worlds
+from gazelle.engines.laws import laws_of, with_profile
+from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
+from gazelle.engines.mujoco.attachments import Attachment
+from gazelle.engines.mujoco.bodies import BodyAccess
+from gazelle.engines.mujoco.compiler import Compiled, Motor, Recipe, compile_world
+from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
+from gazelle.engines.mujoco.loose import keep_awake
+from gazelle.engines.mujoco.parameters import ParameterStore, check
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
+
+_NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
+
+# Parameters that need terms which MuJoCo leaves out where they vanish.
+_OFF_AXIS = frozenset({"link_centre", "link_inertia"})
 
 
 def _quiet() -> None:
@@ -27,7 +40,7 @@ def _quiet() -> None:
     config.set()
 
 
-class MujocoEngine(StateAccess):
+class MujocoEngine(BodyAccess):
     """Many copies of one world in MuJoCo; see ``gazelle.engines.engine.Engine``.
 
     Args:
@@ -54,22 +67,30 @@ class MujocoEngine(StateAccess):
             raise EngineError(f"nworld must be at least 1, not {nworld}")
         if not step > 0.0:
             raise EngineError(f"the physics step must be positive, not {step:g} s")
+        if step != world.profile.max_step_size:
+            world = with_profile(world, replace(world.profile, max_step_size=step))
         self._nworld = nworld
         self._threads = min(threads or os.cpu_count() or 1, nworld)
-        self._recipe = Recipe(world, step)
-        self._batch, self._layout = self._build(self._recipe)
-        self._state = StateViews.of(self._batch)
-        self._batch.forward(stage=VELOCITY_STAGE)
-        self._initial = self._batch.state[0].copy()
-        self._stale = False
+        self._parameters = ParameterStore(nworld)
         self._pending: Recipe | None = None
+        self._run(Recipe(world, step), compile_world(Recipe(world, step)))
 
-    def _build(self, recipe: Recipe) -> tuple[Batch, Layout]:
-        compiled = compile_world(recipe)
-        batch = Batch(compiled.model, self._nworld, self._threads)
+    def _run(self, recipe: Recipe, compiled: Compiled) -> None:
+        """Go on with a compiled model, from its initial state."""
+        keep_awake(compiled.model, recipe.world)
+        self._sleepy = bool(compiled.model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
+        batch = Batch(compiled.model, self._nworld, self._threads, persistent=self._sleepy)
         for name in ("xpos", "xquat", "cvel", "subtree_com"):
             batch.bind(name)
-        return batch, layout_of(compiled)
+        layout = layout_of(compiled, (pair.name for pair in recipe.attachments))
+        self._parameters.apply(batch, layout)
+        batch.forward(stage=VELOCITY_STAGE)
+        self._initial = batch.state[0].copy()
+        self._before = batch.state.copy()
+        self._recipe, self._compiled, self._pending = recipe, compiled, None
+        self._batch, self._layout = batch, layout
+        self._state = StateViews.of(batch)
+        self._stale = True
 
     # -- what runs ---------------------------------------------------------------------
 
@@ -104,27 +125,40 @@ class MujocoEngine(StateAccess):
         """Advance every world by ``count`` physics steps."""
         self._now()
         self._stale = True
+        np.copyto(self._before, self._batch.state)
+        failed: Sequence[int] = ()
         try:
             self._batch.step(nstep=count)
         except SimulationError as error:
-            raise EngineError(f"the physics broke down: {error}") from error
-        self._check_finite()
+            failed = error.ids
+        # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
+        if len(failed) or self._state.faults.any():
+            bad = np.asarray(self._state.faults.any(axis=1))
+            bad[np.asarray(failed, np.intp)] = True
+            self._give_up(np.flatnonzero(bad), count)
 
-    def _check_finite(self) -> None:
-        # MuJoCo resets a simulation whose state became bad and counts a warning.
-        bad = self._state.faults
-        if bad.any():
-            worlds = np.flatnonzero(bad.any(axis=1))
-            self._batch.warning[worlds] = 0
-            raise EngineError(
-                f"the state of {len(worlds)} of {self._nworld} worlds became infinite "
-                f"(first: world {worlds[0]})",
-                hint="take a smaller physics step, or check masses, inertias and gains",
-            )
+    def _give_up(self, worlds: Worlds, count: int) -> None:
+        """Reset worlds that broke down, and say so.
+
+        Raises:
+            DivergenceError: Always.
+        """
+        before = self._before[worlds].copy()
+        self._batch.warning[worlds] = 0
+        self.reset(worlds)
+        raise DivergenceError(
+            f"the state of {len(worlds)} of {self._nworld} worlds became infinite "
+            f"(first: world {worlds[0]})",
+            worlds,
+            before,
+            count,
+        )
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
         self._now()
+        if self._sleepy:
+            self._batch.reset(worlds, stage=_NO_STAGE)  # wakes all that sleeps
         self._batch.state[rows_of(worlds)] = self._initial
         self._stale = True
 
@@ -147,9 +181,24 @@ class MujocoEngine(StateAccess):
             raise EngineError(f"there is no model '{model}'", hint=did_you_mean(model, names))
         kept = tuple(each for each in recipe.world.models if each.name != model)
         motors = {n: m for n, m in recipe.motors.items() if not n.startswith(f"{model}::")}
-        world = replace(recipe.world, models=kept)
-        kinematic = recipe.kinematic - {model}
-        self._change(replace(recipe, world=world, motors=motors, kinematic=kinematic))
+        changed = replace(
+            recipe,
+            world=replace(recipe.world, models=kept),
+            motors=motors,
+            kinematic=recipe.kinematic - {model},
+            attachments=self._held(model),
+        )
+        self._parameters.drop(model)
+        self._change(changed)
+
+    def _held(self, gone: str) -> tuple[Attachment, ...]:
+        """The attachments that hold something in some world, but for those of one model."""
+        columns = self._layout.attachments
+        return tuple(
+            pair
+            for pair in self._recipe.attachments
+            if not pair.is_of(gone) and self._batch.eq_active[:, columns[pair.name]].any()
+        )
 
     def add_motor(self, joint: str, max_effort: float) -> None:
         """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""
@@ -168,30 +217,119 @@ class MujocoEngine(StateAccess):
         self._now().model(model)
         self._change(replace(recipe, kinematic=recipe.kinematic | {model}))
 
+    def update_world(self, world: World) -> None:
+        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        self._now()
+        old, profile = self._recipe.world, world.profile
+        if not profile.max_step_size > 0.0:
+            raise EngineError(f"the physics step must be positive, not {profile.max_step_size:g} s")
+        if not np.isfinite([*world.gravity, *world.magnetic_field, *world.wind]).all():
+            raise EngineError("gravity, magnetic field and wind must be finite")
+        recipe = replace(
+            self._recipe,
+            world=replace(world, models=old.models),
+            time_step=profile.max_step_size,
+        )
+        if old.gravity != world.gravity:
+            self._parameters.forget("gravity", "")
+        if laws_of(old) == laws_of(world):
+            self._recipe = recipe
+        else:
+            self._change(recipe)
+
     def _now(self) -> Layout:
         """The layout of what runs, once pending changes have been made."""
         if self._pending is not None:
-            recipe, self._pending = self._pending, None
-            self._change(recipe)
+            self._change(self._pending)
         return self._layout
 
     def _change(self, recipe: Recipe) -> None:
-        batch, layout = self._build(recipe)
-        batch.forward(stage=VELOCITY_STAGE)
-        initial = batch.state[:1].copy()
-        carry_over(self._batch, self._layout, batch, layout)
-        self._initial = initial[0]
-        self._batch, self._layout, self._recipe = batch, layout, recipe
-        self._state = StateViews.of(batch)
+        """Go on with another model, with all states that both have."""
         self._pending = None
+        compiled = compile_world(recipe)
+        batch, layout = self._batch, self._layout
+        self._run(recipe, compiled)
+        carry_over(batch, layout, self._batch, self._layout)
+
+    def _prepare(self, pair: Attachment) -> Layout:
+        """The layout of what runs, in which two links can be held together."""
+        if pair not in self._recipe.attachments:
+            pairs = (*self._recipe.attachments, pair)
+            self._change(replace(self._recipe, attachments=pairs))
+        return self._layout
+
+    # -- parameters --------------------------------------------------------------------
+
+    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
+        """A physical parameter, shape (n, width)."""
+        layout = self._now()
+        values = self._parameters.read(self._batch, layout, kind, name)
+        return values[rows_of(worlds)]
+
+    def set_parameter(
+        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Change a physical parameter, shape (width,) or (n, width); a reset does not undo it."""
+        layout = self._now()
+        every = self._parameters.read(self._batch, layout, kind, name)
+        every[rows_of(worlds)] = values
+        check(kind, name, every)
+        if kind in _OFF_AXIS and self._batch.model.body_simple[layout.link(name).body]:
+            self._unsimplify(kind, name, every)
+        self._parameters.write(self._batch, self._layout, (kind, name), every)
         self._stale = True
 
+    def _unsimplify(self, kind: str, name: str, values: Floats) -> None:
+        """Compile a link's inertia as general as worlds need it.
+
+        MuJoCo leaves out the terms that vanish for a link whose centre of mass is at its
+        origin and whose principal axes are the link's; a value that needs them is compiled.
+        """
+        needed = values[:, :3] if kind == "link_centre" else values[:, 3:]
+        general = np.flatnonzero(needed.any(axis=1))
+        if general.size:
+            world = with_inertial(self._recipe.world, name, kind, values[general[0]])
+            self._change(replace(self._recipe, world=world))
+
     # -- saving ------------------------------------------------------------------------
+
+    def history(self) -> list[Call]:
+        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+        self._now()
+        recipe = self._recipe
+        calls = [Call("make_kinematic", (name,)) for name in sorted(recipe.kinematic)]
+        calls += [Call("add_motor", (m.joint, m.max_effort)) for m in recipe.motors.values()]
+        calls += [Call("attach", (pair.parent, pair.child)) for pair in recipe.attachments]
+        values: Mapping[tuple[str, str], Floats] = self._parameters.values
+        return calls + [
+            Call("set_parameter", (kind, name, each)) for (kind, name), each in values.items()
+        ]
+
+    def adopt(self, history: Sequence[Call]) -> None:
+        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
+        kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
+        motors = [Motor(*call.arguments) for call in history if call.method == "add_motor"]
+        pairs = [Attachment(*call.arguments) for call in history if call.method == "attach"]
+        recipe = Recipe(
+            self.world,
+            self._recipe.time_step,
+            frozenset(kinematic),
+            {motor.joint: motor for motor in motors},
+            tuple(pairs),
+        )
+        self._parameters = ParameterStore(self._nworld)
+        self._change(recipe)
+        for call in history:
+            if call.method == "set_parameter":
+                self.set_parameter(*call.arguments)
 
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
         self._now()
         state: Floats = self._batch.state.copy()
+        if self._sleepy:
+            # Who sleeps is not in the state; all awake, this future and a restored one agree.
+            self.restore(state)
         return state
 
     def restore(self, state: Floats) -> None:
@@ -203,8 +341,16 @@ class MujocoEngine(StateAccess):
                 f"{self._batch.state.shape}",
                 hint="restore into a simulation with the same models and number of worlds",
             )
+        if self._sleepy:
+            self._batch.reset(stage=_NO_STAGE)
         self._batch.state[:] = state
         self._stale = True
+
+    def peek(self) -> Floats:
+        """The whole dynamic state, shape (nworld, size), as a view that must not be kept."""
+        self._now()
+        view: Floats = self._batch.state
+        return view
 
     def close(self) -> None:
         """Free threads and memory; the engine must not be used any more."""

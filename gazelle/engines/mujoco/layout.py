@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -41,6 +41,7 @@ class LinkSlot:
         free: Columns of its free joint, if it has one.
         mocap: Row in ``mocap_pos``, if it is kinematic.
         pose: Its pose in the world in the initial state, if it is a root.
+        carrier: Scoped name of the root link that carries it, its own for a root.
     """
 
     body: int
@@ -48,6 +49,7 @@ class LinkSlot:
     free: Slot | None
     mocap: int | None
     pose: Pose
+    carrier: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +71,23 @@ class ModelSlot:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Names to places."""
+    """Names to places.
+
+    Attributes:
+        links: By scoped name.
+        joints: Those that move, by scoped name.
+        models: By name.
+        motors: Columns in ``ctrl`` by scoped joint name.
+        collisions: Indices of MuJoCo's geoms by scoped name, ``model::link::collision``.
+        attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
+    """
 
     links: Mapping[str, LinkSlot]
     joints: Mapping[str, tuple[Slot, ...]]
     models: Mapping[str, ModelSlot]
     motors: Mapping[str, int]
+    collisions: Mapping[str, list[int]]
+    attachments: Mapping[str, int]
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -82,7 +95,7 @@ class Layout:
         Raises:
             EngineError: There is none of that name.
         """
-        return _look_up("link", name, self.links)
+        return look_up("link", name, self.links)
 
     def joint(self, name: str) -> tuple[Slot, ...]:
         """The slots of a joint, one an axis.
@@ -90,7 +103,7 @@ class Layout:
         Raises:
             EngineError: There is none of that name.
         """
-        return _look_up("joint", name, self.joints)
+        return look_up("joint", name, self.joints)
 
     def model(self, name: str) -> ModelSlot:
         """The slot of a model.
@@ -98,7 +111,7 @@ class Layout:
         Raises:
             EngineError: There is none of that name.
         """
-        return _look_up("model", name, self.models)
+        return look_up("model", name, self.models)
 
     def motor(self, joint: str) -> int:
         """The column in ``ctrl`` of a joint's motor.
@@ -106,17 +119,22 @@ class Layout:
         Raises:
             EngineError: The joint has no motor.
         """
-        return _look_up("motor on joint", joint, self.motors)
+        return look_up("motor on joint", joint, self.motors)
 
 
-def _look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
+def look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
+    """What a name stands for.
+
+    Raises:
+        EngineError: There is none of that name.
+    """
     try:
         return known[name]
     except KeyError:
         raise EngineError(f"there is no {kind} '{name}'", hint=did_you_mean(name, known)) from None
 
 
-def layout_of(compiled: Compiled) -> Layout:
+def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
     """Find everything of a compiled world."""
     model = compiled.model
     links: dict[str, LinkSlot] = {}
@@ -124,19 +142,23 @@ def layout_of(compiled: Compiled) -> Layout:
     models: dict[str, ModelSlot] = {}
     for name, bodies in compiled.bodies.items():
         for body in bodies:
-            links[body.name] = _link_slot(model, body)
+            above = None if body.parent is None else links[body.parent]
+            links[body.name] = _link_slot(model, body, above)
             if body.joint is not None and body.joint.type != "fixed":
                 joints[body.joint_name] = _joint_slots(model, body.joint_name)
         models[name] = _model_slot(bodies, joints)
     motors = {model.actuator(column).name: column for column in range(model.nu)}
-    return Layout(links, joints, models, motors)
+    collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
+    held = {name: model.equality(name).id for name in attachments}
+    return Layout(links, joints, models, motors, collisions, held)
 
 
-def _link_slot(model: mujoco.MjModel, body: Body) -> LinkSlot:
+def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:
     index = 0 if body.root == "static" else model.body(body.name).id
     free = _slot(model, model.joint(body.name).id) if body.root == "free" else None
     mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
-    return LinkSlot(index, body.root, free, mocap, body.pose)
+    carrier = body.name if above is None else above.carrier
+    return LinkSlot(index, body.root, free, mocap, body.pose, carrier)
 
 
 def _joint_slots(model: mujoco.MjModel, name: str) -> tuple[Slot, ...]:

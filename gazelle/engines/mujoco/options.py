@@ -8,6 +8,7 @@ from __future__ import annotations
 import mujoco
 
 from gazelle.description import World
+from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead
 
 _LINE_SEARCH_ITERATIONS = 20
 
@@ -20,11 +21,17 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     option.integrator = mujoco.mjtIntegrator.mjINT_EULER
     option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
-    option.iterations = 20
+    # Newton's method is done after a few; the file's number is where it gives up.
+    option.iterations = max(1, world.profile.ode.iters)
     option.ls_iterations = _LINE_SEARCH_ITERATIONS
+    option.gravity = list(world.gravity)
+    option.magnetic = list(world.magnetic_field)
+    option.sleep_tolerance = SLEEP_SPEED
+    if lets_sleep(world):
+        option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    if looks_ahead(world, time_step):
+        option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     spec.compiler.autolimits = True
     spec.compiler.degree = False
     spec.compiler.discardvisual = False
     spec.compiler.fusestatic = False
-    option.gravity = list(world.gravity)
-    option.magnetic = list(world.magnetic_field)

@@ -11,7 +11,7 @@ _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
 
 
 def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -> None:
-    """Copy the state of every joint, kinematic body and motor that both batches have."""
+    """Copy the state of every joint, kinematic body, motor and attachment that both batches have."""
     new.time[:] = old.time
     for name, slots in new_layout.joints.items():
         for here, there in zip(slots, old_layout.joints.get(name, ()), strict=False):
@@ -23,6 +23,9 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
     for name, column in new_layout.motors.items():
         if name in old_layout.motors:
             new.ctrl[:, column] = old.ctrl[:, old_layout.motors[name]]
+    for name, column in new_layout.attachments.items():
+        if name in old_layout.attachments:
+            new.eq_active[:, column] = old.eq_active[:, old_layout.attachments[name]]
 
 
 def _copy_link(old: Batch, there: LinkSlot, new: Batch, here: LinkSlot) -> None:

@@ -17,7 +17,8 @@ class StateViews:
     """Live views, all with a leading axis over worlds.
 
     Attributes:
-        faults: Counts of bad positions, velocities and accelerations, shape (nworld, 3).
+        faults: Counts of bad positions, velocities, accelerations and commands, shape
+            (nworld, 4).
     """
 
     qpos: Floats
@@ -26,12 +27,13 @@ class StateViews:
     mocap_pos: Floats
     mocap_quat: Floats
     qfrc_applied: Floats
+    xfrc_applied: Floats
     faults: NDArray[np.int32]
 
     @classmethod
     def of(cls, batch: Batch) -> StateViews:
         """The views of a batch."""
-        first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQACC
+        first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADCTRL
         return cls(
             qpos=batch.bind("qpos"),
             qvel=batch.bind("qvel"),
@@ -39,5 +41,6 @@ class StateViews:
             mocap_pos=batch.bind("mocap_pos"),
             mocap_quat=batch.bind("mocap_quat"),
             qfrc_applied=batch.bind("qfrc_applied"),
+            xfrc_applied=batch.bind("xfrc_applied"),
             faults=batch.warning[:, int(first) : int(last) + 1, 1],
         )

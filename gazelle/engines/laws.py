@@ -1,0 +1,21 @@
+"""What holds for a whole world: its physics profile, apart from what is in it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gazelle.description import Physics, Vector3, World
+
+
+def with_profile(world: World, profile: Physics) -> World:
+    """The world with its physics profile in use replaced."""
+    used = world.profile
+    if not any(each is used for each in world.physics):
+        return replace(world, physics=(*world.physics, profile))
+    changed = tuple(profile if each is used else each for each in world.physics)
+    return replace(world, physics=changed)
+
+
+def laws_of(world: World) -> tuple[Physics, Vector3, Vector3]:
+    """What moves bodies: physics profile, gravity and magnetic field."""
+    return world.profile, world.gravity, world.magnetic_field

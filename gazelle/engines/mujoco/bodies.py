@@ -1,0 +1,150 @@
+"""Put links somewhere, push them, and hold them together."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.engines.engine import Floats, Placement, Worlds
+from gazelle.engines.mujoco.access import StateAccess, rows_of, unit
+from gazelle.engines.mujoco.attachments import Attachment
+from gazelle.engines.mujoco.layout import Layout, LinkSlot
+from gazelle.errors import EngineError
+from gazelle.rotations import conjugate, cross, multiply, rotate
+
+
+class BodyAccess(StateAccess):
+    """The part of ``gazelle.engines.engine.Engine`` that handles single links."""
+
+    @abstractmethod
+    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
+        """A physical parameter."""
+
+    @abstractmethod
+    def set_parameter(
+        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Change a physical parameter."""
+
+    @abstractmethod
+    def _prepare(self, pair: Attachment) -> Layout:
+        """The layout of what runs, in which two links can be held together."""
+
+    # -- placing -----------------------------------------------------------------------
+
+    def set_link_placement(
+        self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Move the links that hang together with a link so that it is there, joints as they are."""
+        slot = self._now().link(link)
+        if slot.root == "static":
+            self.make_kinematic(link.partition("::")[0])
+            slot = self._now().link(link)
+        here = self.link_placement(link, worlds)
+        goal_p = np.broadcast_to(np.asarray(position, np.float64), here.position.shape)
+        goal_q = unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape))
+        carrier = self._loose_carrier(link, slot)
+        root = self.link_placement(slot.carrier, worlds)
+        turn = multiply(goal_q, conjugate(here.quaternion))
+        moved = goal_p + rotate(turn, root.position - here.position)
+        self._put(carrier, moved, multiply(turn, root.quaternion), worlds)
+        self._stale = True
+
+    def set_link_motion(
+        self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Give a link a velocity; those that hang together with it keep their joints' speeds."""
+        slot = self._now().link(link)
+        carrier = self._loose_carrier(link, slot)
+        if carrier.free is None:
+            raise EngineError(f"link '{link}' moves only when it is placed; it has no velocity")
+        here, motion = self.link_placement(link, worlds), self.link_motion(link, worlds)
+        root, carried = self._of_carrier(slot, worlds)
+        spin = np.broadcast_to(np.asarray(angular, np.float64), motion.angular.shape)
+        more_spin = spin - motion.angular
+        more = np.asarray(linear, np.float64) - motion.linear
+        arm = root.position - here.position
+        velocity = carried[0] + more + cross(more_spin, arm)
+        local = rotate(conjugate(root.quaternion), carried[1] + more_spin)
+        both = np.concatenate((velocity, local), axis=1)
+        self._state.qvel[rows_of(worlds), carrier.free.velocity] = both
+        self._stale = True
+
+    def _of_carrier(
+        self, slot: LinkSlot, worlds: Worlds | None
+    ) -> tuple[Placement, tuple[Floats, Floats]]:
+        motion = self.link_motion(slot.carrier, worlds)
+        return self.link_placement(slot.carrier, worlds), (motion.linear, motion.angular)
+
+    def _loose_carrier(self, link: str, slot: LinkSlot) -> LinkSlot:
+        """The root of the tree that a link is in, which can be put somewhere."""
+        carrier = self._layout.link(slot.carrier)
+        if carrier.free is None and carrier.mocap is None:
+            raise EngineError(
+                f"link '{link}' is fixed to the world by a joint and cannot be moved",
+                hint=f"set the joints between the world and '{link}' instead",
+            )
+        return carrier
+
+    # -- pushing -----------------------------------------------------------------------
+
+    def link_centre(self, link: str, worlds: Worlds | None = None) -> Floats:
+        """Where a link's centre of mass is [m], in the world frame, shape (n, 3)."""
+        place = self.link_placement(link, worlds)
+        slot = self._layout.link(link)
+        if slot.body == 0 or slot.mocap is not None:
+            return place.position
+        offset = self.parameter("link_centre", link, worlds)
+        return place.position + rotate(place.quaternion, offset)
+
+    def set_link_wrench(
+        self, link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Push a link at its centre of mass until told otherwise, in the world frame."""
+        slot = self._now().link(link)
+        if slot.body == 0 or slot.mocap is not None:
+            raise EngineError(f"link '{link}' does not move; nothing can push it")
+        rows = rows_of(worlds)
+        self._state.xfrc_applied[rows, slot.body, :3] = force
+        self._state.xfrc_applied[rows, slot.body, 3:] = torque
+
+    def joint_effort(self, joint: str, worlds: Worlds | None = None) -> Floats:
+        """The effort that ``set_joint_effort`` applies now [N or N m], shape (n, axes)."""
+        slots = self._now().joint(joint)
+        rows = rows_of(worlds)
+        return np.concatenate([self._state.qfrc_applied[rows, s.velocity] for s in slots], axis=1)
+
+    # -- holding -----------------------------------------------------------------------
+
+    def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+        """Hold two links together as they are to each other now."""
+        pair = Attachment(parent, child)
+        ends = [self._now().link(link).body for link in (parent, child)]
+        if ends[0] == ends[1]:
+            raise EngineError(f"'{parent}' and '{child}' cannot move against each other anyway")
+        layout = self._prepare(pair)
+        base, held = self._body_placement(parent, worlds), self._body_placement(child, worlds)
+        back = conjugate(base.quaternion)
+        position = rotate(back, held.position - base.position)
+        pose = np.concatenate((position, multiply(back, held.quaternion)), axis=1)
+        self.set_parameter("attachment", pair.name, pose, worlds)
+        self._batch.eq_active[rows_of(worlds), layout.attachments[pair.name]] = 1.0
+
+    def _body_placement(self, link: str, worlds: Worlds | None) -> Placement:
+        """Where MuJoCo's body of a link is: the world's at the origin."""
+        place = self.link_placement(link, worlds)
+        if self._layout.link(link).body != 0:
+            return place
+        upright = np.zeros_like(place.quaternion)
+        upright[:, 3] = 1.0
+        return Placement(np.zeros_like(place.position), upright)
+
+    def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+        """Let go two links that ``attach`` holds together."""
+        name = Attachment(parent, child).name
+        layout = self._now()
+        if name not in layout.attachments:
+            raise EngineError(f"'{child}' was never attached to '{parent}'")
+        self._batch.eq_active[rows_of(worlds), layout.attachments[name]] = 0.0

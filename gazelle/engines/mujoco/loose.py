@@ -1,0 +1,85 @@
+"""Loose bodies: whether they may sleep, and whether they may be too fast for a step."""
+
+from __future__ import annotations
+
+import mujoco
+
+from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
+
+# From so many loose bodies on the time saved outweighs an ``MjData`` for every world.
+_MANY = 16
+
+# Speed below which a body may go to sleep [m/s]. At MuJoCo's 1e-3 a pendulum that swings
+# by a hundredth of a radian would stop where it turns back.
+SLEEP_SPEED = 1e-4
+
+# Speed that a loose body may well have [m/s]: a ball thrown or shot.
+_FAST = 20.0
+
+
+def lets_sleep(world: World) -> bool:
+    """Whether bodies at rest go to sleep: as the world says, else where many could."""
+    wanted = world.profile.auto_disable
+    if wanted is not None:
+        return wanted
+    return sum(_is_loose(m) and m.allow_auto_disable for m in world.models) >= _MANY
+
+
+def looks_ahead(world: World, time_step: float) -> bool:
+    """Whether contacts are sought on the way of a step: as the world says, else if need be.
+
+    There is need when a loose body is so small that, at ``_FAST``, it moves in one step by
+    more than half its thickness. Robots do not get that fast.
+    """
+    wanted = world.profile.speculative_contacts
+    if wanted is not None:
+        return wanted
+    reach = _FAST * time_step
+    return any(_is_loose(model) and _half_thickness(model) <= reach for model in world.models)
+
+
+def keep_awake(model: mujoco.MjModel, world: World) -> None:
+    """Let only loose bodies sleep that the description allows to.
+
+    Something with joints may stand still for a moment in the middle of a motion.
+    """
+    never = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
+    for each in world.models:
+        if each.static or (_is_loose(each) and each.allow_auto_disable):
+            continue
+        for placed in each.walk():
+            for link in placed.model.links:
+                body = mujoco.mj_name2id(
+                    model, mujoco.mjtObj.mjOBJ_BODY, f"{placed.scope}::{link.name}"
+                )
+                if body > 0 and model.body_treeid[body] >= 0:
+                    model.tree_sleep_policy[model.body_treeid[body]] = never
+
+
+def _is_loose(model: Model) -> bool:
+    return not model.static and not any(placed.model.joints for placed in model.walk())
+
+
+def _half_thickness(model: Model) -> float:
+    """Half the least extent of all shapes of a model [m]; infinite if there are none."""
+    return min(
+        (
+            _half(collision.geometry)
+            for placed in model.walk()
+            for link in placed.model.links
+            for collision in link.collisions
+        ),
+        default=float("inf"),
+    )
+
+
+def _half(shape: object) -> float:
+    if isinstance(shape, Box):
+        return min(shape.size) / 2.0
+    if isinstance(shape, Sphere | Capsule):
+        return shape.radius
+    if isinstance(shape, Cylinder):
+        return min(shape.radius, shape.length / 2.0)
+    if isinstance(shape, Ellipsoid):
+        return min(shape.radii)
+    return float("inf")

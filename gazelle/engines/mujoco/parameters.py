@@ -1,0 +1,284 @@
+"""Physical parameters that each world can have of its own.
+
+MuJoCo keeps one model for all worlds; a field that differs is *expanded* to a row a world.
+What was set is kept here by name, so that it survives spawning, deleting and recompiling.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from gazelle.engines.mujoco.inertia import matrices, principal, tensor
+from gazelle.engines.mujoco.layout import Layout, look_up
+from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
+from gazelle.errors import EngineError
+
+Floats = NDArray[np.float64]
+Key = tuple[str, str]
+
+# MuJoCo has no infinite limits.
+_FAR = 1e10
+
+# Friction above it is taken as it, as of every surface.
+_LARGEST_FRICTION = 10.0
+
+# A joint that had no limits when compiled gets stops like those that had.
+_LIMIT_STEPS = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Target:
+    """A batch, and where things are in it."""
+
+    batch: Batch
+    layout: Layout
+
+    def body(self, link: str) -> int:
+        """The body of a link that moves."""
+        if self.is_held(link):
+            raise EngineError(f"link '{link}' does not move; it has no mass to change")
+        return self.layout.link(link).body
+
+    def is_held(self, link: str) -> bool:
+        """Whether a link moves only when it is placed."""
+        slot = self.layout.link(link)
+        return slot.body == 0 or slot.mocap is not None
+
+    def dofs(self, joint: str) -> list[slice]:
+        """Degrees of freedom of a joint, one slice an axis."""
+        return [slot.velocity for slot in self.layout.joint(joint)]
+
+    def joint_ids(self, joint: str) -> list[int]:
+        """MuJoCo's joints, one an axis."""
+        return [int(self.batch.model.dof_jntid[dofs.start]) for dofs in self.dofs(joint)]
+
+    def geoms(self, collision: str) -> list[int]:
+        """MuJoCo's geoms of a collision."""
+        return look_up("collision", collision, self.layout.collisions)
+
+
+# -- reading what was compiled -----------------------------------------------------------
+
+
+def _read_inertia(target: _Target, name: str) -> Floats:
+    model, body = target.batch.model, target.body(name)
+    return tensor(model.body_inertia[body], model.body_iquat[body])
+
+
+def _read_attachment(target: _Target, name: str) -> Floats:
+    column = look_up("attachment", name, target.layout.attachments)
+    data = target.batch.model.eq_data[column]
+    return np.concatenate((data[3:6], xyzw_from_wxyz(data[6:10])))
+
+
+def _read_limit(target: _Target, name: str, side: int) -> Floats:
+    model, ids = target.batch.model, target.joint_ids(name)
+    values = np.where(model.jnt_limited[ids] != 0, model.jnt_range[ids, side], np.inf)
+    bounds: Floats = np.where(np.abs(values) >= _FAR, np.inf, values)
+    return np.where(np.isinf(bounds), -np.inf if side == 0 else np.inf, bounds)
+
+
+def _read_friction(target: _Target, name: str) -> Floats:
+    geoms = target.geoms(name)
+    if not geoms:
+        raise EngineError(f"collision '{name}' has no shape that could rub")
+    return np.array([target.batch.model.geom_friction[geoms[0], 0]])
+
+
+_READERS: dict[str, Callable[[_Target, str], Floats]] = {
+    "attachment": _read_attachment,
+    "collision_friction": _read_friction,
+    "gravity": lambda t, _: np.array(t.batch.model.opt.gravity),
+    "joint_damping": lambda t, n: np.array([t.batch.model.dof_damping[d.start] for d in t.dofs(n)]),
+    "joint_friction": lambda t, n: np.array(
+        [t.batch.model.dof_frictionloss[d.start] for d in t.dofs(n)]
+    ),
+    "joint_lower": lambda t, n: _read_limit(t, n, 0),
+    "joint_upper": lambda t, n: _read_limit(t, n, 1),
+    "link_centre": lambda t, n: np.array(t.batch.model.body_ipos[t.body(n)]),
+    "link_gravity": lambda t, n: np.array([1.0 - t.batch.model.body_gravcomp[t.body(n)]]),
+    "link_inertia": _read_inertia,
+    "link_mass": lambda t, n: np.array([t.batch.model.body_mass[t.body(n)]]),
+    "motor_effort": lambda t, n: np.array(
+        [t.batch.model.actuator_forcerange[t.layout.motor(n), 1]]
+    ),
+}
+
+
+# -- writing -----------------------------------------------------------------------------
+
+
+def _write_mass(target: _Target, name: str, values: Floats) -> None:
+    target.batch.expand("body_mass")[:, target.body(name)] = values[:, 0]
+
+
+def _write_centre(target: _Target, name: str, values: Floats) -> None:
+    _free_frames(target, target.body(name))
+    target.batch.expand("body_ipos")[:, target.body(name)] = values
+
+
+def _write_inertia(target: _Target, name: str, values: Floats) -> None:
+    moments, axes = principal(matrices(values))
+    body = target.body(name)
+    _free_frames(target, body)
+    target.batch.expand("body_inertia")[:, body] = moments
+    target.batch.expand("body_iquat")[:, body] = axes
+
+
+def _free_frames(target: _Target, body: int) -> None:
+    """Let no shape take its place from the inertial frame, as MuJoCo does where they agree."""
+    target.batch.expand("body_sameframe")[:, body] = 0
+    of_body = target.batch.model.geom_bodyid == body
+    target.batch.expand("geom_sameframe")[:, of_body] = 0
+
+
+def _write_gravity_share(target: _Target, name: str, values: Floats) -> None:
+    target.batch.expand("body_gravcomp")[:, target.body(name)] = 1.0 - values[:, 0]
+
+
+def _write_damping(target: _Target, name: str, values: Floats) -> None:
+    for axis, dofs in enumerate(target.dofs(name)):
+        target.batch.expand("dof_damping")[:, dofs] = values[:, axis : axis + 1]
+
+
+def _write_joint_friction(target: _Target, name: str, values: Floats) -> None:
+    for axis, dofs in enumerate(target.dofs(name)):
+        target.batch.expand("dof_frictionloss")[:, dofs] = values[:, axis : axis + 1]
+
+
+def _write_limit(target: _Target, name: str, values: Floats, side: int) -> None:
+    batch, ids = target.batch, target.joint_ids(name)
+    bounds = batch.expand("jnt_range")
+    never = batch.model.jnt_limited[ids] == 0
+    fresh = never & ~(batch.expand("jnt_limited")[:, ids] != 0).any(axis=0)
+    for joint in np.asarray(ids)[fresh]:
+        bounds[:, joint] = (-_FAR, _FAR)
+        batch.expand("jnt_solref")[:, joint] = (_LIMIT_STEPS * batch.model.opt.timestep, 1.0)
+    bounds[:, ids, side] = np.clip(values, -_FAR, _FAR)
+    batch.expand("jnt_limited")[:, ids] = (np.abs(bounds[:, ids]) < _FAR).any(axis=2)
+
+
+def _write_motor(target: _Target, name: str, values: Floats) -> None:
+    both = np.concatenate((-values, values), axis=1)
+    target.batch.expand("actuator_forcerange")[:, target.layout.motor(name)] = both
+
+
+def _write_friction(target: _Target, name: str, values: Floats) -> None:
+    friction = target.batch.expand("geom_friction")
+    friction[:, target.geoms(name), 0] = np.minimum(values, _LARGEST_FRICTION)
+    # The slipperier of two surfaces decides: the finer their order, the better.
+    slipperiness = (_LARGEST_FRICTION - friction[:, :, 0]) * 1e6
+    target.batch.expand("geom_priority")[:] = slipperiness.astype(np.int32)
+
+
+def _write_gravity(target: _Target, _: str, values: Floats) -> None:
+    target.batch.expand("opt.gravity")[:] = values
+
+
+def _write_attachment(target: _Target, name: str, values: Floats) -> None:
+    column = look_up("attachment", name, target.layout.attachments)
+    data = target.batch.expand("eq_data")[:, column]
+    data[:] = 0.0
+    data[:, 3:6] = values[:, :3]
+    data[:, 6:10] = wxyz_from_xyzw(values[:, 3:])
+    data[:, 10] = 1.0  # how much a turn counts against a shift [m]
+
+
+_WRITERS: dict[str, Callable[[_Target, str, Floats], None]] = {
+    "attachment": _write_attachment,
+    "collision_friction": _write_friction,
+    "gravity": _write_gravity,
+    "joint_damping": _write_damping,
+    "joint_friction": _write_joint_friction,
+    "joint_lower": lambda t, n, v: _write_limit(t, n, v, 0),
+    "joint_upper": lambda t, n, v: _write_limit(t, n, v, 1),
+    "link_centre": _write_centre,
+    "link_gravity": _write_gravity_share,
+    "link_inertia": _write_inertia,
+    "link_mass": _write_mass,
+    "motor_effort": _write_motor,
+}
+
+# What MuJoCo derives other constants from, by ``mj_setConst``.
+_DERIVED_FROM = frozenset({"link_centre", "link_gravity", "link_inertia", "link_mass"})
+
+
+class ParameterStore:
+    """All that worlds have of their own.
+
+    Args:
+        nworld: Number of worlds.
+    """
+
+    def __init__(self, nworld: int) -> None:
+        self._nworld = nworld
+        self._values: dict[Key, Floats] = {}
+
+    @property
+    def values(self) -> Mapping[Key, Floats]:
+        """What was set, by kind and name, shape (nworld, width)."""
+        return self._values
+
+    def read(self, batch: Batch, layout: Layout, kind: str, name: str) -> Floats:
+        """Values of all worlds, shape (nworld, width)."""
+        if (kind, name) in self._values:
+            return self._values[kind, name].copy()
+        compiled = look_up("parameter", kind, _READERS)(_Target(batch, layout), name)
+        return np.tile(compiled, (self._nworld, 1))
+
+    def write(self, batch: Batch, layout: Layout, key: Key, values: Floats) -> None:
+        """Let worlds have these values from now on, shape (nworld, width)."""
+        _WRITERS[key[0]](_Target(batch, layout), key[1], values)
+        self._values[key] = values
+        if key[0] in _DERIVED_FROM:
+            batch.set_const()
+
+    def apply(self, batch: Batch, layout: Layout) -> None:
+        """Give a new batch all that was set."""
+        target = _Target(batch, layout)
+        for (kind, name), values in self._values.items():
+            if not (kind.startswith("link_") and target.is_held(name)):
+                _WRITERS[kind](target, name, values)
+        if any(kind in _DERIVED_FROM for kind, _ in self._values):
+            batch.set_const()
+
+    def drop(self, model: str) -> None:
+        """Forget what was set for a model that is gone."""
+        inside = f"{model}::"
+        self._values = {
+            (kind, name): values
+            for (kind, name), values in self._values.items()
+            if not name.startswith(inside) and f">{inside}" not in name
+        }
+
+    def forget(self, kind: str, name: str) -> None:
+        """Forget one parameter; a batch made from now on has the description's."""
+        self._values.pop((kind, name), None)
+
+    def copy(self) -> ParameterStore:
+        """The same, to be changed apart."""
+        other = ParameterStore(self._nworld)
+        other._values = dict(self._values)  # its own class
+        return other
+
+
+def check(kind: str, name: str, values: Floats) -> None:
+    """Refuse values that no world can have.
+
+    Raises:
+        EngineError: A value is not finite, not positive where it must be, or no tensor.
+    """
+    limits = kind in {"joint_lower", "joint_upper"}
+    if np.isnan(values).any() or not (limits or np.isfinite(values).all()):
+        raise EngineError(f"the {kind} of '{name}' must be finite")
+    if kind in {"link_mass", "motor_effort"} and not (values > 0.0).all():
+        raise EngineError(f"the {kind} of '{name}' must be positive, not {values.min():g}")
+    if kind in {"collision_friction", "joint_damping", "joint_friction"} and (values < 0.0).any():
+        raise EngineError(f"the {kind} of '{name}' must not be negative, not {values.min():g}")
+    if kind == "link_inertia" and not (np.linalg.eigvalsh(matrices(values)) > 0.0).all():
+        raise EngineError(f"the inertia of '{name}' must be positive definite")
