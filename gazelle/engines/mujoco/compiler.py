@@ -13,7 +13,7 @@ import numpy as np
 
 from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
-from gazelle.engines.mujoco.contacts import Solid, add_pairs, tune_springs
+from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.options import set_options
@@ -82,8 +82,50 @@ class Compiled:
     geoms: Mapping[str, list[str]]
 
 
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """A MuJoCo model that is not compiled yet.
+
+    Attributes:
+        spec: What MuJoCo compiles.
+        shapes: That made its geoms, and knows the meshes in it.
+        bodies: By model name, in order.
+        geoms: Names of MuJoCo's geoms by scoped collision.
+        springs: Contacts whose terms depend on the compiled model.
+    """
+
+    spec: mujoco.MjSpec
+    shapes: ShapeBuilder
+    bodies: Mapping[str, list[Body]]
+    geoms: Mapping[str, list[str]]
+    springs: list[Spring]
+
+    def compile(self) -> mujoco.MjModel:
+        """The MuJoCo model.
+
+        Raises:
+            EngineError: Something in the description cannot be simulated.
+        """
+        try:
+            compiled = self.spec.compile()
+        except ValueError as error:
+            raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
+        tune_springs(compiled, self.springs)
+        return compiled
+
+
 def compile_world(recipe: Recipe) -> Compiled:
     """Build the MuJoCo model of a world's collision shapes.
+
+    Raises:
+        EngineError: Something in the description cannot be simulated.
+    """
+    draft = draft_world(recipe)
+    return Compiled(draft.compile(), draft.bodies, draft.geoms)
+
+
+def draft_world(recipe: Recipe) -> Draft:
+    """All that the model of a world is compiled from.
 
     Raises:
         EngineError: Something in the description cannot be simulated.
@@ -106,12 +148,7 @@ def compile_world(recipe: Recipe) -> Compiled:
         _add_motor(spec, motor, bodies, recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
     springs = add_pairs(spec, builder.solids, recipe.time_step)
-    try:
-        compiled = spec.compile()
-    except ValueError as error:
-        raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
-    tune_springs(compiled, springs)
-    return Compiled(compiled, bodies, builder.geoms)
+    return Draft(spec, builder.shapes, bodies, builder.geoms, springs)
 
 
 class _Builder:
@@ -123,7 +160,7 @@ class _Builder:
         self._spec = spec
         self._time_step = recipe.time_step
         self._bodies = bodies
-        self._shapes = ShapeBuilder(spec)
+        self.shapes = ShapeBuilder(spec)
         self.geoms: dict[str, list[str]] = {}
         self._masses = {
             name: sum((part.link.inertial or Inertial()).mass for part in parts)
@@ -170,7 +207,7 @@ class _Builder:
             surface = surface_options(collision, self._time_step, self._ranks)
             placed = pose * collision.pose
             names = self.geoms.setdefault(f"{body.name}::{collision.name}", [])
-            for shape in self._shapes.options(collision.geometry, placed, collision.source):
+            for shape in self.shapes.options(collision.geometry, placed, collision.source):
                 names.append(f"{body.name}::{collision.name}#{len(names)}")
                 handle.add_geom(name=names[-1], group=COLLISION_GROUP, mass=0.0, **surface, **shape)
                 self.solids.append(self._solid(names[-1], body, collision))
