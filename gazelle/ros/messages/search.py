@@ -7,13 +7,17 @@ order, a folder with a ``package.xml`` is a package and is not searched further.
 from __future__ import annotations
 
 import os
+import warnings
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from pathlib import Path
 
+from gazelle.errors import FormatWarning
+from gazelle.ros.messages.errors import InvalidDefinitionError
 from gazelle.ros.messages.library import Definition, PackageDefinitions
 
-_IGNORE_MARKERS = ("CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs")
+_IGNORED = "CATKIN_IGNORE"
+_NOT_DEEPER = "rospack_nosubdirs"
 _DEEPEST = 12
 _FOLDERS = (("msg", "msg"), ("srv", "srv"), ("action", "action"))
 
@@ -35,7 +39,7 @@ def find_packages(path: str | None = None) -> dict[str, Path]:
     if path not in _crawled:
         found: dict[str, Path] = {}
         for root in filter(None, path.split(os.pathsep)):
-            for folder in _package_folders(Path(root), _DEEPEST):
+            for folder in _package_folders(Path(root), _DEEPEST, set()):
                 found.setdefault(_package_name(folder), folder)
         _crawled[path] = found
     return _crawled[path]
@@ -47,34 +51,39 @@ def forget() -> None:
 
 
 def read_definitions(folder: Path) -> PackageDefinitions:
-    """All definitions in a package's folder.
-
-    Raises:
-        InvalidDefinitionError: An action is malformed.
-    """
+    """All definitions in a package's folder; an action that is malformed is left out, and named."""
     found = PackageDefinitions()
     for name, kind in _FOLDERS:
         for file in sorted((folder / name).glob(f"*.{kind}")):
             text = file.read_text(encoding="utf-8", errors="replace").replace("\r\n", "\n")
-            found.add(kind, file.stem, Definition(text, str(file)))
+            try:
+                found.add(kind, file.stem, Definition(text, str(file)))
+            except InvalidDefinitionError as err:
+                warnings.warn(str(err), FormatWarning, stacklevel=2)
     return found
 
 
-def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
+def _package_folders(folder: Path, depth: int, seen: set[str]) -> Iterator[Path]:
+    real = os.path.realpath(folder)
+    if real in seen:  # links may lead in circles
+        return
+    seen.add(real)
     try:
         with os.scandir(folder) as entries:
             listed = sorted(entries, key=lambda entry: entry.name)
     except OSError:
         return
     names = {entry.name for entry in listed}
+    if _IGNORED in names:
+        return
     if "package.xml" in names or "manifest.xml" in names:
         yield folder
         return
-    if depth == 0 or names.intersection(_IGNORE_MARKERS):
+    if depth == 0 or _NOT_DEEPER in names:
         return
     for entry in listed:
         if entry.name[0] != "." and entry.is_dir():
-            yield from _package_folders(Path(entry.path), depth - 1)
+            yield from _package_folders(Path(entry.path), depth - 1, seen)
 
 
 def _package_name(folder: Path) -> str:

@@ -1,5 +1,6 @@
 """Definitions: how they are read, and that their MD5 sums are those of the whole ROS world."""
 
+import os
 import random
 import re
 import string
@@ -8,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gazelle.errors import FormatWarning
 from gazelle.ros.messages import (
     InvalidDefinitionError,
     UnknownTypeError,
@@ -18,6 +20,7 @@ from gazelle.ros.messages import (
     register,
 )
 from gazelle.ros.messages.parse import parse_message, parse_service
+from gazelle.ros.messages.search import find_packages
 from gazelle.ros.messages.spec import CONSTANT_TYPES, SCALARS
 
 MESSAGE_MD5 = {
@@ -48,6 +51,9 @@ MESSAGE_MD5 = {
     "control_msgs/JointControllerState": "987ad85e4756f3aef7f1e5e7fe0595d1",
     "control_msgs/JointTrajectoryControllerState": "10817c60c2486ef6b33e97dcd87f4474",
     "control_msgs/PidState": "b138ec00e886c10e73f27e8712252ea6",
+    "control_msgs/FollowJointTrajectoryAction": "bc4f9b743838566551c0390c65f1a248",
+    "moveit_msgs/CollisionObject": "dbba710596087da521c07564160dfccb",
+    "moveit_msgs/MoveGroupAction": "33225407c32b189345eec6893a5a0da3",
     "openai_ros/RLExperimentInfo": "117729220546455cc216a7df0b6e91d0",
     "theconstruct_msgs/RLExperimentInfo": "117729220546455cc216a7df0b6e91d0",
 }
@@ -263,6 +269,23 @@ def test_a_definition_on_the_package_path_is_found_and_wins(tmp_path, monkeypatc
     assert load_service("kobuki_msgs/Blow")._response_class.__slots__ == ["heard"]
     assert load_message("kobuki_msgs/Led").__slots__ == ["value"]
     assert "kobuki_msgs/Horn" in definitions()
+
+
+def test_the_package_path_may_lead_in_circles_and_hold_malformed_actions(tmp_path, monkeypatch):
+    package = tmp_path / "odd_msgs"
+    (package / "action").mkdir(parents=True)
+    (package / "msg").mkdir()
+    (package / "package.xml").write_text("no xml")
+    (package / "action" / "Half.action").write_text("int32 a\n---\n")
+    (package / "msg" / "Good.msg").write_text("int32 a")
+    (tmp_path / "circle").symlink_to(tmp_path)
+    (tmp_path / "shut").mkdir()
+    (tmp_path / "shut" / "CATKIN_IGNORE").touch()
+    (tmp_path / "shut" / "package.xml").touch()
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path}{os.pathsep}{tmp_path / 'missing'}")
+    assert find_packages() == {"odd_msgs": package}
+    with pytest.warns(FormatWarning, match="Half.action"):
+        assert load_message("odd_msgs/Good")(3).a == 3
 
 
 @pytest.mark.parametrize(
