@@ -108,7 +108,8 @@ def round_table(
     parts = [
         post("top", radius, _TOP, (0.0, 0.0, height - _TOP / 2.0), color),
         post("leg", 0.045, leg, (0.0, 0.0, 0.03 + leg / 2.0), "steel"),
-        post("foot", radius * 0.6, 0.03, (0.0, 0.0, 0.015), "steel"),
+        slab("foot_x", (radius * 1.2, 0.08, 0.03), (0.0, 0.0, 0.015), "steel"),
+        slab("foot_y", (0.08, radius * 1.2, 0.03), (0.0, 0.0, 0.015), "steel"),
     ]
     return assemble(name, parts, pose=pose, mass=20.0 if movable else None)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -77,7 +78,7 @@ def physics(preset: PresetName | str = "default", **changes: float) -> Physics:
     for name, value in changes.items():
         if name not in numbers:
             raise BuildError(f"unknown setting '{name}'", hint=did_you_mean(name, numbers))
-        if value < 0.0 or (name == "max_step_size" and value == 0.0):
+        if not 0.0 <= value < math.inf or (name == "max_step_size" and value == 0.0):
             raise BuildError(f"'{name}' is out of range: {value:g}")
     return replace(chosen, **changes)  # type: ignore[arg-type]  # the names were just checked
 
