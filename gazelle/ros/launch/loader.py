@@ -9,7 +9,7 @@ from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch import nodes, params
 from gazelle.ros.launch.document import Element, parse_document, read_document
-from gazelle.ros.launch.errors import LaunchError, MissingArgumentError
+from gazelle.ros.launch.errors import LaunchError, MissingArgumentError, SubstitutionError
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.launch.plan import Argument, LaunchPlan, Machine, NodePlan, Place, TestPlan
 from gazelle.ros.launch.scope import Scope
@@ -89,10 +89,34 @@ def load_launch_text(
     return loader.plan
 
 
+def declared_arguments(
+    path: str | Path | Sequence[str | Path],
+    args: Mapping[str, str] | None = None,
+    *,
+    packages: Packages | None = None,
+) -> LaunchPlan:
+    """A plan that holds no more than what arguments launch files declare.
+
+    Raises:
+        LaunchError: A file is malformed.
+    """
+    loader = _Loader(packages, None, arguments_only=True)
+    for each in [path] if isinstance(path, (str, Path)) else list(path):
+        loader.load(read_document(str(each)), str(each), dict(args or {}), "/")
+    return loader.plan
+
+
 class _Loader:
     """Walks through launch files and fills a plan."""
 
-    def __init__(self, packages: Packages | None, environment: Mapping[str, str] | None) -> None:
+    def __init__(
+        self,
+        packages: Packages | None,
+        environment: Mapping[str, str] | None,
+        *,
+        arguments_only: bool = False,
+    ) -> None:
+        self._arguments_only = arguments_only
         self.plan = LaunchPlan()
         self._packages = packages or Packages(environment)
         self._environment = environment
@@ -167,6 +191,8 @@ class _Loader:
 
     def _children(self, parent: Element, scope: Scope) -> None:
         for element in parent.children:
+            if self._arguments_only and element.tag != "arg":
+                continue
             handler = self._handlers.get(element.tag)
             if handler is None:
                 hint = did_you_mean(element.tag, self._handlers)
@@ -209,7 +235,12 @@ class _Loader:
 
     def _arg(self, element: Element, scope: Scope) -> None:
         (name,) = scope.required(element, "name")
-        value, default = scope.text(element, "value"), scope.text(element, "default")
+        try:
+            value, default = scope.text(element, "value"), scope.text(element, "default")
+        except SubstitutionError:
+            if not self._arguments_only:
+                raise
+            value, default = None, element.attributes.get("default")
         if value is not None and default is not None:
             raise element.error("an argument has a value or a default, not both")
         scope.declare(element, name, value, default)

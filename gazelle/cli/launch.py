@@ -1,0 +1,173 @@
+"""Run a roslaunch file: start its nodes, and end them with Ctrl-C.
+
+  gazelle launch turtlebot3_gazebo turtlebot3_world.launch model:=waffle
+  gazelle launch ./my.launch gui:=false
+  gazelle launch my.launch --ros-args
+
+Packages are looked up on ROS_PACKAGE_PATH. Python nodes run as 'gazelle exec' runs them,
+so that 'import rospy' works with no ROS installed. A master is started if there is none.
+"""  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gazelle.cli.parsing import positive_float
+
+if TYPE_CHECKING:
+    from gazelle.ros.launch import LaunchPlan, Packages
+
+_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title", "-u", "-v")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "what",
+        nargs="+",
+        metavar="[PKG] FILE | arg:=value",
+        help="a launch file, '-' for standard input, or a package and a file in it",
+    )
+    shows = parser.add_argument_group("show instead of run")
+    shows.add_argument("--ros-args", action="store_true", help="the arguments that the file takes")
+    shows.add_argument("--files", action="store_true", help="the launch files that are read")
+    shows.add_argument("--nodes", action="store_true", help="the nodes")
+    shows.add_argument("--find-node", metavar="NODE", help="the launch file a node is in")
+    shows.add_argument("--args", metavar="NODE", help="the command line of a node")
+    shows.add_argument("--dump-params", action="store_true", help="the parameters, as YAML")
+    runs = parser.add_argument_group("run")
+    runs.add_argument("--screen", action="store_true", help="all nodes write to the screen")
+    runs.add_argument("--log", action="store_true", help="all nodes write to log files")
+    runs.add_argument("--required", action="store_true", help="end when any node ends")
+    runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
+    runs.add_argument("-p", "--port", type=int, help="port of the master")
+    runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
+    runs.add_argument("--pid", metavar="FILE", help="write the process number to a file")
+    runs.add_argument("--no-summary", action="store_true", help="do not show parameters and nodes")
+    runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
+    runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
+    for option in _NO_EFFECT:
+        runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
+    parser.set_defaults(parser=parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.ros.launch import Packages
+
+    packages = Packages()
+    plan = _load(args, packages)
+    for notice in plan.notices:
+        sys.stderr.write(f"gazelle: warning: {notice}\n")
+    shown = _show(args, plan, packages)
+    if shown is not None:
+        sys.stdout.write(shown)
+        return 0
+    if args.pid:
+        import os
+
+        Path(args.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
+    return _launch(args, plan, packages)
+
+
+def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
+    from gazelle.ros.launch import load_launch, load_launch_text
+    from gazelle.ros.names import split_arguments
+
+    words, given = split_arguments(args.what)
+    if args.ros_args:
+        return _arguments_only(words, given, packages, args.parser)
+    if words == ["-"]:
+        text = sys.stdin.buffer.read()
+        return load_launch_text(text, given, name="stdin", packages=packages)
+    return load_launch(_files(words, packages, args.parser), given, packages=packages)
+
+
+def _arguments_only(
+    words: list[str], given: dict[str, str], packages: Packages, parser: Any
+) -> Any:
+    from gazelle.ros.launch.loader import declared_arguments
+
+    plan: LaunchPlan = declared_arguments(_files(words, packages, parser), given, packages=packages)
+    return plan
+
+
+def _files(words: list[str], packages: Packages, parser: Any) -> list[str]:
+    """The launch files that are meant: files, or a package and the name of a file in it."""
+    from gazelle.ros.launch.finding import find_launch_file
+
+    if not words:
+        parser.error("give a launch file, or a package and a launch file")
+    if len(words) == 2 and not Path(words[0]).is_file():
+        return [str(find_launch_file(words[0], words[1], packages))]
+    return words
+
+
+def _show(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> str | None:
+    """What is asked for instead of a run."""
+    from gazelle.ros import net
+    from gazelle.ros.launch import describing
+
+    if args.ros_args:
+        return describing.arguments(plan)
+    if args.files:
+        return "".join(f"{file}\n" for file in plan.files)
+    if args.nodes:
+        return "".join(f"{node.full_name}\n" for node in [*plan.nodes, *plan.tests])
+    if args.find_node:
+        return f"{describing.find_node(plan, args.find_node).place.file}\n"
+    if args.args:
+        node = describing.find_node(plan, args.args)
+        return " ".join(describing.command(node, packages, net.default_master_uri())) + "\n"
+    if args.dump_params:
+        return describing.parameters(plan, packages)
+    return None
+
+
+def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int:
+    from dataclasses import replace
+
+    from gazelle.ros import net
+    from gazelle.ros.launch import describing
+    from gazelle.ros.launch.process import Patience
+    from gazelle.ros.launch.runner import Launch, Options
+
+    options = Options(
+        wait=args.wait,
+        screen=args.screen,
+        log=args.log,
+        run_id=args.run_id,
+        patience=Patience(args.sigint_timeout, args.sigterm_timeout),
+    )
+    if args.port is not None:
+        options.master_uri = net.uri_of(options.host, args.port)
+    if args.required:
+        plan.nodes = [replace(each, required=True, respawn=False) for each in plan.nodes]
+    if plan.tests:
+        _say(f"{len(plan.tests)} tests are not run; nodes only")
+    launch = Launch(plan, options, say=_say, packages=packages)
+
+    def end(number: int, _frame: object) -> None:
+        if launch.ended.is_set():
+            signal.signal(number, signal.SIG_DFL)  # asked twice: whoever asks again gets his way
+        launch.end()
+
+    for number in (signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
+        signal.signal(number, end)
+    if not args.no_summary:
+        sys.stdout.write(describing.summary(plan) + f"\nROS_MASTER_URI={launch.master_uri}\n\n")
+    with launch:
+        launch.start()
+        code = launch.spin()
+        _say("shutting down")
+    _say("done")
+    return code
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()

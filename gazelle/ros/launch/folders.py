@@ -1,0 +1,44 @@
+"""Where logs go, and in which folder nodes run (http://wiki.ros.org/ROS/EnvironmentVariables)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from gazelle.ros.launch.errors import LaunchError
+
+
+def ros_home(environment: Mapping[str, str] | None = None) -> Path:
+    """ROS_HOME, else ``~/.ros``."""
+    env = os.environ if environment is None else environment
+    given = env.get("ROS_HOME")
+    return Path(given) if given else Path.home() / ".ros"
+
+
+def log_folder(run_id: str, environment: Mapping[str, str] | None = None) -> Path:
+    """The folder of a run's logs, made if need be.
+
+    Raises:
+        LaunchError: It cannot be made.
+    """
+    env = os.environ if environment is None else environment
+    given = env.get("ROS_LOG_DIR")
+    base = Path(given) if given else ros_home(env) / "log"
+    return made(base / run_id if run_id else base)
+
+
+def made(folder: Path) -> Path:
+    """The folder, which exists now.
+
+    Raises:
+        LaunchError: It cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise LaunchError(
+            f"the folder {folder} cannot be made: {error.strerror}",
+            hint="set ROS_HOME or ROS_LOG_DIR to a folder that you may write to",
+        ) from None
+    return folder

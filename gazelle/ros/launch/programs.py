@@ -1,0 +1,215 @@
+"""From a node of a plan to the command line that runs it."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import Error
+from gazelle.ros.builtin import registry
+from gazelle.ros.launch.errors import LaunchError
+from gazelle.ros.launch.packages import Packages, is_python
+from gazelle.ros.launch.plan import Command, NodePlan, Parameter
+from gazelle.ros.launch.values import convert
+
+_EXECUTE = (sys.executable, "-m", "gazelle.cli.main", "exec")
+"""Runs a script with ``import rospy`` and its like answered by Gazelle."""
+_BUILTIN = (sys.executable, "-m", "gazelle.ros.builtin.start")
+_XACRO = {"xacro", "xacro.py"}
+_COMMAND_SECONDS = 120.0
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """What to execute for a node."""
+
+    command: tuple[str, ...]
+    """Without the node's own arguments."""
+    folder: Path | None
+    """Where the program is; None for built-in ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """A node that is left out on purpose."""
+
+    package: str
+    reason: str
+
+
+def find_program(node: NodePlan, packages: Packages) -> Program | Skipped:
+    """What to execute for a node: its package's program, else a built-in one.
+
+    Raises:
+        LaunchError: There is none; it names the place in the launch file.
+    """
+    try:
+        return program_of(node.package, node.type, packages)
+    except Error as error:
+        place = node.place
+        raise LaunchError(
+            error.message,
+            file=place.file,
+            line=place.line,
+            element=place.element,
+            hint=error.hint,
+        ) from None
+
+
+def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped:
+    """What to execute for ``rosrun PACKAGE KIND``.
+
+    Raises:
+        LaunchError: There is no such package, or it has no such program.
+    """
+    known = registry.package(package)
+    if known is None or kind not in known.preferred:
+        path = packages.program(package, kind)
+        if path is not None:
+            return Program(script_command(path), path.parent)
+    if known is not None and kind in known.nodes:
+        return Program((*_BUILTIN, package, kind), None)
+    if known is not None and known.skipped is not None:
+        return Skipped(package, known.skipped)
+    raise packages.missing_program(package, kind)
+
+
+def script_command(path: Path) -> tuple[str, ...]:
+    """How a file is executed: Python scripts as ``gazelle exec`` does, others as they are."""
+    return (*_EXECUTE, str(path)) if is_python(path) else (str(path),)
+
+
+def node_arguments(node: NodePlan, log_file: Path | None = None) -> list[str]:
+    """The arguments of a node: its own, its remappings, its name.
+
+    Raises:
+        LaunchError: Its ``args`` or ``launch-prefix`` are not well quoted.
+    """
+    arguments = _split(node.arguments, node)
+    arguments += [f"{old}:={new}" for old, new in node.remappings]
+    arguments.append(f"__name:={node.name}")
+    if log_file is not None:
+        arguments.append(f"__log:={log_file}")
+    return arguments
+
+
+def prefix_arguments(node: NodePlan) -> list[str]:
+    """The words of ``launch-prefix``.
+
+    Raises:
+        LaunchError: It is not well quoted.
+    """
+    return _split(node.launch_prefix, node)
+
+
+def _split(text: str, node: NodePlan) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        place = node.place
+        raise LaunchError(
+            f"'{text}' is not well quoted: {error}",
+            file=place.file,
+            line=place.line,
+            element=place.element,
+        ) from None
+
+
+def node_environment(
+    node: NodePlan, master_uri: str, environment: Mapping[str, str] | None = None
+) -> dict[str, str]:
+    """The environment of a node's process."""
+    env = dict(os.environ if environment is None else environment)
+    env["ROS_MASTER_URI"] = master_uri
+    env.pop("ROS_NAMESPACE", None)
+    namespace = node.namespace.rstrip("/")
+    if namespace:
+        env["ROS_NAMESPACE"] = namespace
+    if node.output == "screen":
+        env.setdefault("PYTHONUNBUFFERED", "1")  # lines appear when they are printed
+    env.update(node.environment)
+    return env
+
+
+def parameter_value(
+    parameter: Parameter, packages: Packages, environment: Mapping[str, str] | None = None
+) -> Any:
+    """The value to set; a `Command` is run.
+
+    Raises:
+        LaunchError: The command fails, or its output is of another type.
+    """
+    if not isinstance(parameter.value, Command):
+        return parameter.value
+    try:
+        output = _output(parameter.value.text, packages, environment)
+        return convert(output, parameter.value.kind)
+    except LaunchError as error:
+        place = parameter.place
+        raise LaunchError(
+            error.message,
+            file=place.file,
+            line=place.line,
+            element=place.element,
+            hint=error.hint,
+        ) from None
+
+
+def command_line(words: Sequence[str], packages: Packages) -> list[str]:
+    """The command of a ``<param command>`` as it can be executed here.
+
+    Raises:
+        LaunchError: There is no such program.
+    """
+    program, *rest = words
+    if program == "rosrun" and len(rest) >= 2 and shutil.which("rosrun") is None:
+        found = program_of(rest[0], rest[1], packages)
+        if isinstance(found, Skipped):
+            raise LaunchError(f"'{found.package}' is left out: {found.reason}")
+        return [*found.command, *rest[2:]]
+    if Path(program).name in _XACRO:
+        return [*_BUILTIN, "xacro", "xacro", *rest]
+    path = Path(program)
+    if path.is_absolute() and path.is_file() and is_python(path):
+        return [*script_command(path), *rest]
+    if shutil.which(program) is None:
+        raise LaunchError(f"there is no program '{program}'")
+    return [program, *rest]
+
+
+def _output(text: str, packages: Packages, environment: Mapping[str, str] | None) -> str:
+    try:
+        words = shlex.split(text)
+    except ValueError as error:
+        raise LaunchError(f"the command '{text}' is not well quoted: {error}") from None
+    if not words:
+        raise LaunchError("the command is empty")
+    env = None if environment is None else dict(environment)
+    try:
+        done = subprocess.run(  # noqa: S603  # launch files name programs; that is what they are for
+            command_line(words, packages),
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            env=env,
+            timeout=_COMMAND_SECONDS,
+            check=False,
+        )
+    except OSError as error:
+        raise LaunchError(f"the command '{text}' cannot be run: {error.strerror}") from None
+    except subprocess.TimeoutExpired:
+        limit = f"{_COMMAND_SECONDS:.0f} s"
+        raise LaunchError(f"the command '{text}' does not end within {limit}") from None
+    if done.returncode != 0:
+        said = done.stderr.decode(errors="replace").strip().splitlines()
+        raise LaunchError(
+            f"the command '{text}' ended with code {done.returncode}",
+            hint=" ".join(said[-3:]) if said else None,
+        )
+    return done.stdout.decode("utf-8", errors="replace")

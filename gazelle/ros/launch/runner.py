@@ -1,0 +1,292 @@
+"""Do what a plan asks for: a master, parameters, nodes; watch them; end them."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from gazelle.ros import net
+from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
+from gazelle.ros.launch import folders, machines, setup
+from gazelle.ros.launch.errors import LaunchError
+from gazelle.ros.launch.packages import Packages
+from gazelle.ros.launch.plan import LaunchPlan, NodePlan
+from gazelle.ros.launch.process import NodeProcess, Patience, Start, stop_all
+from gazelle.ros.launch.programs import (
+    Program,
+    Skipped,
+    find_program,
+    node_arguments,
+    node_environment,
+    prefix_arguments,
+)
+from gazelle.ros.launch.server import LaunchServer
+from gazelle.ros.master.proxy import MasterProxy
+from gazelle.ros.master.server import Master
+
+CALLER = "/roslaunch"
+_WATCH_S = 0.05
+
+Say = Callable[[str], None]
+
+
+@dataclass(slots=True, kw_only=True)
+class Options:
+    """How a plan is run."""
+
+    master_uri: str = field(default_factory=net.default_master_uri)
+    host: str = field(default_factory=net.default_host)
+    wait: bool = False
+    """Wait for a master instead of starting one."""
+    screen: bool = False
+    """All nodes write to the screen."""
+    log: bool = False
+    """No node writes to the screen."""
+    patience: Patience = field(default_factory=Patience)
+    run_id: str = ""
+
+
+class Launch:
+    """A plan that is carried out.
+
+    ::
+
+        with Launch(plan, say=print) as launch:
+            launch.start()
+            code = launch.spin()
+
+    Args:
+        plan: What to do.
+        options: How to do it.
+        say: Gets lines for people.
+        packages: Where programs are looked up.
+
+    Attributes:
+        processes: The nodes' processes, in the order of the plan.
+        ended: Set it to end the launch.
+    """
+
+    def __init__(
+        self,
+        plan: LaunchPlan,
+        options: Options | None = None,
+        *,
+        say: Say,
+        packages: Packages | None = None,
+    ) -> None:
+        self.plan = plan
+        self.options = options or Options()
+        self.processes: list[NodeProcess] = []
+        self.ended = threading.Event()
+        self.master_uri = self.options.master_uri
+        self.run_id = self.options.run_id
+        self._say = say
+        self._packages = packages or Packages()
+        self._master: Master | None = None
+        self._server: LaunchServer | None = None
+        self._proxy = MasterProxy(self.master_uri, CALLER)
+        self._numbers = itertools.count(1)
+        self._due: dict[NodeProcess, float] = {}
+        self._reported: set[NodeProcess] = set()
+        self._failed = False
+
+    # Beginning ---------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Start the master if there is none, set parameters, start nodes.
+
+        Raises:
+            LaunchError: A node has no program, or a parameter cannot be set. No node runs then.
+            MasterUnreachableError: There is no master, and it is not for this machine to start one.
+        """
+        machines.check(self.plan)
+        programs = self._find_programs()
+        self._reach_master()
+        self._serve()
+        logs = folders.log_folder(self.run_id)
+        home = folders.made(folders.ros_home())
+        setup.prepare(self.plan, self._proxy, self._packages)
+        for node, program in programs:
+            self.processes.append(self._process(node, program, logs, home))
+        for process in self.processes:
+            if self.ended.is_set():
+                break
+            self._start(process)
+
+    def _find_programs(self) -> list[tuple[NodePlan, Program]]:
+        """The programs of all nodes; a node without one stops the launch before it begins."""
+        found: list[tuple[NodePlan, Program]] = []
+        skipped: dict[str, Skipped] = {}
+        for node in self.plan.nodes:
+            program = find_program(node, self._packages)
+            if isinstance(program, Skipped):
+                skipped.setdefault(program.package, program)
+            else:
+                found.append((node, program))
+        for each in skipped.values():
+            self._say(f"nodes of '{each.package}' are left out: {each.reason}")
+        return found
+
+    def _reach_master(self) -> None:
+        said = False
+        while True:
+            try:
+                self._proxy.get_pid()
+                break
+            except MasterUnreachableError:
+                if not self.options.wait:
+                    self._start_master()
+                    break
+            if not said:
+                said = True
+                self._say(f"waiting for a master at {self.master_uri}")
+            if self.ended.wait(0.5):
+                raise LaunchError("ended while it waited for a master")
+        self._find_run_id()
+
+    def _start_master(self) -> None:
+        host, port, _ = net.split_uri(self.master_uri)
+        if not machines.is_local(host):
+            raise MasterUnreachableError(
+                f"no master answers at {self.master_uri}",
+                hint="ROS_MASTER_URI names another machine; start one there, or unset it",
+            )
+        self._master = Master(self.options.host, port)
+        self._say(f"started a master at {self.master_uri}")
+
+    def _find_run_id(self) -> None:
+        try:
+            known = str(self._proxy.get_param("/run_id"))
+        except ApiError:
+            known = self.run_id or str(uuid.uuid1())
+            self._proxy.set_param("/run_id", known)
+        if self.run_id and known != self.run_id:
+            raise LaunchError(
+                f"run_id on the master is {known}, not {self.run_id}",
+                hint="leave out --run_id to join the run of that master",
+            )
+        self.run_id = known
+
+    def _serve(self) -> None:
+        self._server = LaunchServer(lambda: list(self.processes), self.end, self.options.host)
+        self._proxy.set_param(self._server.key, self._server.uri)
+        self._say(f"started launch server {self._server.uri}")
+
+    def _process(self, node: NodePlan, program: Program, logs: Path, home: Path) -> NodeProcess:
+        name = f"{node.full_name.strip('/')}-{next(self._numbers)}"
+        file = name.replace("/", "-")
+        to_screen = (node.output == "screen" or self.options.screen) and not self.options.log
+        arguments = [*prefix_arguments(node), *program.command]
+        arguments += node_arguments(node, logs / f"{file}.log")
+        folder = program.folder if node.cwd == "node" and program.folder else home
+        start = Start(
+            tuple(arguments),
+            node_environment(node, self.master_uri),
+            folder,
+            None if to_screen else logs / f"{file}-stdout.log",
+        )
+        return NodeProcess(node, name, start)
+
+    def _start(self, process: NodeProcess) -> None:
+        process.start()
+        self._reported.discard(process)
+        self._say(f"process[{process.name}]: started with pid [{process.pid}]")
+
+    # Watching ----------------------------------------------------------------------------
+
+    def spin(self) -> int:
+        """Watch the nodes until all have ended, a required one ended, or `ended` is set.
+
+        Returns:
+            1 if a required node failed, else 0.
+        """
+        while not self.ended.wait(_WATCH_S):
+            self.look()
+            if not self._due and not any(each.running for each in self.processes):
+                if self.processes:
+                    self._say("all nodes have ended, and so does the launch")
+                    break
+                if self._master is None:
+                    break
+        return int(self._failed)
+
+    def look(self) -> None:
+        """Look once at all processes: report ends, respawn what is due."""
+        now = time.monotonic()
+        for process in self.processes:
+            code = process.poll()
+            if code is None or process in self._due:
+                continue
+            if process not in self._reported:
+                self._reported.add(process)
+                self._report(process, code)
+            if process.plan.required:
+                self._end_required(process, code)
+                return
+            if process.plan.respawn:
+                self._due[process] = (process.ended_at or now) + process.plan.respawn_delay
+        for process, when in list(self._due.items()):
+            if when <= now and not self.ended.is_set():
+                del self._due[process]
+                self._say(f"[{process.name}] restarting process")
+                self._start(process)
+
+    def _report(self, process: NodeProcess, code: int) -> None:
+        log = process.how.log
+        where = f"\nlog file: {log}" if log is not None else ""
+        if code == 0:
+            self._say(f"[{process.name}] process has finished cleanly{where}")
+        else:
+            command = " ".join(process.how.arguments)
+            self._say(
+                f"[{process.name}] process has died [pid {process.pid}, exit code {code}, "
+                f"cmd {command}].{where}"
+            )
+
+    def _end_required(self, process: NodeProcess, code: int) -> None:
+        self._failed = code != 0
+        self._say(f"REQUIRED process [{process.name}] has ended: the launch ends too")
+        self.ended.set()
+
+    # Ending ------------------------------------------------------------------------------
+
+    def end(self, reason: str = "") -> None:
+        """Ask the launch to end; it does when `spin` returns and it is closed."""
+        if reason:
+            self._say(reason)
+        self.ended.set()
+
+    def close(self) -> None:
+        """End all nodes, then what this launch put on the master, then the master."""
+        self.ended.set()
+        for process in stop_all(self.processes, self.options.patience):
+            self._say(f"[{process.name}] did not end on SIGINT")
+        if self._server is not None:
+            if self._master is None:
+                with contextlib.suppress(RosError):
+                    self._proxy.delete_param(self._server.key)
+            self._server.close()
+            self._server = None
+        self._proxy.close()
+        if self._master is not None:
+            self._master.close()
+            self._master = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()

@@ -1,0 +1,60 @@
+"""Put the parameters of a plan on the master."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.ros.errors import ApiError, MarshalError
+from gazelle.ros.launch.errors import LaunchError
+from gazelle.ros.launch.packages import Packages
+from gazelle.ros.launch.plan import Action, LaunchPlan, Parameter
+from gazelle.ros.launch.programs import parameter_value
+from gazelle.ros.master.proxy import MasterProxy
+
+
+def prepare(plan: LaunchPlan, master: MasterProxy, packages: Packages) -> None:
+    """Dump, delete, clear and set parameters, in this order.
+
+    Raises:
+        LaunchError: A value cannot be had or set; parameters are only set if all could be had.
+    """
+    values = [(each, parameter_value(each, packages)) for each in plan.parameters.values()]
+    for action in plan.actions:
+        _act(action, master)
+    for namespace in plan.clear:
+        if master.has_param(namespace):
+            master.delete_param(namespace)
+    for parameter, value in values:
+        _set(parameter, value, master)
+
+
+def _set(parameter: Parameter, value: object, master: MasterProxy) -> None:
+    if value is None:
+        raise _error(parameter, f"the parameter {parameter.name} has no value")
+    try:
+        master.set_param(parameter.name, value)
+    except (ApiError, MarshalError) as error:
+        raise _error(parameter, f"the parameter {parameter.name} cannot be set: {error}") from None
+
+
+def _act(action: Action, master: MasterProxy) -> None:
+    if action.command == "delete":
+        if master.has_param(action.name):
+            master.delete_param(action.name)
+        return
+    import yaml
+
+    try:
+        value = master.get_param(action.name)
+    except ApiError:
+        value = {}
+    text = yaml.safe_dump(value, allow_unicode=True)
+    try:
+        Path(action.file or "").write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise _error(action, f"'{action.file}' cannot be written: {error.strerror}") from None
+
+
+def _error(what: Parameter | Action, message: str) -> LaunchError:
+    place = what.place
+    return LaunchError(message, file=place.file, line=place.line, element=place.element)
