@@ -41,10 +41,7 @@ print(json.dumps([answer(q) for q in asked["questions"]]))
 
 def ours(tree, question):
     try:
-        if len(question) == 3:
-            found = tree.lookup(*question)
-        else:
-            found = tree.lookup_full(*question)
+        found = tree.lookup(*question) if len(question) == 3 else tree.lookup_full(*question)
     except TransformException as error:
         return [type(error).__name__, str(error)]
     return [found.stamp, list(found.translation), list(found.rotation)]
