@@ -63,14 +63,15 @@ def run(args: argparse.Namespace) -> int:
         return report(result)
     sys.stdout.write(f"trained:  {showing.training(result, indent=10)}\n")
     folder = result.run.folder
+    again = showing.program()
     found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000)
     sys.stdout.write(f"evaluated on {found.episodes} fresh goals:\n{showing.evaluation(found)}")
     sys.stdout.write(
         f"in all {time.perf_counter() - began:.0f} s; the run's files are in {folder}\n"
         "next:\n"
-        f"  gazelle eval {folder} --episodes 1000\n"
-        "  gazelle train TurtleBot3Stage4\n"
-        "  gazelle run turtlebot3_stage_1 --for 10\n"
+        f"  {again} eval {folder} --episodes 1000\n"
+        f"  {again} train TurtleBot3Stage4\n"
+        f"  {again} run turtlebot3_stage_1 --for 10\n"
     )
     return 0
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+import sys
 import textwrap
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -84,3 +88,11 @@ def duration(seconds: float) -> str:
     if seconds < 7200:
         return f"{seconds / 60:.1f} min"
     return f"{seconds / 3600:.1f} h"
+
+
+def program() -> str:
+    """How to call this program again: its name, or its path where the shell would not find it."""
+    called = Path(sys.argv[0])
+    if called.name != "gazelle" or shutil.which("gazelle") is not None:
+        return "gazelle"
+    return os.path.relpath(called)

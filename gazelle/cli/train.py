@@ -76,7 +76,7 @@ def report(result: TrainResult) -> int:
         total = result.run.config.recipe.steps
         sys.stderr.write(
             f"stopped at {result.steps:,} of {total:,} steps; everything is saved\n"
-            f"  go on with: gazelle train --resume {folder}\n"
+            f"  go on with: {showing.program()} train --resume {folder}\n"
         )
         return INTERRUPTED
     if not result.new_steps:
@@ -85,7 +85,7 @@ def report(result: TrainResult) -> int:
         sys.stdout.write(f"trained: {showing.training(result, indent=9)}\n")
     sys.stdout.write(
         f"the run: {folder}\n"
-        f"next:    gazelle eval {folder}\n"
+        f"next:    {showing.program()} eval {folder}\n"
         f"         tensorboard --logdir {folder}\n"
     )
     return 0

@@ -38,3 +38,12 @@ def test_evaluation_fits_80_columns():
     assert max(len(line) for line in text.splitlines()) <= 80
     assert "not told by this task" in text
     assert f"RTF {1e7 / 1234.5:,.0f}" in text
+
+
+def test_the_program_is_named_as_the_shell_would_find_it(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.argv", [str(tmp_path / ".venv" / "bin" / "gazelle")])
+    monkeypatch.setenv("PATH", "")
+    assert showing.program() == ".venv/bin/gazelle"
+    monkeypatch.setattr("sys.argv", ["pytest"])
+    assert showing.program() == "gazelle"
