@@ -6,7 +6,7 @@ from gazelle.formats.mesh import MeshData, load_mesh
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.srdf import load_srdf, load_srdf_string
-from gazelle.formats.write import save, to_string
+from gazelle.formats.write import save, to_string, write_text
 
 __all__ = [
     "MeshData",
@@ -23,4 +23,5 @@ __all__ = [
     "load_string",
     "save",
     "to_string",
+    "write_text",
 ]

@@ -46,7 +46,7 @@ def _left(node: Parameters, pattern: Pattern | None) -> Parameters | None:
         left = leftover(node, pattern)
     elif node.tag in _WHOLE:
         return None
-    elif node.tag == "noise" and node.attributes.get("type") == "custom":
+    elif node.tag == "noise" and "custom" in {node.attributes.get("type"), node.get("type", "")}:
         return node  # made by a plugin, which may have parameters here
     else:
         left = without(node, _READ_ATTRIBUTES.get(node.tag, set()))

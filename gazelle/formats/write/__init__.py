@@ -1,5 +1,5 @@
 """Descriptions to files: SDF and URDF."""
 
-from gazelle.formats.write.save import save, to_string
+from gazelle.formats.write.save import save, to_string, write_text
 
-__all__ = ["save", "to_string"]
+__all__ = ["save", "to_string", "write_text"]

@@ -27,7 +27,7 @@ def save(
     content: World | Model,
     path: str | os.PathLike[str],
     *,
-    format: Format | None = None,  # noqa: A002  # the word users know
+    format: Format | None = None,  # noqa: A002  # the word that users know
 ) -> None:
     """Write a world or model to a file, so that ``load`` gives it back.
 
@@ -45,14 +45,14 @@ def save(
     """
     file = Path(path).expanduser().absolute()
     text = _text(content, format or format_of(file), Writing(file.parent))
-    replace_file(file, text)
+    write_text(file, text)
 
 
 def to_string(
     content: World | Model,
-    format: Format,
+    format: Format,  # noqa: A002  # the word that users know
     *,
-    folder: str | os.PathLike[str] | None = None,  # as above
+    folder: str | os.PathLike[str] | None = None,
 ) -> str:
     """The text that ``save`` would write.
 
@@ -84,8 +84,8 @@ def format_of(file: Path) -> Format:
     return found
 
 
-def replace_file(file: Path, text: str) -> None:
-    """Write a whole file or nothing.
+def write_text(file: Path, text: str) -> None:
+    """Write a whole text file or nothing.
 
     Raises:
         FormatError: It cannot be written.

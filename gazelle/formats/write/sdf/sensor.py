@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from gazelle.description import (
@@ -65,7 +66,18 @@ def write_noise(noise: Noise) -> Parameters | None:
     """``<noise>``; None for none at all."""
     if noise == Noise():
         return None
-    return element("noise", *(leaf(n, getattr(noise, n), 0.0) for n in _NOISE), type=noise.type)
+    return element("noise", *_noise_values(noise), type=noise.type)
+
+
+def _plain_noise(noise: Noise) -> Parameters | None:
+    """``<noise>`` of rays and cameras, where the type is an element, not an attribute."""
+    if noise == Noise():
+        return None
+    return element("noise", leaf("type", noise.type), *_noise_values(noise))
+
+
+def _noise_values(noise: Noise) -> Iterator[Parameters | None]:
+    return (leaf(name, getattr(noise, name), 0.0) for name in _NOISE)
 
 
 def write_lidar(lidar: Lidar, tag: str) -> Parameters:
@@ -83,7 +95,7 @@ def write_lidar(lidar: Lidar, tag: str) -> Parameters:
             limit("max", lidar.range_max),
             leaf("resolution", lidar.range_resolution, 0.0),
         ),
-        write_noise(lidar.noise),
+        _plain_noise(lidar.noise),
     )
 
 
@@ -133,7 +145,7 @@ def write_camera(camera: Camera) -> Parameters:
         ),
         element("clip", leaf("near", camera.near), limit("far", camera.far)),
         group("depth_camera", depth),
-        write_noise(camera.noise),
+        _plain_noise(camera.noise),
         _distortion(camera),
         camera.lens,
         name=camera.name,

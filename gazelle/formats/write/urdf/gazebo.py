@@ -26,7 +26,13 @@ from gazelle.formats.write.sdf.link import visual_extras, write_light, write_mat
 from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.sdf.sensor import write_sensor
 from gazelle.formats.write.sdf.surface import write_surface
-from gazelle.formats.write.urdf.link import SHAPES, part_names, plain_material
+from gazelle.formats.write.urdf.link import (
+    plain_material,
+    read_names,
+    surface_link,
+    surfaces,
+    visuals_of,
+)
 from gazelle.formats.write.urdf.tree import WORLD, Tree
 from gazelle.formats.write.writing import Writing
 
@@ -35,10 +41,11 @@ PartT = TypeVar("PartT", Sensor, Light)
 
 def gazebo_of_link(link: Link, shift: Pose, writing: Writing) -> Parameters | None:
     """Surfaces, materials, sensors and flags of a link."""
-    names = _collision_names(link)
+    names = read_names(link)
+    solid = surfaces(link)
     return _referring(
         link.name,
-        *_collisions(link, writing),
+        *(_surface(solid[0][0]) if solid else ()),
         *_visuals(link, writing),
         leaf("turnGravityOff", not link.gravity, False),
         leaf("selfCollide", link.self_collide),
@@ -99,18 +106,13 @@ def _placed(part: PartT, shift: Pose) -> PartT:
     return replace(part, pose=_moved(shift, part.pose))
 
 
-def _collisions(link: Link, writing: Writing) -> Iterable[Parameters | None]:
-    """Contact terms, which ``<gazebo>`` gives to all collisions of a link alike."""
-    solid = [each for each in link.collisions if type(each.geometry) in SHAPES]
-    if not solid:
-        return ()
-    first = solid[0]
-    for other in solid[1:]:
-        if _terms(other) != _terms(first):
-            writing.note(
-                f"URDF has one surface a link: '{other.name}' gets that of '{first.name}'",
-                other.source,
-            )
+def gazebo_of_surface(link: Link, group: int) -> Parameters | None:
+    """The surface of a link that holds further collisions of another one."""
+    return _referring(surface_link(link, group), *_surface(surfaces(link)[group][0]))
+
+
+def _surface(first: Collision) -> Iterable[Parameters | None]:
+    """Contact terms of a collision, that all of its link share."""
     friction, contact = first.surface.friction, first.surface.contact
     usual, normal = Friction(), Contact()
     rest = replace(
@@ -138,13 +140,9 @@ def _collisions(link: Link, writing: Writing) -> Iterable[Parameters | None]:
     )
 
 
-def _terms(collision: Collision) -> tuple[object, ...]:
-    return (collision.surface, collision.laser_retro, collision.max_contacts)
-
-
 def _visuals(link: Link, writing: Writing) -> Iterable[Parameters | None]:
     """Looks, which ``<gazebo>`` gives to all visuals of a link alike."""
-    shown = [each for each in link.visuals if type(each.geometry) in SHAPES]
+    shown = visuals_of(link)
     if not shown:
         return ()
     first = shown[0]
@@ -172,15 +170,6 @@ def _visuals(link: Link, writing: Writing) -> Iterable[Parameters | None]:
             write_material(material, writing) if full and material is not None else None,
         ),
     )
-
-
-def _collision_names(link: Link) -> dict[str, str]:
-    """The names by which readers of URDF know collisions, for contact sensors."""
-    names = part_names(link.collisions, "collision")
-    return {
-        collision.name: f"{name}_collision" + (f"_{number}" if number else "")
-        for number, (collision, name) in enumerate(zip(link.collisions, names, strict=True))
-    }
 
 
 def _watching(sensor: Sensor, names: dict[str, str]) -> Sensor:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -21,6 +22,7 @@ from gazelle.description import (
     Visual,
 )
 from gazelle.errors import FormatError
+from gazelle.formats.urdf.parts import LUMP
 from gazelle.formats.write.element import angles_of, element, exact_angles, inside, written
 from gazelle.formats.write.writing import Writing
 
@@ -28,15 +30,88 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def write_link(link: Link, shift: Pose, writing: Writing, *, massless: bool = False) -> Parameters:
-    """A link whose SDF frame is at ``shift`` in its URDF frame."""
+    """A link whose SDF frame is at ``shift`` in its URDF frame.
+
+    Of its collisions only those of the first surface are in it: see ``surfaces``.
+    """
     with inside("link", link):
+        parts: tuple[Collision | Visual, ...] = (*link.visuals, *link.collisions)
+        for part in parts:
+            _note_lost(part, writing)
+        names = written_names(visuals_of(link), "visual")
         return element(
             "link",
             None if massless else write_inertial(link.inertial or Inertial(), shift),
-            *(_visual(visual, link, shift, writing) for visual in link.visuals),
-            *(_collision(collision, link, shift, writing) for collision in link.collisions),
+            *(
+                _visual(visual, name, shift, writing)
+                for visual, name in zip(visuals_of(link), names, strict=True)
+            ),
+            *write_collisions(link, 0, shift, writing),
             name=link.name,
         )
+
+
+def write_collisions(link: Link, group: int, shift: Pose, writing: Writing) -> list[Parameters]:
+    """The collisions of a link that have one surface."""
+    found = surfaces(link)
+    ordered = [collision for each in found for collision in each]
+    names = dict(zip(map(id, ordered), written_names(ordered, "collision"), strict=True))
+    return [
+        _collision(collision, names[id(collision)], shift, writing)
+        for each in found[group : group + 1]
+        for collision in each
+    ]
+
+
+def visuals_of(link: Link) -> list[Visual]:
+    """The visuals whose shapes URDF has."""
+    return [visual for visual in link.visuals if type(visual.geometry) in SHAPES]
+
+
+def surfaces(link: Link) -> list[list[Collision]]:
+    """The collisions whose shapes URDF has, by surface, which URDF has one of a link.
+
+    So those of each further one go to a link of their own, that readers lump into this one.
+    """
+    found: list[tuple[tuple[object, ...], list[Collision]]] = []
+    for collision in link.collisions:
+        if type(collision.geometry) not in SHAPES:
+            continue
+        terms = (collision.surface, collision.laser_retro, collision.max_contacts)
+        group = next((group for known, group in found if known == terms), None)
+        if group is None:
+            found.append((terms, [collision]))
+        else:
+            group.append(collision)
+    return [group for _, group in found]
+
+
+def surface_link(link: Link, group: int) -> str:
+    """Name of the link for the collisions of a further surface."""
+    return f"{link.name}_surface_{group:02}"
+
+
+def written_names(parts: Sequence[Collision | Visual], tag: str) -> list[str]:
+    """The name to write for each part.
+
+    Readers of URDF put ``_collision`` or ``_visual`` behind it, and from the second part
+    of a body on its number too.
+    """
+    ending = re.compile(rf"_{tag}(_\d+)?$")
+    return [ending.sub("", part.name) for part in parts]
+
+
+def read_names(link: Link) -> dict[str, str]:
+    """What readers will call each collision of a link."""
+    ordered = [collision for each in surfaces(link) for collision in each]
+    names = {}
+    for number, (part, name) in enumerate(
+        zip(ordered, written_names(ordered, "collision"), strict=True)
+    ):
+        read = f"{name}_collision" + (f"_{number}" if number else "")
+        own = read.startswith(link.name)
+        names[part.name] = read if own else f"{link.name}{LUMP}{read}"
+    return names
 
 
 def write_origin(pose: Pose) -> Parameters | None:
@@ -65,49 +140,28 @@ def write_inertial(inertial: Inertial, shift: Pose) -> Parameters:
     )
 
 
-def part_names(parts: Sequence[Collision | Visual], tag: str) -> list[str]:
-    """The name to write for each part, so that reading gives its own again.
-
-    Readers of URDF put ``_collision`` or ``_visual`` behind a name, and from the second
-    part of a link on its number too.
-    """
-    names = []
-    for number, part in enumerate(parts):
-        ending = f"_{tag}_{number}" if number else f"_{tag}"
-        names.append(part.name.removesuffix(ending).removesuffix(f"_{tag}"))
-    return names
-
-
 def _moved(shift: Pose, pose: Pose) -> Pose:
     return pose if shift == Pose() else shift * pose
 
 
-def _visual(visual: Visual, link: Link, shift: Pose, writing: Writing) -> Parameters | None:
+def _visual(visual: Visual, name: str, shift: Pose, writing: Writing) -> Parameters:
     with inside("visual", visual):
-        shape = _geometry(visual.geometry, visual, writing)
-        if shape is None:
-            return None
         return element(
             "visual",
             write_origin(_moved(shift, visual.pose)),
-            shape,
+            _geometry(visual.geometry, writing),
             _material(visual, writing),
-            name=part_names(link.visuals, "visual")[link.visuals.index(visual)],
+            name=name,
         )
 
 
-def _collision(
-    collision: Collision, link: Link, shift: Pose, writing: Writing
-) -> Parameters | None:
+def _collision(collision: Collision, name: str, shift: Pose, writing: Writing) -> Parameters:
     with inside("collision", collision):
-        shape = _geometry(collision.geometry, collision, writing)
-        if shape is None:
-            return None
         return element(
             "collision",
             write_origin(_moved(shift, collision.pose)),
-            shape,
-            name=part_names(link.collisions, "collision")[link.collisions.index(collision)],
+            _geometry(collision.geometry, writing),
+            name=name,
         )
 
 
@@ -131,17 +185,19 @@ def _material(visual: Visual, writing: Writing) -> Parameters | None:
     )
 
 
-def _geometry(shape: Geometry, part: Collision | Visual, writing: Writing) -> Parameters | None:
-    writer = SHAPES.get(type(shape))
-    kind = type(shape).__name__.lower()
-    if writer is None:
+def _note_lost(part: Collision | Visual, writing: Writing) -> None:
+    shape = part.geometry
+    if type(shape) not in SHAPES:
+        kind = type(shape).__name__.lower()
         writing.note(f"URDF has no shape '{kind}': '{part.name}' is left out", part.source)
-        return None
     if isinstance(shape, Mesh) and (shape.submesh or shape.center_submesh):
         writing.note(f"URDF has no parts of meshes: '{part.name}' gets the whole mesh", part.source)
     if isinstance(shape, Capsule):
         writing.note("capsules came with URDF 1.2: many programs do not read them", part.source)
-    return element("geometry", writer(shape, writing))
+
+
+def _geometry(shape: Geometry, writing: Writing) -> Parameters:
+    return element("geometry", SHAPES[type(shape)](shape, writing))
 
 
 def _mesh(shape: Mesh, writing: Writing) -> Parameters:

@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gazelle.description import Frame, Model, Parameters, Pose, World
+from gazelle.description import Frame, Link, Model, Parameters, Pose, World
 from gazelle.errors import FormatError
 from gazelle.formats.write.element import element, inside
 from gazelle.formats.write.sdf.model import write_transmission
-from gazelle.formats.write.urdf.gazebo import gazebo_of_joint, gazebo_of_link, gazebo_of_model
+from gazelle.formats.write.urdf.gazebo import (
+    gazebo_of_joint,
+    gazebo_of_link,
+    gazebo_of_model,
+    gazebo_of_surface,
+)
 from gazelle.formats.write.urdf.joint import write_joint
-from gazelle.formats.write.urdf.link import write_link, write_origin
+from gazelle.formats.write.urdf.link import (
+    surface_link,
+    surfaces,
+    write_collisions,
+    write_link,
+    write_origin,
+)
 from gazelle.formats.write.urdf.tree import WORLD, Tree, tree_of
 from gazelle.formats.write.writing import Writing
 
@@ -61,6 +72,7 @@ def _content(model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters 
                 link.source,
             )
         yield write_link(link, tree.shifts[link.name], writing, massless=massless)
+        yield from _surfaces(link, tree, writing)
     for joint in joints:
         yield write_joint(joint, tree.origin(joint), writing)
     for frame in model.frames:
@@ -72,6 +84,27 @@ def _content(model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters 
     for joint in joints:
         yield gazebo_of_joint(joint, tree.shifts[joint.child])
     yield gazebo_of_model(model, tree, writing)
+
+
+def _surfaces(link: Link, tree: Tree, writing: Writing) -> Iterator[Parameters | None]:
+    """Links for the collisions of a link that have other surfaces than its first."""
+    for group in range(1, len(surfaces(link))):
+        name = surface_link(link, group)
+        shift = tree.shifts[link.name]
+        yield element("link", *write_collisions(link, group, shift, writing), name=name)
+        yield _fixed(f"{name}_joint", link.name, name, Pose())
+        yield gazebo_of_surface(link, group)
+
+
+def _fixed(name: str, parent: str, child: str, pose: Pose) -> Parameters:
+    return element(
+        "joint",
+        write_origin(pose),
+        element("parent", link=parent),
+        element("child", link=child),
+        name=name,
+        type="fixed",
+    )
 
 
 def _frame(frame: Frame, model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters]:
@@ -92,11 +125,4 @@ def _frame(frame: Frame, model: Model, tree: Tree, writing: Writing) -> Iterator
         name += "_"
     with inside("frame", frame):
         yield element("link", name=frame.name)
-        yield element(
-            "joint",
-            write_origin(origin),
-            element("parent", link=link),
-            element("child", link=frame.name),
-            name=name,
-            type="fixed",
-        )
+        yield _fixed(name, link, frame.name, origin)
