@@ -24,6 +24,7 @@ from gazelle.ros.messages.search import find_packages
 from gazelle.ros.messages.spec import CONSTANT_TYPES, SCALARS
 
 MESSAGE_MD5 = {
+    "actionlib_tutorials/FibonacciAction": "f59df5767bf7634684781c92598b2406",
     "std_msgs/Header": "2176decaecbce78abc3b96ef049fabed",
     "std_msgs/String": "992ce8a1687cec8c8bd883ec73ca41d1",
     "geometry_msgs/Pose": "e45d45a5a1ce597b249e23fb30fc871f",
@@ -58,6 +59,8 @@ MESSAGE_MD5 = {
     "theconstruct_msgs/RLExperimentInfo": "117729220546455cc216a7df0b6e91d0",
 }
 SERVICE_MD5 = {
+    "control_toolbox/SetPidGains": "4a43159879643e60937bf2893b633607",
+    "rospy_tutorials/AddTwoInts": "6a2e34150c00229791cc89ff309fff21",
     "std_srvs/Empty": "d41d8cd98f00b204e9800998ecf8427e",
     "std_srvs/SetBool": "09fb03525b03e7ea1fd3992bafd87e16",
     "std_srvs/Trigger": "937c9679a518e3a18d831e57125ea522",
