@@ -28,6 +28,8 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.errors import did_you_mean
+from gazelle.formats.write.sdf.plugin import write_plugin
+from gazelle.formats.write.sdf.sensor import write_sensor
 
 RobotT = TypeVar("RobotT", str, Model)
 
@@ -236,15 +238,14 @@ def add_sensor(robot: RobotT, link: str, sensor: Sensor) -> RobotT:
     Args:
         robot: URDF text or a model.
         link: Its name.
-        sensor: Made with ``camera``, ``lidar``, ``imu``, ...; its ``settings`` are what is
-            written.
+        sensor: Made with ``camera``, ``lidar``, ``imu``, ... or taken from another model.
 
     Raises:
         BuildError: There is no such link, or it has a sensor of that name already.
     """
     if isinstance(robot, str):
         urdf_text.check_name(robot, "link", link)
-        return urdf_text.insert(robot, [urdf_text.gazebo(link, (sensor.settings,))])
+        return urdf_text.insert(robot, [urdf_text.gazebo(link, (write_sensor(sensor),))])
     return _fitted(robot, link, sensor)
 
 
@@ -252,10 +253,7 @@ def add_plugin(robot: RobotT, plugin: Plugin) -> RobotT:
     """A plugin of the model, such as one made with ``plugin``."""
     if isinstance(robot, str):
         urdf_text.root_of(robot)
-        node = replace(
-            plugin.parameters, attributes={"name": plugin.name, "filename": plugin.filename}
-        )
-        return urdf_text.insert(robot, [urdf_text.gazebo("", (node,))])
+        return urdf_text.insert(robot, [urdf_text.gazebo("", (write_plugin(plugin),))])
     return replace(robot, plugins=(*robot.plugins, plugin))
 
 

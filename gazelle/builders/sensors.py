@@ -12,6 +12,7 @@ from gazelle.builders.elements import element, group
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.solids import ORIGIN
 from gazelle.description import Parameters, Plugin, Pose, Sensor
+from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
@@ -329,8 +330,7 @@ def plugin(name: str, filename: str, **values: str | float | bool) -> Plugin:
     Raises:
         BuildError: A number is not a number.
     """
-    node = _plugin(name, filename, **values)
-    return Plugin(name, filename, node)
+    return read_plugin(_plugin(name, filename, **values))
 
 
 def _whole(value: int, what: str) -> None:
