@@ -42,6 +42,7 @@ COMMANDS = {
         Command("demo", "train and evaluate a TurtleBot3 from its files", "start here", "demo"),
         Command("run", "simulate a file", "simulate", "run"),
         Command("check", "judge files: every problem, with file and line", "simulate", "check"),
+        Command("convert", "files from one format to another", "simulate", "convert"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),
