@@ -117,6 +117,11 @@ class WorldBuilder:
         """Height of the ground at a point [m]: that of the terrain, or 0."""
         return 0.0 if self._level is None else max(self._level(x, y), 0.0)
 
+    @property
+    def taken(self) -> tuple[Zone, ...]:
+        """Zones that random things added now would keep away from."""
+        return tuple(self._taken)
+
     def ground(self, **options: Any) -> Self:
         """The ground plane; options are those of ``builders.ground``."""
         return self.add(floors.ground(**options), solid=False)
