@@ -9,6 +9,7 @@ from typing import Literal
 
 from gazelle.description import Source
 from gazelle.errors import Error
+from gazelle.formats.judge import Finding, judge
 from gazelle.formats.loader import PathLike, find_file, read_path
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -25,6 +26,8 @@ class Problem:
         line: Line in that file, counted from 1.
         element: Path of the element.
         hint: What to do about it.
+        why: Why it matters; None where that is plain.
+        rule: Short name of the rule that found it; None for what the reader says.
     """
 
     severity: Literal["error", "warning"]
@@ -33,6 +36,8 @@ class Problem:
     line: int | None = None
     element: str | None = None
     hint: str | None = None
+    why: str | None = None
+    rule: str | None = None
 
 
 def check(
@@ -50,8 +55,10 @@ def check(
     """
     reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
     problems: list[Problem] = []
+    judged: list[Problem] = []
     try:
-        read_path(find_file(path, reading), reading)
+        world = read_path(find_file(path, reading), reading)
+        judged = [_judged(finding) for finding in judge(world)]
     except Error as error:
         file = error.file or os.fspath(path)
         problems.append(
@@ -59,7 +66,21 @@ def check(
         )
     problems += [_warning(f"'{m.uri}' is not found", m.source, m.looked) for m in reading.misses]
     problems += [_warning(note.message, note.source, note.hint) for note in reading.notes]
-    return problems
+    return problems + judged
+
+
+def _judged(finding: Finding) -> Problem:
+    place = finding.source or Source()
+    return Problem(
+        "warning",
+        finding.message,
+        place.file,
+        place.line,
+        place.element,
+        finding.hint,
+        finding.why,
+        finding.rule,
+    )
 
 
 def _warning(message: str, source: Source | None, hint: str | None) -> Problem:

@@ -1,0 +1,137 @@
+"""Masses and inertias that no engineer would sign."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Inertia,
+    Inertial,
+    Link,
+    Sphere,
+    World,
+)
+from gazelle.formats.judge.finding import Finding, moving_links_of
+
+# An inertia this many times off the one of a solid of the link's shape is a typing error.
+_FACTOR = 10.0
+
+# Relative slack on a + b >= c, for figures rounded in a file.
+_ROUNDING = 1e-3
+
+# Masses of joined links this far apart make constraint solvers slow and soft.
+_MASS_RATIO = 1e4
+
+
+def judge(world: World) -> Iterator[Finding]:
+    """Findings on every link that moves."""
+    for place in moving_links_of(world):
+        name = f"{place.scope}::{place.link.name}"
+        inertial = place.link.inertial
+        if inertial is None:
+            yield Finding(
+                "no-inertial",
+                f"link '{name}' moves and has no <inertial>; it gets 1 kg and 1 kg m²",
+                "a small part with an inertia of 1 kg m² turns as if it were a metre wide",
+                "add an <inertial> with its mass and inertia",
+                place.link.source,
+            )
+            continue
+        yield from _triangle(name, inertial)
+        yield from _compared_with_shape(name, place.link, inertial)
+    yield from _mass_ratios(world)
+
+
+def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
+    """Principal moments of inertia, smallest first [kg m²]."""
+    i = inertia
+    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    if not np.isfinite(tensor).all():
+        return (math.nan, math.nan, math.nan)
+    low, middle, high = np.linalg.eigvalsh(tensor)
+    return (float(low), float(middle), float(high))
+
+
+def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
+    """Principal moments of a solid of even density, smallest first [kg m²]; None if unknown."""
+    if isinstance(shape, Box):
+        x, y, z = (side * side for side in shape.size)
+        found = (y + z) / 12.0, (x + z) / 12.0, (x + y) / 12.0
+    elif isinstance(shape, Sphere):
+        found = (0.4 * shape.radius**2,) * 3
+    elif isinstance(shape, Cylinder | Capsule):
+        length = shape.length + (shape.radius if isinstance(shape, Capsule) else 0.0)
+        across = shape.radius**2 / 4.0 + length**2 / 12.0
+        found = shape.radius**2 / 2.0, across, across
+    elif isinstance(shape, Ellipsoid):
+        a, b, c = (radius * radius for radius in shape.radii)
+        found = (b + c) / 5.0, (a + c) / 5.0, (a + b) / 5.0
+    else:
+        return None
+    low, middle, high = sorted(mass * value for value in found)
+    return (low, middle, high)
+
+
+def _triangle(name: str, inertial: Inertial) -> Iterator[Finding]:
+    low, middle, high = principal_moments(inertial.inertia)
+    if low + middle < high * (1.0 - _ROUNDING):
+        yield Finding(
+            "inertia-triangle",
+            f"link '{name}': the principal moments {low:.3g}, {middle:.3g} and {high:.3g} kg m² "
+            "are those of no body: the sum of two must not be below the third",
+            "engines refuse or bend such an inertia, each in its own way",
+            "compute the inertia from the mesh or the shape again",
+            inertial.source,
+        )
+
+
+def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[Finding]:
+    """Only links of one simple collision can be compared with a solid."""
+    if len(link.collisions) != 1:
+        return
+    expected = solid_moments(link.collisions[0].geometry, inertial.mass)
+    actual = principal_moments(inertial.inertia)
+    if expected is None or not math.isfinite(actual[0]) or min(actual) <= 0.0:
+        return
+    ratios = [a / e for a, e in zip(actual, expected, strict=True) if e > 0.0]
+    if not ratios or (max(ratios) <= _FACTOR and min(ratios) >= 1.0 / _FACTOR):
+        return
+    worst = max(ratios, key=lambda ratio: abs(math.log(ratio)))
+    times = f"{worst:.3g} times" if worst > 1.0 else f"1/{1.0 / worst:.3g} of"
+    yield Finding(
+        "inertia-off",
+        f"link '{name}': its inertia is {times} that of a solid of its shape and mass "
+        f"({inertial.mass:g} kg; expected about {expected[0]:.3g}, {expected[1]:.3g}, "
+        f"{expected[2]:.3g} kg m²)",
+        "too much makes it sluggish, too little makes it shake in contact",
+        "check the units (g and mm?) or use the moments named",
+        inertial.source,
+    )
+
+
+def _mass_ratios(world: World) -> Iterator[Finding]:
+    for model in world.models:
+        if model.static:
+            continue
+        for placed in model.walk():
+            masses = {link.name: (link.inertial or Inertial()).mass for link in placed.model.links}
+            for joint in placed.model.joints:
+                pair = [masses.get(joint.parent), masses.get(joint.child)]
+                known = [mass for mass in pair if mass is not None and mass > 0.0]
+                if len(known) == 2 and max(known) / min(known) > _MASS_RATIO:
+                    yield Finding(
+                        "mass-ratio",
+                        f"joint '{placed.scope}::{joint.name}' joins {known[0]:g} kg to "
+                        f"{known[1]:g} kg",
+                        "a joint between masses far apart is soft and slow to solve",
+                        "give the light link a mass nearer to the heavy one's, or fix it",
+                        joint.source,
+                    )

@@ -1,0 +1,103 @@
+"""Joints that do not do what their author meant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from gazelle.description import Joint, JointAxis, Model, World
+from gazelle.errors import did_you_mean
+from gazelle.formats.judge.finding import Finding
+
+
+def judge(world: World) -> Iterator[Finding]:
+    """Findings on every joint of a model that moves."""
+    for top in world.models:
+        for placed in top.walk():
+            for joint in placed.model.joints:
+                name = f"{placed.scope}::{joint.name}"
+                yield from _links(name, joint, placed.model)
+                for axis in joint.axes:
+                    yield from _axis(name, joint, axis)
+                    yield from _mimic(name, joint, axis, placed.model)
+            if top.static and placed.model.joints:
+                yield _in_static(placed.scope, placed.model)
+
+
+def _links(name: str, joint: Joint, model: Model) -> Iterator[Finding]:
+    known = _link_names(model)
+    for role, link in (("parent", joint.parent), ("child", joint.child)):
+        if link != "world" and link not in known:
+            yield Finding(
+                "joint-link",
+                f"joint '{name}' has the {role} link '{link}', which is not there",
+                "the model cannot be simulated",
+                did_you_mean(link, known),
+                joint.source,
+            )
+
+
+def _link_names(model: Model, prefix: str = "") -> set[str]:
+    names = {f"{prefix}{link.name}" for link in model.links}
+    names |= {f"{prefix}{frame.name}" for frame in model.frames}
+    for nested in model.models:
+        names |= _link_names(nested, f"{prefix}{nested.name}::")
+    return names
+
+
+def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
+    bounded = math.isfinite(axis.lower) or math.isfinite(axis.upper)
+    if axis.lower > axis.upper:
+        yield Finding(
+            "limits-crossed",
+            f"joint '{name}': its lower limit {axis.lower:g} is above its upper {axis.upper:g}",
+            "the joint is pushed from both sides at once",
+            "swap the two limits",
+            joint.source,
+        )
+    if joint.type == "prismatic" and not bounded:
+        yield Finding(
+            "no-limits",
+            f"prismatic joint '{name}' has no limits",
+            "under its weight the link slides away for ever",
+            "give it <limit> with <lower> and <upper>",
+            joint.source,
+        )
+    if axis.effort == 0.0:
+        yield Finding(
+            "no-effort",
+            f"joint '{name}' has an effort limit of 0",
+            "a controller cannot move it",
+            "give the largest force or torque of its actuator, or leave the limit out",
+            joint.source,
+        )
+    if axis.velocity == 0.0:
+        yield Finding(
+            "no-velocity",
+            f"joint '{name}' has a velocity limit of 0",
+            "a planner or controller that keeps to it cannot move the joint",
+            "give the largest speed of its actuator, or leave the limit out",
+            joint.source,
+        )
+
+
+def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[Finding]:
+    known = {other.name for other in model.joints}
+    if axis.mimic is not None and axis.mimic.joint not in known:
+        yield Finding(
+            "mimic-leader",
+            f"joint '{name}' mimics '{axis.mimic.joint}', which is not there",
+            "it will not move",
+            did_you_mean(axis.mimic.joint, known),
+            joint.source,
+        )
+
+
+def _in_static(scope: str, model: Model) -> Finding:
+    return Finding(
+        "static-joints",
+        f"model '{scope}' is static, so its {len(model.joints)} joints do not move",
+        "a static model is one piece of the world",
+        "set <static> to false, or leave the joints out",
+        model.source,
+    )

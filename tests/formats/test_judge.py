@@ -1,0 +1,173 @@
+"""The judgement of an experienced engineer, rule by rule."""
+
+import dataclasses
+
+import pytest
+import scenes
+
+from gazelle import assets, formats
+from gazelle.description import (
+    Box,
+    Camera,
+    Collision,
+    Contact,
+    Cylinder,
+    Inertia,
+    Inertial,
+    Joint,
+    JointAxis,
+    Link,
+    Mesh,
+    Mimic,
+    Model,
+    Physics,
+    Plugin,
+    Pose,
+    Sensor,
+    Source,
+    Sphere,
+    Surface,
+    World,
+)
+from gazelle.formats.judge import judge
+
+HERE = Source("robot.sdf", 7, "here")
+
+
+def rules(world):
+    return [finding.rule for finding in judge(world)]
+
+
+def world_of(link, *joints, links=(), step=0.001, **options):
+    model = Model("m", links=(link, *links), joints=joints, source=HERE, **options)
+    return World(models=(scenes.ground(), model), physics=(Physics(max_step_size=step),))
+
+
+def solid(shape, mass, *moments, **options):
+    inertial = Inertial(mass, inertia=Inertia(*moments), source=HERE)
+    return Link("l", inertial=inertial, collisions=(Collision("c", shape, **options),), source=HERE)
+
+
+GOOD = solid(Box((0.2, 0.2, 0.2)), 1.0, 0.0067, 0.0067, 0.0067)
+
+
+def test_a_sound_body_is_left_alone():
+    assert rules(world_of(GOOD)) == []
+
+
+@pytest.mark.parametrize(
+    ("link", "rule"),
+    [
+        (Link("l", collisions=GOOD.collisions), "no-inertial"),
+        (solid(Box((1, 1, 1)), 1.0, 0.1, 0.1, 0.5), "inertia-triangle"),
+        (solid(Sphere(0.1), 1.0, 4.0, 4.0, 4.0), "inertia-off"),
+        (solid(Cylinder(0.03, 0.02), 0.03, 1e-9, 1e-9, 1e-9), "inertia-off"),
+        (dataclasses.replace(GOOD, collisions=()), "falls"),
+    ],
+)
+def test_bad_masses_and_unsupported_bodies_are_found(link, rule):
+    assert rules(world_of(link)) == [rule]
+
+
+def test_a_finding_has_place_reason_and_advice():
+    finding = judge(world_of(solid(Sphere(0.1), 1.0, 4.0, 4.0, 4.0)))[0]
+    assert finding.source == HERE
+    assert "1e+03 times" in finding.message
+    assert finding.why
+    assert "units" in finding.hint
+
+
+def test_static_and_scripted_models_need_no_inertia():
+    bare = Link("l", collisions=GOOD.collisions)
+    assert rules(world_of(bare, static=True)) == []
+    script = Plugin("motion", "libgazelle_scripted_motion.so")
+    assert rules(world_of(bare, plugins=(script,))) == []
+
+
+def test_a_contact_too_stiff_for_the_step_says_what_would_do():
+    soft = Surface(contact=Contact(kp=1e6))
+    link = solid(Box((0.2, 0.2, 0.2)), 1.0, 0.0067, 0.0067, 0.0067, surface=soft)
+    assert rules(world_of(link, step=0.01)) == ["stiff-contact"]
+    assert rules(world_of(link, step=0.001)) == []
+
+
+def other(name="b"):
+    return dataclasses.replace(GOOD, name=name)
+
+
+@pytest.mark.parametrize(
+    ("joint", "expected"),
+    [
+        (Joint("j", "revolute", "l", "bb", axes=(JointAxis(),)), ["joint-link"]),
+        (Joint("j", "prismatic", "l", "b", axes=(JointAxis(),)), ["no-limits"]),
+        (
+            Joint("j", "revolute", "l", "b", axes=(JointAxis(lower=1, upper=-1),)),
+            ["limits-crossed"],
+        ),
+        (Joint("j", "revolute", "l", "b", axes=(JointAxis(effort=0.0),)), ["no-effort"]),
+        (Joint("j", "revolute", "l", "b", axes=(JointAxis(velocity=0.0),)), ["no-velocity"]),
+        (
+            Joint("j", "revolute", "l", "b", axes=(JointAxis(mimic=Mimic("jj")),)),
+            ["mimic-leader"],
+        ),
+        (Joint("j", "revolute", "l", "b", axes=(JointAxis(),)), []),
+    ],
+)
+def test_joints_are_judged(joint, expected):
+    assert rules(world_of(GOOD, joint, links=(other(),))) == expected
+
+
+def test_masses_far_apart_on_one_joint_are_found():
+    tiny = solid(Sphere(0.05), 1e-5, 1e-8, 1e-8, 1e-8)
+    joint = Joint("j", "revolute", "l", "b", axes=(JointAxis(),))
+    heavy = world_of(GOOD, joint, links=(dataclasses.replace(tiny, name="b"),))
+    assert rules(heavy) == ["mass-ratio"]
+
+
+def sensing(sensor, shape=None, **pose):
+    collision = Collision("c", shape or Box((0.2, 0.2, 0.2)), Pose(**pose))
+    return dataclasses.replace(GOOD, sensors=(sensor,), collisions=(collision,))
+
+
+def test_a_lidar_inside_its_own_collision_is_found():
+    scanner = dataclasses.replace(scenes.lidar(), pose=Pose())
+    inside = sensing(scanner, Cylinder(0.3, 0.1))
+    assert rules(world_of(inside)) == ["lidar-inside"]
+    covered = sensing(scanner, Cylinder(0.1, 0.3))
+    assert "lidar-inside" not in rules(world_of(covered))  # nearer than the smallest range
+
+
+def test_sensors_that_can_see_nothing_are_found():
+    blind = scenes.lidar(range_min=1.0, range_max=0.5)
+    assert "lidar-range" in rules(world_of(sensing(dataclasses.replace(blind, pose=Pose(z=1)))))
+    camera = Sensor("c", "camera", cameras=(Camera(near=1.0, far=0.5, horizontal_fov=60.0),))
+    assert rules(world_of(sensing(camera))) == ["camera-clip", "camera-fov"]
+
+
+def test_plugins_that_name_missing_joints_are_found():
+    plugin = scenes.drive_plugin(leftJoint="wheel_left_jnt")
+    model = dataclasses.replace(scenes.burger(), plugins=(plugin,))
+    found = [f for f in judge(World(models=(model,))) if f.rule == "plugin-joint"]
+    assert len(found) == 1
+    assert found[0].hint == "did you mean 'wheel_left_joint'?"
+
+
+def test_heavy_collision_meshes_are_found(tmp_path):
+    import trimesh
+
+    file = tmp_path / "ball.stl"
+    trimesh.creation.icosphere(subdivisions=6).export(file)
+    mesh = Mesh("ball.stl", file)
+    link = dataclasses.replace(GOOD, collisions=(Collision("c", mesh),))
+    assert rules(world_of(link)) == ["heavy-mesh"]
+
+
+def test_a_coarse_step_and_equal_names_are_found():
+    world = world_of(GOOD, step=0.1)
+    twice = dataclasses.replace(world, models=(*world.models, world.models[1]))
+    assert rules(twice) == ["coarse-step", "duplicate-name"]
+
+
+@pytest.mark.parametrize("name", [*assets.worlds(), *assets.robots(), *assets.models()])
+def test_what_is_bundled_passes(name):
+    assert formats.check(name) == []
