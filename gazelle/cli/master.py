@@ -5,7 +5,7 @@
   gazelle master --host 192.168.1.10
 
 Only this machine can reach it unless --host names an address of a network.
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

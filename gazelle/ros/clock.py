@@ -14,6 +14,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.ros.errors import TimeMovedBackwardsError
+from gazelle.ros.loop import give_way
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
@@ -62,6 +63,7 @@ class WallClock:
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait; see `Clock.sleep`."""
+        give_way()
         if cancelled is None:
             time.sleep(max(0, nanoseconds) / SECOND)
             return True
@@ -120,6 +122,7 @@ class SimulatedClock:
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait; see `Clock.sleep`. Before the first time there is, it waits for that."""
+        give_way()
         if not self._wait_for_start(cancelled):
             return False
         with self._lock:
@@ -201,8 +204,7 @@ class Rate:
         return awake
 
     def _left(self, now: int) -> int:
-        if self._last > now:  # time jumped back
-            self._last = now
+        self._last = min(self._last, now)  # time may have jumped back
         return self.period - (now - self._last)
 
 

@@ -7,10 +7,8 @@ socket.
 from __future__ import annotations
 
 import contextlib
-import itertools
+import os
 import socket
-import threading
-import time
 from collections.abc import Callable, Mapping
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -18,28 +16,20 @@ from typing import TYPE_CHECKING, Any, Self
 from gazelle.ros import loop as loops
 from gazelle.ros import names, net
 from gazelle.ros.errors import (
-    ApiError,
     InvalidNameError,
-    MasterUnreachableError,
-    Md5MismatchError,
-    NodeClosedError,
     ProtocolError,
     RosError,
-    RosTimeoutError,
-    UnreachableError,
     report,
 )
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.master.proxy import MasterProxy
 from gazelle.ros.parameters import Parameters
-from gazelle.ros.publishing import PeerHook, Publication, Publisher
-from gazelle.ros.raw import raw_class
 from gazelle.ros.registration import Registrar
-from gazelle.ros.services import Handler, ServiceClient, ServiceServer, wait_for_service
+from gazelle.ros.serving import ServiceUser
 from gazelle.ros.slave import SlaveApi
-from gazelle.ros.subscribing import Callback, Subscriber, Subscription
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.server import TcprosServer
+from gazelle.ros.topics import TopicUser
 from gazelle.ros.xmlrpc.client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
@@ -49,9 +39,11 @@ if TYPE_CHECKING:
 _REQUIRED: Any = object()
 _neighbours: dict[str, Node] = {}
 """The nodes of this process by their URI."""
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_neighbours.clear)
 
 
-class Node:
+class Node(TopicUser, ServiceUser):
     """A node on a ROS 1 graph.
 
     Args:
@@ -94,8 +86,8 @@ class Node:
         share_messages: bool = True,
         limits: Limits = LIMITS,
     ) -> None:
-        self.namespace = names.as_namespace(namespace)
-        self.name = _full_name(name, self.namespace, anonymous=anonymous)
+        super().__init__()
+        self.name = _full_name(name, names.as_namespace(namespace), anonymous=anonymous)
         self.namespace = names.namespace_of(self.name)
         self.remappings = names.resolve_remappings(remappings or {}, self.name)
         self.master_uri = master_uri or net.default_master_uri()
@@ -105,14 +97,6 @@ class Node:
         self.on_shutdown: list[Callable[[str], None]] = []
         self.master = MasterProxy(self.master_uri, self.name, limits=limits)
         self.parameters = Parameters(self)
-        self._lock = threading.RLock()
-        self._publications: dict[str, Publication] = {}
-        self._subscriptions: dict[str, Subscription] = {}
-        self._services: dict[str, ServiceServer] = {}
-        self._clients: set[ServiceClient] = set()
-        self._numbers = itertools.count(1)
-        self._closing = False
-        self._closed = threading.Event()
         self.loop = loops.acquire()
         self._open()
         self.clock: Clock = clock if clock is not None else self._find_clock()
@@ -150,186 +134,6 @@ class Node:
             self.close()
             raise
 
-    # Names ---------------------------------------------------------------------------------
-
-    def resolve(self, name: str) -> str:
-        """The global name that `name` means to this node, remapped."""
-        return names.resolve(name, self.name, self.remappings)
-
-    # Topics --------------------------------------------------------------------------------
-
-    def advertise(
-        self,
-        topic: str,
-        message_class: Any,
-        queue_size: int | None = 10,
-        *,
-        latch: bool = False,
-        tcp_nodelay: bool = False,
-        on_connect: PeerHook | None = None,
-        on_disconnect: PeerHook | None = None,
-    ) -> Publisher:
-        """Publish on a topic.
-
-        Args:
-            topic: Any name; it is resolved for the node.
-            message_class: Of the messages.
-            queue_size: Messages kept for a subscriber that is slow, the oldest dropped;
-                None to wait for slow subscribers.
-            latch: Send the last message to everybody who connects later.
-            tcp_nodelay: Do not let the system collect small packets.
-            on_connect: Called with the name of each subscriber that connects.
-            on_disconnect: Called with the name of each that goes.
-
-        Raises:
-            InvalidNameError: The name is not legal.
-            Md5MismatchError: This node publishes another type there already.
-        """
-        name = self._name(topic)
-        with self._lock:
-            self._check_open()
-            publication = self._publications.get(name)
-            fresh = publication is None
-            if publication is None:
-                publication = Publication(self, name, message_class)
-            _check_same(publication.message_class, message_class, name)
-            publisher = Publisher(publication, on_connect, on_disconnect)
-            publication.publishers.append(publisher)
-            publication.queue_size = _wider(publication.queue_size, queue_size, fresh=fresh)
-            publication.latching |= latch
-            publication.tcp_nodelay |= tcp_nodelay
-            self._publications[name] = publication
-        if fresh:
-            self._ask("registerPublisher", name, message_class._type, self.uri)  # noqa: SLF001  # genpy's name
-        return publisher
-
-    def subscribe(
-        self,
-        topic: str,
-        message_class: Any,
-        callback: Callback,
-        queue_size: int | None = None,
-        *,
-        tcp_nodelay: bool = False,
-        raw: bool = False,
-    ) -> Subscriber:
-        """Get the messages of a topic, one after another, on a worker thread.
-
-        Args:
-            topic: Any name; it is resolved for the node.
-            message_class: Of the messages; `gazelle.ros.raw.RawMessage` takes any.
-            callback: Called with each message; what it raises is reported and changes nothing.
-            queue_size: Messages kept while callbacks are slow, the oldest dropped; None to
-                keep all and let the publisher wait.
-            tcp_nodelay: Ask publishers not to let the system collect small packets.
-            raw: Do not decode; the callback gets a `RawMessage`.
-
-        Raises:
-            InvalidNameError: The name is not legal.
-            Md5MismatchError: This node subscribes to another type there already.
-        """
-        name = self._name(topic)
-        kind = raw_class(message_class) if raw else message_class
-        with self._lock:
-            self._check_open()
-            subscription = self._subscriptions.get(name)
-            fresh = subscription is None
-            if subscription is None:
-                subscription = Subscription(self, name, kind)
-            _check_same(subscription.message_class, kind, name)
-            subscriber = Subscriber(subscription, callback, queue_size)
-            subscription.add(subscriber, tcp_nodelay=tcp_nodelay)
-            self._subscriptions[name] = subscription
-        if fresh:
-            self._register_subscription(subscription)
-        return subscriber
-
-    def _register_subscription(self, subscription: Subscription) -> None:
-        kind = subscription.message_class._type  # noqa: SLF001  # genpy's name
-        uris = self._ask("registerSubscriber", subscription.topic, kind, self.uri)
-
-        def begin() -> None:
-            # An update from the master is newer than its answer, whichever came first.
-            if not subscription.updated:
-                subscription.update([uri for uri in uris if isinstance(uri, str)])
-
-        if isinstance(uris, list):
-            self.loop.call_soon(begin)
-
-    def wait_for_message(self, topic: str, message_class: Any, timeout: float | None = None) -> Any:
-        """The next message of a topic.
-
-        Raises:
-            RosTimeoutError: None came within `timeout` seconds of wall time.
-            NodeClosedError: The node was closed meanwhile.
-        """
-        found: list[Any] = []
-        event = threading.Event()
-
-        def keep(message: Any) -> None:
-            found.append(message)
-            event.set()
-
-        deadline = None if timeout is None else time.monotonic() + timeout
-        subscriber = self.subscribe(topic, message_class, keep)
-        try:
-            while not event.wait(0.5 if deadline is None else _left(deadline, 0.5)):
-                if self._closed.is_set():
-                    raise NodeClosedError("the node was closed while it waited for a message")
-                if deadline is not None and time.monotonic() >= deadline:
-                    raise RosTimeoutError(
-                        f"timeout exceeded while waiting for message on topic {subscriber.name}"
-                    )
-        finally:
-            subscriber.close()
-        return found[0]
-
-    # Services ------------------------------------------------------------------------------
-
-    def serve(self, name: str, service_class: Any, handler: Handler) -> ServiceServer:
-        """Offer a service; the last node that offers a name gets the calls.
-
-        Args:
-            name: Any name; it is resolved for the node.
-            service_class: Its type.
-            handler: From request to response; see `ServiceServer`.
-
-        Raises:
-            InvalidNameError: The name is not legal, or served by this node already.
-        """
-        resolved = self._name(name)
-        with self._lock:
-            self._check_open()
-            if resolved in self._services:
-                raise InvalidNameError(f"this node serves {resolved} already")
-            server = self._services[resolved] = ServiceServer(
-                self, resolved, service_class, handler
-            )
-        self._ask("registerService", resolved, server.uri, self.uri)
-        return server
-
-    def client(self, name: str, service_class: Any, *, persistent: bool = False) -> ServiceClient:
-        """Something that calls a service.
-
-        Args:
-            name: Any name; it is resolved for the node.
-            service_class: Its type.
-            persistent: Keep one connection for all calls.
-        """
-        client = ServiceClient(self, self._name(name), service_class, persistent=persistent)
-        with self._lock:
-            self._check_open()
-            self._clients.add(client)
-        return client
-
-    def wait_for_service(self, name: str, timeout: float | None = None) -> None:
-        """Wait until a service answers.
-
-        Raises:
-            RosTimeoutError: It does not within `timeout` seconds of wall time.
-        """
-        wait_for_service(self, self._name(name), timeout)
-
     # Parameters ----------------------------------------------------------------------------
 
     def get_param(self, name: str, default: Any = _REQUIRED) -> Any:
@@ -359,15 +163,6 @@ class Node:
         return self.parameters.names()
 
     # The end -------------------------------------------------------------------------------
-
-    @property
-    def closed(self) -> bool:
-        """True when the node is closed, or closing."""
-        return self._closing
-
-    def wait_closed(self, timeout: float | None = None) -> bool:
-        """Wait until the node is closed; False if it is not within `timeout` seconds."""
-        return self._closed.wait(timeout)
 
     def close(self) -> None:
         """Unregister everything, close everything. Not to be called on the event loop."""
@@ -433,91 +228,13 @@ class Node:
 
         self.loop.submit(end)
 
-    # For the parts of the node -------------------------------------------------------------
-
-    def publication(self, topic: str) -> Publication | None:
-        """What this node publishes on a topic."""
-        return self._publications.get(topic)
-
-    def subscription(self, topic: str) -> Subscription | None:
-        """What this node subscribes to on a topic."""
-        return self._subscriptions.get(topic)
-
-    def publications(self) -> list[Publication]:
-        """All of them."""
-        return list(self._publications.values())
-
-    def subscriptions(self) -> list[Subscription]:
-        """All of them."""
-        return list(self._subscriptions.values())
-
-    def services(self) -> list[ServiceServer]:
-        """All services this node offers."""
-        return list(self._services.values())
-
-    def next_number(self) -> int:
-        """A number for a new connection."""
-        return next(self._numbers)
+    # Inner -----------------------------------------------------------------------------------
 
     @staticmethod
     def neighbour(uri: str) -> Node | None:
         """The node of this process at that URI."""
         node = _neighbours.get(uri)
         return None if node is None or node.closed else node
-
-    def unadvertise(self, publication: Publication, publisher: Publisher) -> None:
-        """A publisher is closed."""
-        with self._lock:
-            if self._closing:
-                return
-            publication.publishers.remove(publisher)
-            if publication.publishers:
-                return
-            self._publications.pop(publication.topic, None)
-        self._ask("unregisterPublisher", publication.topic, self.uri)
-        self.loop.run(publication.close)
-
-    def unsubscribe(self, subscription: Subscription, subscriber: Subscriber) -> None:
-        """A subscriber is closed."""
-        with self._lock:
-            subscription.remove(subscriber)
-            if subscription.subscribers or self._closing:
-                return
-            self._subscriptions.pop(subscription.topic, None)
-        self._ask("unregisterSubscriber", subscription.topic, self.uri)
-        self.loop.run(subscription.close)
-
-    def unserve(self, server: ServiceServer) -> None:
-        """A service is closed."""
-        with self._lock:
-            if self._closing:
-                return
-            self._services.pop(server.name, None)
-        self._ask("unregisterService", server.name, server.uri)
-        self.loop.run(server.drop_all)
-
-    def forget_client(self, client: ServiceClient) -> None:
-        """A client is closed."""
-        with self._lock:
-            self._clients.discard(client)
-
-    def _name(self, name: str) -> str:
-        if not name:
-            raise InvalidNameError("a topic or service needs a name")
-        return names.check(self.resolve(names.check(name)))
-
-    def _check_open(self) -> None:
-        if self._closing:
-            raise NodeClosedError(f"the node {self.name} is closed")
-
-    def _ask(self, method: str, *params: Any) -> Any:
-        """Call the master; while it does not answer, the registrar goes on trying."""
-        try:
-            return self.master.call(method, *params)
-        except (MasterUnreachableError, ApiError) as error:
-            report(f"{method} of {self.name}", error)
-            self.loop.call_soon(self._registrar.alert)
-            return None
 
     def _lost(self, uri: str) -> None:
         """A connection to a peer closed while nothing was asked."""
@@ -554,22 +271,3 @@ def _full_name(name: str, namespace: str, *, anonymous: bool) -> str:
         raise InvalidNameError("a node's name cannot begin with '~'")
     full = names.canonical(name if names.is_global(name) else namespace + name)
     return names.anonymous(full) if anonymous else full
-
-
-def _check_same(known: Any, wanted: Any, topic: str) -> None:
-    mine, theirs = known._md5sum, wanted._md5sum  # noqa: SLF001  # genpy's names
-    if headers.ANY not in {mine, theirs} and mine != theirs:
-        raise Md5MismatchError(
-            f"this node uses {topic} with the type {known._type} already, not {wanted._type}"  # noqa: SLF001
-        )
-
-
-def _wider(known: int | None, wanted: int | None, *, fresh: bool) -> int | None:
-    """The larger of two queue sizes; None is without bound."""
-    if fresh:
-        return wanted
-    return None if known is None or wanted is None else max(known, wanted)
-
-
-def _left(deadline: float, most: float) -> float:
-    return min(most, max(0.0, deadline - time.monotonic()))

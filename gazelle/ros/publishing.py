@@ -96,8 +96,8 @@ class Publication:
         data = frame(message)
         with self._lock:
             self._last = data
-            self.bytes += len(data)
             remote, local = self.remote, self.local
+            self.bytes += len(data) if remote else 0
             if local:
                 self._publish_local(local, message, data[4:])
         for link in remote:

@@ -21,6 +21,7 @@ from gazelle.ros.errors import (
     UnreachableError,
     report,
 )
+from gazelle.ros.loop import give_way
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import frame
 from gazelle.ros.tcpros.service_links import (
@@ -196,6 +197,7 @@ class ServiceClient:
             raise NodeClosedError(f"the client of {self.name} is closed")
         deadline = None if timeout is None else time.monotonic() + timeout
         data = frame(request)
+        give_way()
         if self.persistent:
             with self._lock:
                 body = self._call_persistent(data, deadline)
@@ -272,6 +274,7 @@ def wait_for_service(node: Node, name: str, timeout: float | None) -> None:
     Raises:
         RosTimeoutError: It does not within `timeout` seconds of wall time.
     """
+    give_way()
     deadline = None if timeout is None else time.monotonic() + timeout
     fields = {"callerid": node.name, "service": name, "md5sum": headers.ANY, "probe": "1"}
     while True:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.errors import Md5MismatchError, report
 from gazelle.ros.limits import Limits
-from gazelle.ros.loop import EventLoop, Strand
+from gazelle.ros.loop import EventLoop
 from gazelle.ros.publishing import LocalLink, Publication
 from gazelle.ros.raw import RawMessage
+from gazelle.ros.strand import Strand
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.inbound import InboundLink
 
@@ -127,7 +128,7 @@ class Subscription:
     def request_header(self) -> dict[str, str]:
         """What a publisher is told."""
         kind = self.message_class
-        fields = {
+        return {
             "callerid": self.node.name,
             "md5sum": kind._md5sum,  # noqa: SLF001  # genpy's names
             "message_definition": kind._full_text,  # noqa: SLF001
@@ -135,7 +136,6 @@ class Subscription:
             "topic": self.topic,
             "type": kind._type,  # noqa: SLF001
         }
-        return fields
 
     def check_header(self, header: dict[str, str]) -> None:
         """Judge what a publisher answered."""

@@ -12,6 +12,7 @@ from gazelle.ros.errors import ProtocolError
 LENGTH = struct.Struct("<I")
 CHUNK = 65536
 BIG_CHUNK = 4 * 1024 * 1024
+_BIG = 16384
 _ROOM = b"\0\0\0\0"
 
 
@@ -38,14 +39,14 @@ class FrameReader:
             anything of it is stored; shorter ones are stored only as they come.
     """
 
-    __slots__ = ("_have", "_need", "_parts", "limit", "received")
+    __slots__ = ("_missing", "_parts", "_rest", "limit", "received")
 
     def __init__(self, limit: int) -> None:
         self.limit = limit
         self.received = 0
+        self._rest = b""
         self._parts: list[bytes] = []
-        self._have = 0
-        self._need = 4
+        self._missing = 0
 
     def read(self, sock: socket.socket) -> list[bytes]:
         """Read what is there now and return the frames that are whole, without their lengths.
@@ -55,22 +56,17 @@ class FrameReader:
             ProtocolError: A frame is longer than the limit.
             OSError: The connection broke.
         """
-        missing = self._need - self._have
+        missing = self._missing
         try:
-            data = sock.recv(CHUNK if missing < CHUNK else min(missing, BIG_CHUNK))
+            data = sock.recv(min(missing, BIG_CHUNK) if missing else CHUNK)
         except (BlockingIOError, InterruptedError):
             return []
         if not data:
             raise ClosedError("the peer closed the connection")
         self.received += len(data)
-        if self._parts:
-            self._parts.append(data)
-            self._have += len(data)
-            if self._have < self._need:
-                return []
-            data = b"".join(self._parts)
-            self._parts.clear()
-        return self.cut(data)
+        if missing:
+            return self._add(data)
+        return self.cut(self._rest + data if self._rest else data)
 
     def cut(self, data: bytes) -> list[bytes]:
         """The whole frames at the start of `data`; the rest is kept for later."""
@@ -84,20 +80,23 @@ class FrameReader:
             start = position + 4
             stop = start + length
             if stop > end:
-                self._keep(data, position, stop - position)
-                return frames
+                if length > _BIG:
+                    self._rest = b""
+                    self._parts = [data[start:]]
+                    self._missing = stop - end
+                    return frames
+                break
             frames.append(data[start:stop])
             position = stop
-        self._keep(data, position, 4)
+        self._rest = data[position:]
         return frames
 
-    def rest(self) -> bytes:
-        """What was read beyond the frames returned."""
-        return b"".join(self._parts)
-
-    def _keep(self, data: bytes, position: int, need: int) -> None:
-        rest = data[position:] if position else data
-        self._have = len(rest)
-        self._need = need
-        if rest:
-            self._parts.append(rest)
+    def _add(self, data: bytes) -> list[bytes]:
+        """More of a big frame, which is read for itself so that it need not be cut out."""
+        self._parts.append(data)
+        self._missing -= len(data)
+        if self._missing:
+            return []
+        frame = b"".join(self._parts)
+        self._parts = []
+        return [frame]

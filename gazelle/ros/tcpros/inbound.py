@@ -112,19 +112,23 @@ class InboundLink:
             self._try_again(error)
             return
         try:
-            code, text, choice = value
-            if code != 1:
-                raise ProtocolError(f"{self.uri} refuses {self._receiver.topic}: {text}")
-            protocol, host, port = choice
-            if protocol != "TCPROS" or not 0 < int(port) < 65536:
-                raise ProtocolError(f"{self.uri} offers {choice!r}")
-            self.endpoint = (str(host), int(port))
+            self.endpoint = self._read_answer(value)
         except (TypeError, ValueError):
             self._try_again(ProtocolError(f"requestTopic of {self.uri} answered {value!r}"))
         except ProtocolError as refusal:
             self._try_again(refusal)
         else:
             self._find()
+
+    def _read_answer(self, value: Any) -> tuple[str, int]:
+        """Host and port out of the answer to requestTopic."""
+        code, text, choice = value
+        if code != 1:
+            raise ProtocolError(f"{self.uri} refuses {self._receiver.topic}: {text}")
+        protocol, host, port = choice
+        if protocol != "TCPROS" or not 0 < int(port) < 65536:
+            raise ProtocolError(f"{self.uri} offers {choice!r}")
+        return str(host), int(port)
 
     def _find(self) -> None:
         host = self.endpoint[0]

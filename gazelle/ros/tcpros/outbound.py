@@ -138,6 +138,7 @@ class OutboundLink:
 
     def _send_patiently(self, rest: memoryview) -> None:
         """Wait for the subscriber, as a publisher without queue does."""
+        self._loop.give_way()
         while rest and not self.closed:
             try:
                 if not wait_writable(self._sock, _POLL_S):

@@ -15,7 +15,8 @@ from gazelle.ros.errors import (
     ServiceFailedError,
 )
 from gazelle.ros.limits import Limits
-from gazelle.ros.loop import READ, EventLoop, Strand
+from gazelle.ros.loop import READ, EventLoop
+from gazelle.ros.strand import Strand
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import LENGTH, FrameReader
 from gazelle.ros.tcpros.outbound import wait_writable

@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.ros import net
 from gazelle.ros.errors import ProtocolError, RosError, UnreachableError
 from gazelle.ros.limits import LIMITS, Limits
-from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
+from gazelle.ros.loop import READ, WRITE, EventLoop, Timer, give_way
 from gazelle.ros.xmlrpc.http import Message, MessageReader, request
 from gazelle.ros.xmlrpc.reading import read_response
 from gazelle.ros.xmlrpc.writing import write_call
@@ -59,6 +59,7 @@ class BlockingClient:
         """
         document = write_call(method, params)
         data = request(f"{self._host}:{self._port}", self._path, document)
+        give_way()
         while True:
             sock = self._take()
             if sock is None:

@@ -131,12 +131,16 @@ class XmlRpcServer:
 
     def _call_one(self, call: Any) -> Any:
         try:
-            method, params = call["methodName"], call["params"]
-            if method == "system.multicall" or not isinstance(params, list):
-                raise MarshalError("not a call that system.multicall takes")
-            return [self._dispatch(str(method), params)]
+            return [self._dispatch(*_inner_call(call))]
         except Exception as error:  # noqa: BLE001  # each call of several fails for itself
             return {"faultCode": 1, "faultString": _fault_text(error)}
+
+
+def _inner_call(call: Any) -> tuple[str, list[Any]]:
+    method, params = call["methodName"], call["params"]
+    if method == "system.multicall" or not isinstance(params, list):
+        raise MarshalError("not a call that system.multicall takes")
+    return str(method), params
 
 
 def _fault_text(error: Exception) -> str:

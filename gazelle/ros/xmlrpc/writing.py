@@ -137,17 +137,21 @@ def _write_other(value: Any, out: list[str], depth: int) -> None:
         raise MarshalError("XML-RPC has no value for None")
     if isinstance(value, (bytes, bytearray, memoryview)):
         out.append(f"<value><base64>{base64.b64encode(value).decode()}</base64></value>")
-    elif isinstance(value, str):
-        _write(str(value), out, depth)
     elif isinstance(value, int):
         _write_int(value, out)
-    elif isinstance(value, float):
-        _write(float(value), out, depth)
+    elif isinstance(value, (str, float)):
+        _write(str(value) if isinstance(value, str) else float(value), out, depth)
     elif isinstance(value, Mapping):
         _write_struct(value, out, depth)
     elif isinstance(value, (list, tuple)):
         _write_array(value, out, depth)
-    elif _is_standard(value, "Binary"):
+    else:
+        _write_foreign(value, out, depth)
+
+
+def _write_foreign(value: Any, out: list[str], depth: int) -> None:
+    """The standard library's wrappers, dates, and numpy's numbers and arrays."""
+    if _is_standard(value, "Binary"):
         _write_other(value.data, out, depth)
     elif _is_standard(value, "DateTime"):
         out.append(f"<value><dateTime.iso8601>{escape(value.value)}</dateTime.iso8601></value>")

@@ -1,0 +1,87 @@
+"""The services of a node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
+from gazelle.ros.errors import InvalidNameError
+from gazelle.ros.node_base import NodeBase
+from gazelle.ros.services import Handler, ServiceClient, ServiceServer, wait_for_service
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+
+class ServiceUser(NodeBase):
+    """The part of a node that offers and calls services."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._services: dict[str, ServiceServer] = {}
+        self._clients: set[ServiceClient] = set()
+
+    def serve(self, name: str, service_class: Any, handler: Handler) -> ServiceServer:
+        """Offer a service; the last node that offers a name gets the calls.
+
+        Args:
+            name: Any name; it is resolved for the node.
+            service_class: Its type.
+            handler: From request to response; see `ServiceServer`.
+
+        Raises:
+            InvalidNameError: The name is not legal, or served by this node already.
+        """
+        resolved = self._name(name)
+        with self._lock:
+            self._check_open()
+            if resolved in self._services:
+                raise InvalidNameError(f"this node serves {resolved} already")
+            server = self._services[resolved] = ServiceServer(
+                cast("Node", self), resolved, service_class, handler
+            )
+        self._ask("registerService", resolved, server.uri, self.uri)
+        return server
+
+    def client(self, name: str, service_class: Any, *, persistent: bool = False) -> ServiceClient:
+        """Something that calls a service.
+
+        Args:
+            name: Any name; it is resolved for the node.
+            service_class: Its type.
+            persistent: Keep one connection for all calls.
+        """
+        client = ServiceClient(
+            cast("Node", self), self._name(name), service_class, persistent=persistent
+        )
+        with self._lock:
+            self._check_open()
+            self._clients.add(client)
+        return client
+
+    def wait_for_service(self, name: str, timeout: float | None = None) -> None:
+        """Wait until a service answers.
+
+        Raises:
+            RosTimeoutError: It does not within `timeout` seconds of wall time.
+        """
+        wait_for_service(cast("Node", self), self._name(name), timeout)
+
+    # For the parts of the node -------------------------------------------------------------
+
+    def services(self) -> list[ServiceServer]:
+        """All services this node offers."""
+        return list(self._services.values())
+
+    def unserve(self, server: ServiceServer) -> None:
+        """A service is closed."""
+        with self._lock:
+            if self._closing:
+                return
+            self._services.pop(server.name, None)
+        self._ask("unregisterService", server.name, server.uri)
+        self.loop.run(server.drop_all)
+
+    def forget_client(self, client: ServiceClient) -> None:
+        """A client is closed."""
+        with self._lock:
+            self._clients.discard(client)

@@ -1,0 +1,90 @@
+"""Work in order, on whatever thread is free."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.ros.crew import FIRST_DOUBT, QUICK
+from gazelle.ros.errors import report
+from gazelle.ros.loop import EventLoop
+
+
+class Strand:
+    """Handles items one at a time and in order, on whatever thread is free.
+
+    Args:
+        loop: The loop whose threads are used.
+        handle: Called with each item; may take long, may raise.
+        what: What the items are, for the report of an error.
+    """
+
+    BATCH = 16
+    TURN = 0.002
+    """Seconds after which others get a turn."""
+    __slots__ = ("_doubt", "_doubt_until", "_handle", "_lock", "_loop", "_running", "items", "what")
+
+    def __init__(self, loop: EventLoop, handle: Callable[[Any], None], what: str) -> None:
+        self._loop = loop
+        self._handle = handle
+        self._lock = threading.Lock()
+        self._running = False
+        self._doubt = FIRST_DOUBT
+        self._doubt_until = math.inf
+        self.items: deque[Any] = deque()
+        self.what = what
+
+    def post(self, item: Any) -> None:
+        """Handle `item` after those before it."""
+        self.items.append(item)
+        self._start()
+
+    def post_all(self, items: list[Any]) -> None:
+        """Handle several items, in order."""
+        self.items.extend(items)
+        self._start()
+
+    def _start(self) -> None:
+        with self._lock:
+            if self._running or not self.items:
+                return
+            self._running = True
+        self._loop.submit(self._run, quick=time.monotonic() > self._doubt_until)
+
+    def _run(self) -> None:
+        items, handle = self.items, self._handle
+        begin = end = time.monotonic()
+        count = 0
+        while items and end - begin < self.TURN:
+            for _ in range(self.BATCH):
+                try:
+                    item = items.popleft()
+                except IndexError:
+                    break
+                count += 1
+                try:
+                    handle(item)
+                except Exception as error:  # noqa: BLE001  # a callback must not end its thread
+                    report(self.what, error)
+            end = time.monotonic()
+        self._learn((end - begin) / max(1, count), end)
+        with self._lock:
+            if not items:
+                self._running = False
+                return
+        # Others get a turn.
+        self._loop.submit(self._run, quick=end > self._doubt_until)
+
+    def _learn(self, seconds: float, now: float) -> None:
+        """Expect items to take as long as these did."""
+        if seconds > QUICK:
+            self._doubt = min(self._doubt * 2, 60.0)
+            self._doubt_until = now + self._doubt
+        else:
+            self._doubt = FIRST_DOUBT
+            if self._doubt_until > now + 60.0:
+                self._doubt_until = 0.0
