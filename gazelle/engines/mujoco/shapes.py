@@ -31,6 +31,10 @@ from gazelle.description import (
 from gazelle.errors import EngineWarning
 
 _SIDES = 24
+_ELEVATION_FILES = {".asc", ".dem", ".hgt"}
+_GROUND = 1.0
+"""Depth of the ground below the lowest point of a heightmap [m]."""
+_THIN = 1e-6
 
 
 @dataclass(slots=True)
@@ -39,6 +43,7 @@ class ShapeBuilder:
 
     spec: mujoco.MjSpec
     meshes: dict[Any, str] = field(default_factory=dict)
+    heightmaps: dict[Heightmap, str] = field(default_factory=dict)
 
     def options(self, shape: Geometry, pose: Pose, source: Source | None) -> list[dict[str, Any]]:
         """Arguments of ``add_geom`` for a shape at a pose; none if there is nothing to hit."""
@@ -52,6 +57,7 @@ class ShapeBuilder:
                 name=name,
                 uservert=np.asarray(vertices, dtype=np.float64).ravel(),
                 userface=np.asarray(faces, dtype=np.int32).ravel(),
+                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
             )
             self.meshes[key] = name
         return {
@@ -122,28 +128,80 @@ def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> l
 
 
 def _mesh(builder: ShapeBuilder, shape: Mesh, pose: Pose, _: Source | None) -> list[dict[str, Any]]:
+    """One geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
     if shape.path is None:
         return []
+    from gazelle.formats.convex import convex_pieces
     from gazelle.formats.mesh import load_mesh
 
-    mesh = load_mesh(shape)
     key = (shape.path, shape.scale, shape.submesh, shape.center_submesh)
-    return [builder.mesh_geom(key, mesh.vertices, mesh.faces, pose)]
+    pieces = convex_pieces(load_mesh(shape))
+    return [
+        builder.mesh_geom((key, number), piece.vertices, piece.faces, pose)
+        for number, piece in enumerate(pieces)
+    ]
+
+
+def _polyline(
+    builder: ShapeBuilder, shape: Polyline, pose: Pose, _: Source | None
+) -> list[dict[str, Any]]:
+    from gazelle.formats.patches import prism
+    from gazelle.formats.polygon import convex_polygons
+
+    geoms = []
+    for number, corners in enumerate(convex_polygons(shape.outlines)):
+        rim = np.column_stack([corners, np.full(len(corners), shape.height)])
+        vertices, faces = prism(rim, np.array([0.0, 0.0, shape.height]))
+        geoms.append(builder.mesh_geom((shape, number), vertices, faces, pose))
+    return geoms
+
+
+def _heightmap(
+    builder: ShapeBuilder, shape: Heightmap, pose: Pose, source: Source | None
+) -> list[dict[str, Any]]:
+    if shape.path is None:
+        return []
+    if shape.path.suffix.lower() in _ELEVATION_FILES:
+        return _left_out(f"a heightmap of kind '{shape.path.suffix}' is not supported", source)
+    from gazelle.formats.terrain import load_heights
+
+    name = builder.heightmaps.get(shape)
+    heights = load_heights(shape)
+    low, range_z = float(heights.min()), max(float(np.ptp(heights)), _THIN)
+    if name is None:
+        name = builder.heightmaps[shape] = f"heightmap_{len(builder.heightmaps)}"
+        builder.spec.add_hfield(
+            name=name,
+            nrow=heights.shape[0],
+            ncol=heights.shape[1],
+            size=[shape.size[0] / 2.0, shape.size[1] / 2.0, range_z, _GROUND],
+            userdata=((heights - low) / range_z).ravel(),
+        )
+    x, y, z = shape.position
+    placed = pose * Pose(x, y, z + low)
+    return [{"type": mujoco.mjtGeom.mjGEOM_HFIELD, "hfieldname": name, **_placed(placed)}]
+
+
+def _image(_: ShapeBuilder, shape: Image, pose: Pose, __: Source | None) -> list[dict[str, Any]]:
+    if shape.path is None:
+        return []
+    from gazelle.formats.terrain import load_boxes
+
+    geoms = []
+    for x, y, width, depth in load_boxes(shape).tolist():
+        placed = pose * Pose(x, y, shape.height / 2.0)
+        size = (width / 2.0, depth / 2.0, shape.height / 2.0)
+        geoms += _primitive(mujoco.mjtGeom.mjGEOM_BOX, size, placed)
+    return geoms
 
 
 def _nothing(_: ShapeBuilder, __: Empty, ___: Pose, ____: Source | None) -> list[dict[str, Any]]:
     return []
 
 
-def _unsupported(
-    _: ShapeBuilder, shape: Geometry, __: Pose, source: Source | None
-) -> list[dict[str, Any]]:
-    kind = type(shape).__name__.lower()
+def _left_out(reason: str, source: Source | None) -> list[dict[str, Any]]:
     place = f"{source.file}:{source.line}: " if source is not None else ""
-    warnings.warn(
-        EngineWarning(f"{place}a {kind} does not collide in this engine yet; it is left out"),
-        stacklevel=2,
-    )
+    warnings.warn(EngineWarning(f"{place}{reason}; it is left out"), stacklevel=2)
     return []
 
 
@@ -154,11 +212,11 @@ _READERS: dict[type, Callable[..., list[dict[str, Any]]]] = {
     Cylinder: _cylinder,
     Ellipsoid: _ellipsoid,
     Empty: _nothing,
-    Heightmap: _unsupported,
-    Image: _unsupported,
+    Heightmap: _heightmap,
+    Image: _image,
     Mesh: _mesh,
     Plane: _plane,
-    Polyline: _unsupported,
+    Polyline: _polyline,
     Sphere: _sphere,
 }
 

@@ -1,0 +1,91 @@
+"""Outlines in the plane as convex polygons, by slabs between their corners."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.formats.hull import planar_area, planar_hull
+from gazelle.formats.surface import Floats
+
+Outline = Sequence[tuple[float, float]]
+
+
+def convex_polygons(outlines: Sequence[Outline]) -> list[Floats]:
+    """Convex polygons, shape (n, 2), counter-clockwise, that cover what outlines enclose.
+
+    What is inside of two outlines is a hole: inside is where a way out crosses an odd
+    number of them. An outline is closed whether or not its last point is its first.
+    """
+    edges = _edges(outlines)
+    if not len(edges):
+        return []
+    levels = np.unique(edges[:, :, 1])
+    size = float(np.ptp(edges.reshape(-1, 2), axis=0).max())
+    parts: list[_Part] = []
+    open_parts: list[_Part] = []
+    for low, high in itertools.pairwise(levels.tolist()):
+        slab = [_Part(corners, low, high) for corners in _slab(edges, low, high)]
+        open_parts = [_grown(part, open_parts, size) for part in slab]
+        parts.extend(part for part in open_parts if part.bottom == low)
+    # a part that grew stands in the list as it was begun; its corners are the grown ones
+    return [part.corners for part in parts]
+
+
+@dataclass(slots=True)
+class _Part:
+    """A convex polygon between two levels of y."""
+
+    corners: Floats
+    bottom: float
+    top: float
+
+
+def _edges(outlines: Sequence[Outline]) -> Floats:
+    """All edges that are not level, lower end first, shape (n, 2, 2)."""
+    found = []
+    for outline in outlines:
+        points = np.asarray(outline, np.float64).reshape(-1, 2)
+        if len(points) >= 3:
+            found.append(np.stack([points, np.roll(points, -1, axis=0)], axis=1))
+    if not found:
+        return np.empty((0, 2, 2))
+    edges: Floats = np.concatenate(found)
+    edges = edges[edges[:, 0, 1] != edges[:, 1, 1]]
+    down = edges[:, 0, 1] > edges[:, 1, 1]
+    edges[down] = edges[down, ::-1]
+    return edges
+
+
+def _slab(edges: Floats, low: float, high: float) -> list[Floats]:
+    """The trapezoids between two levels, from left to right."""
+    crossing = edges[(edges[:, 0, 1] <= low) & (edges[:, 1, 1] >= high)]
+    rise = crossing[:, 1, 1] - crossing[:, 0, 1]
+    slope = (crossing[:, 1, 0] - crossing[:, 0, 0]) / rise
+    below = crossing[:, 0, 0] + slope * (low - crossing[:, 0, 1])
+    above = crossing[:, 0, 0] + slope * (high - crossing[:, 0, 1])
+    order = np.argsort(below + above, kind="stable").tolist()
+    found = []
+    for left, right in zip(order[::2], order[1::2], strict=False):
+        corners = np.array(
+            [(below[left], low), (below[right], low), (above[right], high), (above[left], high)]
+        )
+        hull = corners[planar_hull(corners)]
+        if len(hull) >= 3 and planar_area(hull) > 0.0:
+            found.append(hull)
+    return found
+
+
+def _grown(part: _Part, below: list[_Part], size: float) -> _Part:
+    """A part of the slab below with this one added, if both together are convex."""
+    for other in below:
+        both = np.concatenate([other.corners, part.corners])
+        hull = both[planar_hull(both)]
+        lacking = planar_area(hull) - planar_area(other.corners) - planar_area(part.corners)
+        if abs(lacking) <= 1e-9 * size * size and other.top == part.bottom:
+            other.corners, other.top = hull, part.top
+            return other
+    return part

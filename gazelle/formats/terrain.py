@@ -1,0 +1,88 @@
+"""Pictures as ground: heights of a heightmap, boxes of an image."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Heightmap, Image, Source
+from gazelle.errors import FormatError
+from gazelle.formats.picture import Bytes, read_picture
+
+Floats = NDArray[np.float64]
+
+
+def load_heights(shape: Heightmap) -> Floats:
+    """Heights over the grid of a heightmap [m], shape (rows, columns), its position apart.
+
+    Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
+    ``size``. As in Gazebo the brightest pixel has the height ``size[2]`` and black none.
+
+    Raises:
+        FormatError: The picture was not found or cannot be read; it names the place in the
+            description.
+    """
+    grey = _grey(_pixels(shape))
+    brightest = float(grey.max())
+    scale = abs(shape.size[2]) / brightest if brightest > 0.0 else 0.0
+    return np.ascontiguousarray(grey[::-1] * scale)
+
+
+def load_boxes(shape: Image) -> Floats:
+    """Centres and sizes along x, y [m] of the boxes of an image, shape (n, 4).
+
+    The picture is centred at the origin, its top row at the greatest y; a pixel not
+    brighter than the threshold is part of a box.
+
+    Raises:
+        FormatError: As ``load_heights``.
+    """
+    dark = _grey(_pixels(shape)) <= shape.threshold
+    step = max(1, shape.granularity)
+    height, width = dark.shape
+    padded = np.zeros((-(-height // step) * step, -(-width // step) * step), bool)
+    padded[:height, :width] = dark
+    tiles = padded.reshape(padded.shape[0] // step, step, -1, step)
+    blocks = np.logical_or.reduce(tiles, axis=(1, 3))
+    left, top, right, bottom = (rectangles(blocks) * float(step)).T
+    centres = ((left + right - width) / 2.0, (height - top - bottom) / 2.0)
+    return np.stack([*centres, right - left, bottom - top], axis=1) * shape.scale
+
+
+def rectangles(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Rectangles that cover the true cells once: left, top, right, bottom, shape (n, 4).
+
+    Runs of each row, joined with those of the same columns in the rows below.
+    """
+    framed = np.pad(cells, ((0, 0), (1, 1))).astype(np.int8)
+    change = np.diff(framed, axis=1)
+    rows, starts = np.nonzero(change == 1)
+    ends = np.nonzero(change == -1)[1]
+    found: list[tuple[int, int, int, int]] = []
+    growing: dict[tuple[int, int], tuple[int, int]] = {}
+    for row, start, end in zip(rows.tolist(), starts.tolist(), ends.tolist(), strict=True):
+        top, last = growing.get((start, end), (row, row))
+        if last < row - 1:
+            found.append((start, top, end, last + 1))
+            top = row
+        growing[start, end] = (top, row)
+    found += [(start, top, end, last + 1) for (start, end), (top, last) in growing.items()]
+    return np.array(sorted(found), np.int64).reshape(-1, 4)
+
+
+def _grey(pixels: Bytes) -> Floats:
+    grey: Floats = pixels[..., :3].astype(np.float64).mean(axis=2)
+    return grey
+
+
+def _pixels(shape: Heightmap | Image) -> Bytes:
+    kind = type(shape).__name__.lower()
+    if shape.path is None:
+        raise FormatError(f"the picture '{shape.uri}' was not found", source=shape.source)
+    try:
+        return read_picture(shape.path)
+    except FormatError as error:
+        raise FormatError(
+            f"the {kind} '{shape.path}' cannot be used: {error.message}",
+            source=shape.source or Source(str(shape.path)),
+        ) from error

@@ -1,0 +1,289 @@
+"""Meshes become convex pieces that fill no hole."""
+
+import time
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gazelle.description import Mesh
+from gazelle.formats import coacd, convex, load_mesh, piece_cache
+from gazelle.formats.convex import convex_pieces
+from gazelle.formats.hull import convex_hull, planar_area, planar_hull
+from gazelle.formats.mesh import MeshData
+from gazelle.formats.patches import MAX_PATCHES
+from gazelle.formats.surface import clean, components, first_hits
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path, monkeypatch):
+    """Nothing is read from or left in the user's cache, and CoACD is not asked."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(coacd, "_package", lambda: None)
+    convex._cached.cache_clear()
+    yield
+    convex._cached.cache_clear()
+
+
+def data(*meshes):
+    whole = trimesh.util.concatenate(meshes) if len(meshes) > 1 else meshes[0]
+    return MeshData(np.asarray(whole.vertices, float), np.asarray(whole.faces, np.int32))
+
+
+def volume(piece):
+    a, b, c = (piece.vertices[piece.faces[:, i]] for i in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
+
+
+def inside(pieces, points, margin=0.0):
+    """Whether each point lies in the hull of some piece, by more than the margin."""
+    points = np.asarray(points, float)
+    found = np.zeros(len(points), bool)
+    for piece in pieces:
+        hull = convex_hull(piece.vertices, 1e-9)
+        if hull is not None:
+            found |= hull.depth(points) > margin
+    return found
+
+
+def ring(outer=1.0, inner=0.8, height=0.5):
+    return trimesh.creation.annulus(inner, outer, height, sections=32)
+
+
+def l_shape():
+    return extruded([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+
+
+def extruded(corners, height=1.0):
+    """A prism over a polygon that the corner 0 sees wholly."""
+    n = len(corners)
+    low = [(x, y, 0.0) for x, y in corners]
+    high = [(x, y, height) for x, y in corners]
+    fan = [(0, i, i + 1) for i in range(1, n - 1)]
+    faces = [(c, b, a) for a, b, c in fan] + [(a + n, b + n, c + n) for a, b, c in fan]
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(i, j, j + n), (i, j + n, i + n)]
+    return trimesh.Trimesh(low + high, faces, process=False)
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        trimesh.creation.box((1, 2, 3)),
+        trimesh.creation.icosphere(subdivisions=3),
+        trimesh.creation.cylinder(0.5, 2.0),
+        trimesh.creation.box((0.1, 0.1, 0.001)),
+    ],
+    ids=["box", "ball", "cylinder", "plate"],
+)
+def test_a_convex_mesh_stays_whole(mesh):
+    (piece,) = convex_pieces(data(mesh))
+    assert volume(piece) == pytest.approx(mesh.volume, rel=1e-6)
+
+
+def test_a_small_dent_is_filled_and_a_deep_one_is_not():
+    def dented(depth):
+        mesh = trimesh.creation.box((1, 1, 1)).subdivide().subdivide()
+        top = np.abs(mesh.vertices - (0.0, 0.0, 0.5)).sum(axis=1).argmin()
+        mesh.vertices[top] -= (0.0, 0.0, depth)
+        return data(mesh)
+
+    assert len(convex_pieces(dented(0.008))) == 1
+    deep = convex_pieces(dented(0.2))
+    assert len(deep) > 1
+    assert not inside(deep, [[0.0, 0.0, 0.45]]).any()
+
+
+def test_parts_that_do_not_touch_are_pieces_of_their_own():
+    boxes = [trimesh.creation.box((1, 1, 1)).apply_translation((3.0 * i, 0, 0)) for i in range(3)]
+    pieces = convex_pieces(data(*boxes))
+    assert [volume(piece) for piece in pieces] == pytest.approx([1.0] * 3)
+    assert not inside(pieces, [[1.5, 0, 0], [4.5, 0, 0]]).any()
+
+
+def test_a_ring_keeps_its_hole():
+    pieces = convex_pieces(data(ring()))
+    assert 1 < len(pieces) <= MAX_PATCHES
+    angles = np.linspace(0.0, 2.0 * np.pi, 50) + 0.01
+    circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(50)], axis=1)
+    assert not inside(pieces, [[0, 0, 0], *(0.75 * circle)]).any()
+    assert inside(pieces, 0.95 * circle).all()
+    assert inside(pieces, 0.805 * circle).all()
+    assert not inside(pieces, 1.02 * circle).any()
+
+
+def test_pieces_of_an_angle_fill_it_and_no_more():
+    pieces = convex_pieces(data(l_shape()))
+    assert not inside(pieces, [[1.5, 1.5, 0.5], [1.1, 1.1, 0.5], [-0.1, 1, 0.5]]).any()
+    near_surface = [[0.02, 1, 0.5], [1.98, 0.5, 0.5], [0.5, 1.98, 0.5], [0.5, 0.4, 0.98]]
+    assert inside(pieces, near_surface).all()
+
+
+def test_a_thick_box_with_a_cavity_stays_hollow():
+    outer = trimesh.creation.box((2, 2, 2))
+    inner = trimesh.creation.box((1.8, 1.8, 1.8))
+    inner.invert()
+    pieces = convex_pieces(data(outer, inner))
+    assert not inside(pieces, [[0, 0, 0], [0.85, 0.85, 0.85]]).any()
+    assert inside(pieces, [[0.98, 0, 0], [0.92, 0, 0], [0, -0.96, 0]]).all()
+
+
+def test_an_open_box_is_not_closed():
+    box = trimesh.creation.box((1, 1, 1))
+    box.update_faces(box.face_normals[:, 2] < 0.5)  # no lid
+    pieces = convex_pieces(data(box))
+    assert len(pieces) == 5
+    assert not inside(pieces, [[0, 0, 0.45], [0, 0, -0.4]]).any()
+    assert inside(pieces, [[0, 0, -0.499], [0.499, 0, 0]]).all()
+
+
+def test_a_sheet_drawn_from_both_sides_is_one_thin_piece():
+    square = trimesh.Trimesh(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]],
+        [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]],
+        process=False,
+    )
+    (piece,) = convex_pieces(data(square))
+    assert 0.0 < volume(piece) <= 0.0101
+
+
+def test_pieces_are_convex_and_look_outwards():
+    for mesh in (ring(), l_shape(), trimesh.creation.torus(1.0, 0.2)):
+        for piece in convex_pieces(data(mesh)):
+            a, b, c = (piece.vertices[piece.faces[:, i]] for i in range(3))
+            normals = np.cross(b - a, c - a)
+            heights = normals @ piece.vertices.T - np.einsum("ij,ij->i", normals, a)[:, None]
+            assert heights.max() <= 1e-5
+            assert volume(piece) > 0.0
+
+
+def test_there_are_never_too_many_pieces():
+    rough = np.random.default_rng(0).uniform(-0.3, 0.3, (40, 40))
+    x, y = np.meshgrid(np.arange(40.0), np.arange(40.0))
+    vertices = np.column_stack([x.ravel(), y.ravel(), rough.ravel()])
+    corner = (np.arange(39)[:, None] * 40 + np.arange(39)).ravel()
+    faces = np.concatenate(
+        [
+            np.stack([corner, corner + 1, corner + 41], 1),
+            np.stack([corner, corner + 41, corner + 40], 1),
+        ]
+    )
+    pieces = convex_pieces(MeshData(vertices, faces.astype(np.int32)))
+    assert 1 <= len(pieces) <= MAX_PATCHES
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 30), st.sampled_from([0.0, 1.0, 1e-4, 1e4]))
+def test_any_triangles_become_finite_pieces(seed, count, scale):
+    chance = np.random.default_rng(seed)
+    vertices = chance.integers(-3, 4, (count + 2, 3)) * scale
+    faces = chance.integers(0, count + 2, (count, 3)).astype(np.int32)
+    for piece in convex_pieces(MeshData(vertices, faces)):
+        assert np.isfinite(piece.vertices).all()
+        assert piece.faces.max() < len(piece.vertices)
+
+
+def test_pieces_are_made_once_and_slow_ones_kept_on_disk(monkeypatch):
+    monkeypatch.setattr(convex, "SLOW", -1.0)
+    first = convex_pieces(data(ring()))
+    assert len(list(piece_cache.folder().glob("*.npz"))) == 1
+    monkeypatch.setattr(convex, "_pieces", None)
+    assert convex_pieces(data(ring())) == first  # from memory
+    convex._cached.cache_clear()
+    again = convex_pieces(data(ring()))  # from disk
+    assert len(again) == len(first)
+    for one, other in zip(first, again, strict=True):
+        np.testing.assert_array_equal(one.vertices, other.vertices)
+        np.testing.assert_array_equal(one.faces, other.faces)
+
+
+def test_a_damaged_file_of_the_cache_is_made_anew(monkeypatch):
+    monkeypatch.setattr(convex, "SLOW", -1.0)
+    count = len(convex_pieces(data(ring())))
+    (file,) = piece_cache.folder().glob("*.npz")
+    for content in (b"", b"PK\x03\x04 rubbish", file.read_bytes()[:200]):
+        file.write_bytes(content)
+        convex._cached.cache_clear()
+        assert len(convex_pieces(data(ring()))) == count
+
+
+def test_a_cache_that_cannot_be_written_does_no_harm(tmp_path, monkeypatch):
+    (tmp_path / "cache").write_text("a file, no folder")
+    monkeypatch.setattr(convex, "SLOW", -1.0)
+    assert convex_pieces(data(ring()))
+
+
+def test_vertices_of_pieces_cannot_be_changed_by_accident():
+    (piece,) = convex_pieces(data(trimesh.creation.box((1, 1, 1))))
+    with pytest.raises(ValueError, match="read-only"):
+        piece.vertices[0, 0] = 1.0
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(4, 200), st.sampled_from(["ball", "grid"]))
+def test_the_hull_holds_all_points_and_is_that_of_scipy(seed, count, kind):
+    spatial = pytest.importorskip("scipy.spatial")
+    points = np.random.default_rng(seed).normal(size=(count, 3))
+    if kind == "grid":
+        points = np.round(points)
+    hull = convex_hull(points, 1e-9)
+    if hull is None:
+        assert np.linalg.matrix_rank(points - points[0], tol=1e-6) < 3
+        return
+    assert hull.depth(points).min() > -1e-6
+    solid = MeshData(points, hull.faces.astype(np.int32))
+    assert volume(solid) == pytest.approx(spatial.ConvexHull(points).volume, rel=1e-5)
+
+
+def test_the_hull_in_the_plane():
+    points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5], [0.5, 0]], float)
+    assert planar_hull(points).tolist() == [0, 1, 2, 3]
+    assert planar_area(points[planar_hull(points)]) == 1.0
+
+
+def test_surfaces_are_welded_and_cleaned():
+    box = trimesh.creation.box((1, 1, 1))
+    soup = box.triangles.reshape(-1, 3)
+    faces = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
+    faces = np.concatenate([faces, faces[:1, ::-1], [[0, 0, 1]]]).astype(np.int32)
+    surface = clean(soup, faces)
+    assert (len(surface.vertices), len(surface.faces)) == (8, 12)
+    assert surface.is_closed()
+    assert surface.volume == pytest.approx(1.0)
+    assert len(components(surface)) == 1
+    hits = first_hits(surface, np.array([[0.0, 0, 0], [2, 0, 0]]), np.array([[1.0, 0, 0]] * 2))
+    assert hits.tolist() == [0.5, np.inf]
+
+
+@pytest.mark.corpus
+def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
+    walls = corpus / "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models/turtlebot3_world"
+    mesh = load_mesh(Mesh("wall.dae", walls / "meshes/wall.dae", scale=(0.25, 0.25, 0.25)))
+    pieces = convex_pieces(mesh)
+    x, y = np.meshgrid(np.linspace(-2.2, 2.2, 23), np.linspace(-2.2, 2.2, 23))
+    floor = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, 0.1)])
+    floor = floor[np.hypot(x, y).ravel() < 2.2]
+    assert not inside(pieces, floor).any()
+    low, high = mesh.bounds
+    pieces_low = np.min([piece.vertices.min(axis=0) for piece in pieces], axis=0)
+    pieces_high = np.max([piece.vertices.max(axis=0) for piece in pieces], axis=0)
+    np.testing.assert_allclose((pieces_low, pieces_high), (low, high), atol=1e-6)
+
+
+@pytest.mark.corpus
+@pytest.mark.slow
+def test_every_mesh_of_the_corpus_is_cut_soon(corpus):
+    for file in sorted(corpus.rglob("*.[dDsS][aAtT][eElL]")):
+        if file.suffix.lower() not in {".dae", ".stl"} or "dummy" in file.name:
+            continue
+        try:
+            mesh = load_mesh(Mesh(file.name, file))
+        except Exception:  # noqa: BLE001  # unreadable ones are another test's
+            continue
+        start = time.perf_counter()
+        pieces = convex_pieces(mesh)
+        assert time.perf_counter() - start < 10.0, file.name
+        assert 1 <= len(pieces) <= MAX_PATCHES + 64, file.name
