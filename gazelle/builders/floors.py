@@ -46,7 +46,7 @@ def ground(
     link = Link(
         "link",
         collisions=(Collision("ground", plane, surface=Surface(Friction(friction, friction))),),
-        visuals=(Visual("ground", plane, material=material(color), cast_shadows=False),),
+        visuals=(Visual("ground_visual", plane, material=material(color), cast_shadows=False),),
     )
     return Model(name, static=True, links=(link,))
 

@@ -133,7 +133,8 @@ def _collision(part: Part, friction: float) -> Collision:
 
 
 def _visual(part: Part) -> Visual:
-    return Visual(part.name, part.geometry, part.pose, material(part.color))
+    # SDF since 1.7 wants all names in a link to differ.
+    return Visual(f"{part.name}_visual", part.geometry, part.pose, material(part.color))
 
 
 def box(

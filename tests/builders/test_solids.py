@@ -48,7 +48,7 @@ def test_parts_collide_and_show_as_they_say():
     ]
     (link,) = assemble("m", parts).links
     assert [c.name for c in link.collisions] == ["a", "c"]
-    assert [v.name for v in link.visuals] == ["a", "b"]
+    assert [v.name for v in link.visuals] == ["a_visual", "b_visual"]
 
 
 def test_a_mass_makes_a_model_movable():

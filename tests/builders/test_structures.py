@@ -17,7 +17,7 @@ def test_a_building_is_as_high_as_its_storeys(pitched):
 
 def test_windows_leave_the_door_free():
     visuals = building(length=12.0).links[0].visuals
-    door = next(v for v in visuals if v.name == "door")
+    door = next(v for v in visuals if v.name == "door_visual")
     for visual in visuals:
         if visual.name.startswith("window_y-_0"):
             assert abs(visual.pose.x - door.pose.x) >= 1.1
