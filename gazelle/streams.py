@@ -87,7 +87,8 @@ def _keys_of(seed: int, name: str, nworld: int) -> Uint64:
     digest = hashlib.blake2b(f"{seed}:{name}".encode(), digest_size=8).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
     with np.errstate(over="ignore"):
-        return _mix(np.uint64(int.from_bytes(digest)) + _mix(worlds * _GOLDEN))
+        keys: Uint64 = _mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest))
+        return _mix(keys)
 
 
 def _mix(z: Uint64) -> Uint64:

@@ -6,11 +6,16 @@ leaves gravity out. This one reports what an IMU on the body measures, gravity i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.description import Imu, Noise, Parameters, Pose
 from gazelle.sensors import ImuModel, ImuReading
 from gazelle.simulation import ModelPlugin, Output, Robot
+
+Worlds = NDArray[np.intp]
 
 
 class ImuPlugin(ModelPlugin):
@@ -43,6 +48,22 @@ class ImuPlugin(ModelPlugin):
     def on_update(self, time: float) -> None:  # noqa: ARG002  the port stamps its values
         """Publish."""
         self._output.publish()
+
+    def reseed(self, seed: int, worlds: Worlds | None) -> None:
+        """Use the random numbers of another seed."""
+        self._model.reseed(seed, worlds)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget drifts of noise."""
+        self._model.reset(worlds)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """The noise."""
+        return self._model.state()
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._model.restore(dict(state))
 
     def _measure(self) -> ImuReading:
         values = self._model.measure()

@@ -83,7 +83,7 @@ class ImuModel:
         acceleration = change.linear + cross(change.angular, arm) + cross(spin, cross(spin, arm))
         orientation = multiply(place.quaternion, self._turn)
         to_sensor = conjugate(orientation)
-        force = rotate(to_sensor, acceleration - np.asarray(self._engine.world.gravity))
+        force = rotate(to_sensor, acceleration - self._engine.parameter("gravity", "", worlds))
         rate = rotate(to_sensor, spin)
         return np.concatenate(
             (
@@ -97,6 +97,11 @@ class ImuModel:
     def reading(self, values: Floats, stamp: int) -> ImuReading:
         """A measurement by name."""
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed, from their start."""
+        for noise in (*self._rate_noise, *self._force_noise):
+            noise.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Forget drifts of noise."""

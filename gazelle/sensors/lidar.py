@@ -100,6 +100,15 @@ class LidarModel:
             stamp, ranges, first, last, increment, self.lidar.range_min, self.lidar.range_max
         )
 
+    @property
+    def noise(self) -> NoiseModel:
+        """The noise on the ranges."""
+        return self._noise
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed, from their start."""
+        self._noise.reseed(seed, worlds)
+
     def reset(self, worlds: Worlds | None = None) -> None:
         """Forget drifts of noise."""
         self._noise.reset(worlds)

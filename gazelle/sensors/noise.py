@@ -36,7 +36,25 @@ class NoiseModel:
         self._bias = np.zeros((nworld, channels))
         self._drift = np.zeros((nworld, channels))
         self._active = noise.type != "none"
+        self._stddev = np.full((nworld, 1), noise.stddev if self._active else 0.0)
+        self._spread = bool(self._stddev.any())
         self._draw_bias(None)
+
+    @property
+    def stddev(self) -> Floats:
+        """Standard deviation of the white noise in each world, shape (nworld,); settable."""
+        return self._stddev[:, 0].copy()
+
+    @stddev.setter
+    def stddev(self, values: Floats) -> None:
+        self._stddev[:, 0] = values
+        self._spread = bool(self._stddev.any())
+        self._active = self._noise.type != "none" or self._spread
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed, from their start; a reset draws new biases."""
+        self._stream.reseed(seed, worlds)
+        self._bias_stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Draw new biases; with all worlds, the random numbers start over too."""
@@ -62,8 +80,8 @@ class NoiseModel:
         noise = self._noise
         rows = slice(None) if worlds is None else worlds
         measured = values + noise.mean + self._bias[rows]
-        if noise.stddev > 0.0:
-            measured = measured + noise.stddev * self._stream.normal(self._channels, worlds)
+        if self._spread:
+            measured = measured + self._stddev[rows] * self._stream.normal(self._channels, worlds)
         if noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0:
             self._advance_drift(interval, worlds)
             measured = measured + self._drift[rows]
@@ -78,6 +96,9 @@ class NoiseModel:
             "bias_counters": self._bias_stream.counters.copy(),
             "bias": self._bias.copy(),
             "drift": self._drift.copy(),
+            "keys": self._stream.keys.copy(),
+            "bias_keys": self._bias_stream.keys.copy(),
+            "stddev": self.stddev,
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
@@ -86,6 +107,9 @@ class NoiseModel:
         self._bias_stream.counters[:] = state["bias_counters"]
         self._bias[:] = state["bias"]
         self._drift[:] = state["drift"]
+        self._stream.keys[:] = state["keys"]
+        self._bias_stream.keys[:] = state["bias_keys"]
+        self.stddev = np.asarray(state["stddev"], np.float64)
 
     def _draw_bias(self, worlds: Worlds | None) -> None:
         noise = self._noise

@@ -21,6 +21,10 @@ class Clock:
         """Simulated time [s]."""
         return self.now_ns / NANOSECONDS
 
+    def set_step(self, step: float) -> None:
+        """Go on with another physics step [s]."""
+        self.step_ns = round(step * NANOSECONDS)
+
     def advance(self, steps: int) -> None:
         """Go on by physics steps."""
         self.now_ns += steps * self.step_ns
@@ -40,19 +44,23 @@ class Schedule:
         rate: [Hz]; 0 means every physics step.
 
     Attributes:
-        count: The next time it is due, in periods.
+        due_ns: The next time at which it is due [ns]; 0 for "every step".
     """
 
     def __init__(self, rate: float) -> None:
         self.rate = rate
-        self.count = 0
+        self.due_ns = 0
+        self._count = 0
 
     @property
-    def due_ns(self) -> int:
-        """The next time at which it is due [ns]; 0 for "every step"."""
-        if self.rate <= 0.0:
-            return 0
-        return round(self.count * NANOSECONDS / self.rate)
+    def count(self) -> int:
+        """The next time it is due, in periods."""
+        return self._count
+
+    @count.setter
+    def count(self, value: int) -> None:
+        self._count = value
+        self.due_ns = 0 if self.rate <= 0.0 else round(value * NANOSECONDS / self.rate)
 
     def is_due(self, now_ns: int) -> bool:
         """Whether its time has come."""

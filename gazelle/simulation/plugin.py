@@ -45,6 +45,14 @@ class Plugin:
             time: Simulated time [s].
         """
 
+    def reseed(self, seed: int, worlds: Worlds | None) -> None:
+        """Use the random numbers of another seed from now on; a reset follows.
+
+        Args:
+            seed: Any whole number.
+            worlds: Which worlds; all if None.
+        """
+
     def reset(self, worlds: Worlds | None) -> None:
         """Forget everything about these worlds (all if None), as if just loaded."""
 

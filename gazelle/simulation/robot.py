@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.description import Link, Model, Pose
-from gazelle.engines import Engine, Motion, Placement
+from gazelle.description import Model, Pose
+from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.ports import Output, TwistInput
 from gazelle.simulation.sensors import SensorUnit, sensor_model
 
@@ -49,80 +50,6 @@ class Named(Mapping[str, T]):
         return len(self._items)
 
 
-class LinkHandle:
-    """A link of a robot."""
-
-    def __init__(self, engine: Engine, name: str, link: Link) -> None:
-        self.name = name
-        self.description = link
-        self._engine = engine
-
-    @property
-    def pose(self) -> Pose:
-        """Its pose in world 0."""
-        place = self._engine.link_placement(self.name, np.array([0]))
-        return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
-
-    def placement(self, worlds: Worlds | None = None) -> Placement:
-        """Its pose in many worlds."""
-        return self._engine.link_placement(self.name, worlds)
-
-    def motion(self, worlds: Worlds | None = None) -> Motion:
-        """Its velocity in many worlds, in the world frame."""
-        return self._engine.link_motion(self.name, worlds)
-
-
-class JointHandle:
-    """A joint of a robot; values are of world 0 when read, of all worlds when set."""
-
-    def __init__(self, engine: Engine, name: str) -> None:
-        self.name = name
-        self._engine = engine
-
-    @property
-    def position(self) -> float:
-        """Position of the first axis [m or rad]; setting it teleports the joint."""
-        return float(self._engine.joint_position(self.name, np.array([0]))[0, 0])
-
-    @position.setter
-    def position(self, value: ArrayLike) -> None:
-        self._engine.set_joint_position(self.name, _column(value))
-
-    @property
-    def velocity(self) -> float:
-        """Velocity of the first axis [m/s or rad/s]; setting it changes the state at once."""
-        return float(self._engine.joint_velocity(self.name, np.array([0]))[0, 0])
-
-    @velocity.setter
-    def velocity(self, value: ArrayLike) -> None:
-        self._engine.set_joint_velocity(self.name, _column(value))
-
-    @property
-    def effort(self) -> None:
-        """Write only: effort applied until told otherwise [N or N m]."""
-        raise SimulationError(f"the effort on joint '{self.name}' is measured by a force sensor")
-
-    @effort.setter
-    def effort(self, value: ArrayLike) -> None:
-        self._engine.set_joint_effort(self.name, _column(value))
-
-    def positions(self, worlds: Worlds | None = None) -> Floats:
-        """Positions of all axes, shape (n, axes)."""
-        return self._engine.joint_position(self.name, worlds)
-
-    def velocities(self, worlds: Worlds | None = None) -> Floats:
-        """Velocities of all axes, shape (n, axes)."""
-        return self._engine.joint_velocity(self.name, worlds)
-
-    def add_motor(self, max_effort: float) -> None:
-        """Put a velocity motor of limited effort [N or N m] on it."""
-        self._engine.add_motor(self.name, max_effort)
-
-    def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Set what the motor holds [m/s or rad/s], shape () or (n,)."""
-        self._engine.set_motor_velocity(self.name, velocity, worlds)
-
-
 class Robot:
     """A model in a running simulation.
 
@@ -144,11 +71,11 @@ class Robot:
         self.description = model
         self.inputs: dict[str, TwistInput] = {}
         self.outputs: dict[str, Output[Any]] = {}
-        self._links = _link_handles(simulation.engine, model)
+        self._links = _link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links)
         self.joints: Mapping[str, JointHandle] = Named(
-            f"moving joint {own}", _joint_handles(simulation.engine, model)
+            f"moving joint {own}", _joint_handles(simulation, model)
         )
         self.sensors: Mapping[str, SensorUnit] = Named(f"sensor {own}", _sensor_units(self, model))
 
@@ -223,6 +150,37 @@ class Robot:
             lambda: engine.set_model_motion(self.name, linear, angular, worlds)
         )
 
+    def set_configuration(
+        self,
+        joints: Sequence[str],
+        positions: ArrayLike,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Put joints somewhere, at rest, all at once.
+
+        Args:
+            joints: Names within the robot, each of one axis.
+            positions: [m or rad], in that order, shape (joints,) or (n, joints).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: There is no such joint, or there are more or fewer positions.
+        """
+        values = np.asarray(positions, np.float64)
+        if values.shape[-1:] != (len(joints),):
+            raise SimulationError(
+                f"{len(joints)} joints need {len(joints)} positions, not {values.shape[-1:]}"
+            )
+        names = [self.joints[joint].name for joint in joints]
+
+        def work() -> None:
+            engine = self.simulation.engine
+            for column, name in enumerate(names):
+                engine.set_joint_position(name, values[..., column, None], worlds)
+                engine.set_joint_velocity(name, np.zeros(1), worlds)
+
+        self.simulation.requests.call(work)
+
     def frame(self, name: str) -> tuple[LinkHandle, Pose]:
         """The link that a frame moves with, and the frame's pose in it.
 
@@ -243,21 +201,21 @@ class Robot:
         )
 
 
-def _link_handles(engine: Engine, model: Model) -> dict[str, LinkHandle]:
+def _link_handles(simulation: Simulation, model: Model) -> dict[str, LinkHandle]:
     return {
         _inner(placed.scope, model.name, link.name): LinkHandle(
-            engine, f"{placed.scope}::{link.name}", link
+            simulation, f"{placed.scope}::{link.name}", link
         )
         for placed in model.walk()
         for link in placed.model.links
     }
 
 
-def _joint_handles(engine: Engine, model: Model) -> dict[str, JointHandle]:
-    moving = set(engine.joint_names)
+def _joint_handles(simulation: Simulation, model: Model) -> dict[str, JointHandle]:
+    moving = set(simulation.engine.joint_names)
     return {
         _inner(placed.scope, model.name, joint.name): JointHandle(
-            engine, f"{placed.scope}::{joint.name}"
+            simulation, f"{placed.scope}::{joint.name}"
         )
         for placed in model.walk()
         for joint in placed.model.joints
@@ -288,14 +246,3 @@ def _sensor_units(robot: Robot, model: Model) -> dict[str, SensorUnit]:
 def _inner(scope: str, top: str, name: str) -> str:
     prefix = scope.removeprefix(top).removeprefix("::")
     return f"{prefix}::{name}" if prefix else name
-
-
-def _column(value: ArrayLike) -> Floats:
-    array = np.asarray(value, np.float64)
-    return (
-        array.reshape(-1, 1)
-        if array.ndim == 1
-        else array.reshape(1, -1)
-        if array.ndim == 0
-        else array
-    )

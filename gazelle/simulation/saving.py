@@ -5,17 +5,19 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.errors import SimulationError
+from gazelle.simulation.encoding import decode, encode
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
-_FORMAT = 1
+_FORMAT = 2
 _HINT = "restore into a simulation with the same world, models, engine and number of worlds"
 
 
@@ -34,6 +36,13 @@ def snapshot(simulation: Simulation) -> bytes:
         "names": _names(simulation),
         "due": [entry.schedule.count if entry.schedule else 0 for entry in simulation.plugins],
     }
+    header |= {
+        "seed": simulation.seed,
+        "history": encode(simulation.engine.history()),
+        "laws": encode(replace(simulation.engine.world, models=(), plugins=())),
+        "loads": encode(simulation.loads.state()),
+        "parameters": encode(simulation.parameters.state()),
+    }
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **{_escape(k): v for k, v in arrays.items()})
@@ -51,8 +60,11 @@ def restore(simulation: Simulation, data: bytes) -> None:
     if header.get("format") != _FORMAT or header.get("names") != _names(simulation):
         raise SimulationError("the snapshot is of other models than those that run", hint=_HINT)
     engine_state: Any = arrays.pop("engine")
-    simulation.engine.restore(engine_state)
+    _restore_engine(simulation, header, engine_state)
     simulation.clock.now_ns = int(header["time"])
+    simulation.seed = header["seed"]
+    simulation.loads.restore(decode(header["loads"]))
+    simulation.parameters.restore(decode(header["parameters"]))
     for entry, count in zip(simulation.plugins, header["due"], strict=True):
         if entry.schedule is not None:
             entry.schedule.count = count
@@ -68,6 +80,18 @@ def restore(simulation: Simulation, data: bytes) -> None:
             port.linear[:], port.angular[:] = both[:, :3], both[:, 3:]
 
 
+def _restore_engine(simulation: Simulation, header: dict[str, Any], state: Any) -> None:
+    """Bring laws, motors, attachments and parameters back, then the state."""
+    engine = simulation.engine
+    laws = decode(header["laws"])
+    if _plain(replace(engine.world, models=(), plugins=())) != header["laws"]:
+        engine.update_world(replace(laws, plugins=engine.world.plugins))
+        simulation.clock.set_step(engine.time_step)
+    if _plain(engine.history()) != header["history"]:
+        engine.adopt(decode(header["history"]))
+    engine.restore(state)
+
+
 def _parts(simulation: Simulation) -> Mapping[str, Any]:
     """Everything besides the engine that has a state, by a unique key."""
     parts: dict[str, Any] = {}
@@ -81,6 +105,11 @@ def _parts(simulation: Simulation) -> Mapping[str, Any]:
 
 def _names(simulation: Simulation) -> list[str]:
     return [*simulation.engine.link_names, *sorted(_parts(simulation))]
+
+
+def _plain(value: Any) -> Any:
+    """A value as it comes back from JSON."""
+    return json.loads(json.dumps(encode(value)))
 
 
 def _read(data: bytes) -> dict[str, NDArray[Any]]:

@@ -91,6 +91,10 @@ class SensorUnit:
         for listener in tuple(self._listeners):
             listener(self)
 
+    def reseed(self, seed: int, worlds: Worlds | None) -> None:
+        """Use the random numbers of another seed, from their start."""
+        self.model.reseed(seed, worlds)
+
     def reset(self, worlds: Worlds | None) -> None:
         """Forget drifts and readings."""
         self.model.reset(worlds)

@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle import description, formats
+from gazelle import formats
 from gazelle.description import Model, Pose, World
-from gazelle.engines import make_engine
-from gazelle.engines.tracer import Tracer, make_tracer
-from gazelle.errors import SimulationError, did_you_mean
-from gazelle.sensors import View, render
-from gazelle.simulation import pacing, registry, saving
+from gazelle.engines import DivergenceError, make_engine
+from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.sensors import View
+from gazelle.simulation import pacing, saving
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.plugin import ModelPlugin, SensorPlugin, WorldPlugin
+from gazelle.simulation.faults import Fault, FaultLog
+from gazelle.simulation.handles import LinkHandle
+from gazelle.simulation.lights import with_light
+from gazelle.simulation.loading import adopt, load_world_plugin
+from gazelle.simulation.loads import Loads
+from gazelle.simulation.parameters import WorldParameters
+from gazelle.simulation.physics import PhysicsProperties
+from gazelle.simulation.recording import Recorder, state_hash
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Named, Robot
+from gazelle.simulation.seeing import Eye
 from gazelle.simulation.sensors import SensorUnit
 from gazelle.simulation.stepping import (
     ScheduledPlugin,
-    make_scheduled,
+    indices_of,
+    steps_to_next,
     update_plugins,
     update_sensors,
 )
@@ -46,6 +55,14 @@ class Simulation:
         seed: Decides all random numbers; world i's do not depend on ``nworld``.
         threads: Native threads; all processors if None. Results do not depend on it.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
+        on_fault: What to do when the state of a world becomes infinite: ``raise`` an error, or
+            ``reset`` the world with a warning and go on. The other worlds make their steps
+            either way, and the steps that broke it are written down for ``Replay``.
+        fault_dump: File for that; a temporary one if None.
+
+    Attributes:
+        physics: Time step, gravity, solver and the like; settable in the middle of a run.
+        parameters: Masses, friction and the like, which each world can have of its own.
 
     Raises:
         FormatError: The file cannot be read.
@@ -61,6 +78,8 @@ class Simulation:
         seed: int = 0,
         threads: int | None = None,
         time_step: float | None = None,
+        on_fault: str = "raise",
+        fault_dump: str | Path | None = None,
     ) -> None:
         loaded = world if isinstance(world, World) else formats.load(world)
         self.engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
@@ -69,12 +88,16 @@ class Simulation:
         self.requests = RequestQueue()
         self.plugins: list[ScheduledPlugin] = []
         self.paused = False
+        self.physics = PhysicsProperties(self)
+        self.parameters = WorldParameters(self)
+        self.loads = Loads(self.engine, self.clock)
         self._robots: dict[str, Robot] = {}
         self._sensors: list[SensorUnit] = []
         self._closed = False
-        self._tracer: tuple[World, Tracer] | None = None
+        self._eye = Eye()
+        self._faults = FaultLog(on_fault, fault_dump)
         for plugin in loaded.plugins:
-            self._load_world_plugin(plugin)
+            load_world_plugin(self, plugin)
         for model in loaded.models:
             self._adopt(model, "")
 
@@ -107,7 +130,7 @@ class Simulation:
 
         Raises:
             SimulationError: The simulation is closed, or ``count`` is negative.
-            EngineError: The state became infinite.
+            DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
         if self._closed:
             raise SimulationError("the simulation is closed")
@@ -128,7 +151,7 @@ class Simulation:
 
         Raises:
             SimulationError: The simulation is paused or closed.
-            EngineError: The state became infinite.
+            DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
@@ -146,13 +169,30 @@ class Simulation:
         """Do what is due, then step to the next thing that will be; returns the steps made."""
         clock = self.clock
         update_plugins(self.plugins, clock.now_ns, clock.now)
-        schedules = [unit.schedule for unit in self._sensors if unit.awake]
-        schedules += [e.schedule for e in self.plugins if e.schedule and e.plugin.active]
-        steps = min([most, *(schedule.steps_until(clock) for schedule in schedules)])
-        self.engine.step(steps)
+        if self.loads.any:
+            self.loads.update(clock.now_ns)
+        steps = steps_to_next(self.plugins, self._sensors, clock, most)
+        if self.loads.any:
+            steps = min(steps, self.loads.steps_until(clock) or steps)
+        fault: DivergenceError | None = None
+        try:
+            self.engine.step(steps)
+        except DivergenceError as error:
+            fault = error
+        before = clock.now_ns
         clock.advance(steps)
+        if fault is not None:
+            self._give_up(fault, before)
         update_sensors(self._sensors, clock.now_ns)
         return steps
+
+    def _give_up(self, error: DivergenceError, before_ns: int) -> None:
+        """Start worlds over that broke down, as ``on_fault`` says."""
+        text = self._faults.note(self, error, before_ns)
+        self._reset(error.worlds)
+        if self._faults.policy == "raise":
+            raise DivergenceError(text, error.worlds, error.before, error.steps) from error
+        warnings.warn(SimulationWarning(text), stacklevel=5)
 
     # -- change ------------------------------------------------------------------------
 
@@ -188,17 +228,50 @@ class Simulation:
         """
         self.requests.call(lambda: self._delete(name))
 
-    def reset(self, worlds: ArrayLike | None = None) -> None:
+    def reset(
+        self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
+    ) -> None:
         """Put everything back to its initial state.
 
-        That is poses, velocities, commands, plugins, sensors and noise.
+        That is poses, velocities, forces, attachments, commands, plugins, sensors and noise.
+        What ``physics`` and ``parameters`` hold stays.
 
         Args:
             worlds: Indices or a mask of worlds; all if None, and then time goes back to
                 zero and noise starts over. The clock of some worlds cannot: it is common.
+            seed: Draw all random numbers from this seed from now on; as before if None.
+            time: Whether the clock goes back to zero when all worlds are reset.
         """
-        chosen = self._worlds(worlds)
-        self.requests.call(lambda: self._reset(chosen))
+        chosen = indices_of(worlds, self.nworld)
+        self.requests.call(lambda: self._reset(chosen, seed=seed, time=time))
+
+    def attach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
+        """Hold two links together as they are to each other now, until ``detach`` or a reset.
+
+        Raises:
+            EngineError: Neither link moves, or they are the same.
+        """
+        self.requests.call(lambda: self.engine.attach(parent.name, child.name, worlds))
+
+    def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
+        """Let go two links that ``attach`` holds together.
+
+        Raises:
+            EngineError: They never were.
+        """
+        self.requests.call(lambda: self.engine.detach(parent.name, child.name, worlds))
+
+    def set_light(self, name: str, **changes: Any) -> None:
+        """Change a light of the world; the next picture shows it.
+
+        Args:
+            name: Of the light.
+            changes: Fields of ``description.Light``, such as ``diffuse=(1, 0, 0, 1)``.
+
+        Raises:
+            SimulationError: There is no such light, or no such field.
+        """
+        self.requests.call(lambda: self.engine.update_world(with_light(self.world, name, changes)))
 
     def _spawn(self, model: Model, namespace: str) -> Robot:
         if model.name in self._robots:
@@ -222,11 +295,18 @@ class Simulation:
         self.plugins = [entry for entry in self.plugins if entry.owner != name]
         gone = self._robots.pop(name, None)
         self._sensors = [unit for unit in self._sensors if unit.robot is not gone]
+        self.loads.forget(name)
+        self.parameters.pose.forget(name)
         self.engine.delete(name)
 
-    def _reset(self, worlds: Worlds | None) -> None:
+    def _reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
         self.engine.reset(worlds)
-        if worlds is None:
+        self.loads.reset(worlds)
+        if seed is not None:
+            self._reseed(seed, worlds)
+        self.parameters.pose.apply(worlds)
+        rewind = worlds is None and time
+        if rewind:
             self.clock.now_ns = 0
         for robot in self._robots.values():
             for port in robot.inputs.values():
@@ -235,58 +315,25 @@ class Simulation:
                 unit.reset(worlds)
         for entry in self.plugins:
             entry.plugin.reset(worlds)
-            if worlds is None and entry.schedule is not None:
+            if rewind and entry.schedule is not None:
                 entry.schedule.restart()
 
-    def _worlds(self, worlds: ArrayLike | None) -> Worlds | None:
+    def _reseed(self, seed: int, worlds: Worlds | None) -> None:
         if worlds is None:
-            return None
-        given = np.asarray(worlds)
-        indices = np.flatnonzero(given) if given.dtype == np.bool_ else np.unique(given)
-        if indices.size and (indices[0] < 0 or indices[-1] >= self.nworld):
-            raise SimulationError(f"worlds must be in 0 to {self.nworld - 1}, not {worlds}")
-        return indices.astype(np.intp)
-
-    # -- plugins -----------------------------------------------------------------------
+            self.seed = seed
+        self.parameters.reseed(seed, worlds)
+        for unit in self._sensors:
+            unit.reseed(seed, worlds)
+        for entry in self.plugins:
+            entry.plugin.reseed(seed, worlds)
 
     def _adopt(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model that the engine has, and start its plugins."""
         robot = Robot(self, model, namespace)
         self._robots[model.name] = robot
         self._sensors.extend(robot.sensors.values())
-        for placed in model.walk():
-            for plugin in placed.model.plugins:
-                self._load_model_plugin(robot, plugin)
-        for unit in robot.sensors.values():
-            for plugin in unit.description.plugins:
-                found = registry.find(plugin)
-                if found is not None and issubclass(found, SensorPlugin):
-                    loaded = found()
-                    loaded.load(unit, plugin.parameters)
-                    self._keep(loaded, plugin, robot.name)
+        adopt(self, model, robot)
         return robot
-
-    def _load_model_plugin(self, robot: Robot, plugin: description.Plugin) -> None:
-        found = registry.find(plugin)
-        if found is not None and issubclass(found, ModelPlugin):
-            loaded = found()
-            loaded.load(robot, plugin.parameters)
-            self._keep(loaded, plugin, robot.name)
-
-    def _load_world_plugin(self, plugin: description.Plugin) -> None:
-        found = registry.find(plugin)
-        if found is not None and issubclass(found, WorldPlugin):
-            loaded = found()
-            loaded.load(self, plugin.parameters)
-            self._keep(loaded, plugin, "")
-
-    def _keep(
-        self,
-        loaded: ModelPlugin | SensorPlugin | WorldPlugin,
-        plugin: description.Plugin,
-        owner: str,
-    ) -> None:
-        self.plugins.append(make_scheduled(loaded, plugin.name, owner))
 
     # -- seeing ------------------------------------------------------------------------
 
@@ -297,18 +344,7 @@ class Simulation:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
             world: Which world.
         """
-        if self._tracer is None or self._tracer[0] is not self.engine.world:
-            self._tracer = (self.engine.world, make_tracer(self.engine.world))
-        chosen = np.array([world])
-        places = {name: self.engine.link_placement(name, chosen) for name in self.engine.link_names}
-        tracer = self._tracer[1]
-        tracer.place(
-            {
-                name: Pose.from_quaternion(tuple(p.position[0]), tuple(p.quaternion[0]))
-                for name, p in places.items()
-            }
-        )
-        return render(tracer, self.engine.world, view)
+        return self._eye.see(self, view, world)
 
     # -- saving and ending -------------------------------------------------------------
 
@@ -323,6 +359,27 @@ class Simulation:
             SimulationError: The bytes are no snapshot of this simulation.
         """
         self.requests.call(lambda: saving.restore(self, data))
+
+    def state_hash(self, worlds: ArrayLike | None = None) -> str:
+        """A hash of the physical state, to the bit: the same run gives the same after every step.
+
+        Args:
+            worlds: Which worlds; all if None. That of one world does not depend on the others.
+        """
+        rows = slice(None) if worlds is None else indices_of(worlds, self.nworld)
+        return self.requests.call(lambda: state_hash(self.engine.peek()[rows]))
+
+    def record(self, path: str | Path) -> Recorder:
+        """Write the run down from now on, until the recorder is closed; see ``Replay``.
+
+        It is a context manager: ``with sim.record("run.jsonl"): sim.run(seconds=10.0)``.
+        """
+        return self.requests.call(lambda: Recorder(self, path))
+
+    @property
+    def faults(self) -> Sequence[Fault]:
+        """All worlds that broke down so far."""
+        return tuple(self._faults.faults)
 
     def close(self) -> None:
         """Free the engine; a second call does nothing."""

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gazelle.simulation.clock import Schedule
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.errors import SimulationError
+from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.sensors import SensorUnit
 
@@ -39,3 +43,32 @@ def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:
     for sensor in tuple(sensors):
         if sensor.awake and sensor.schedule.is_due(now_ns):
             sensor.update(now_ns)
+
+
+def steps_to_next(
+    plugins: Iterable[ScheduledPlugin], sensors: Iterable[SensorUnit], clock: Clock, most: int
+) -> int:
+    """Physics steps until something is due, ``most`` at most."""
+    steps = most
+    for entry in plugins:
+        if entry.schedule is not None and entry.plugin.active:
+            steps = min(steps, entry.schedule.steps_until(clock))
+    for sensor in sensors:
+        if sensor.awake:
+            steps = min(steps, sensor.schedule.steps_until(clock))
+    return steps
+
+
+def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None:
+    """Indices or a mask of worlds as sorted, unique indices; None stays None.
+
+    Raises:
+        SimulationError: There is no such world.
+    """
+    if worlds is None:
+        return None
+    given = np.asarray(worlds)
+    indices = np.flatnonzero(given) if given.dtype == np.bool_ else np.unique(given)
+    if indices.size and (indices[0] < 0 or indices[-1] >= nworld):
+        raise SimulationError(f"worlds must be in 0 to {nworld - 1}, not {worlds}")
+    return indices.astype(np.intp)

@@ -12,7 +12,7 @@ from mujoco.batch import Batch, SimulationError
 from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
-from gazelle.engines.engine import Call, Floats, DivergenceError, Worlds
+from gazelle.engines.engine import Call, DivergenceError, Floats, Worlds
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment

@@ -1,0 +1,254 @@
+"""Physical parameters that each world of a batch can have of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.engines import PARAMETERS
+from gazelle.errors import SimulationError, did_you_mean
+from gazelle.sensors import LidarModel
+from gazelle.streams import Stream
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class Parameter:
+    """One kind of parameter, by name: ``link_mass["robot::base"] = array(nworld)``.
+
+    Reading gives the values of all worlds, shape (nworld,), or (nworld, width) for vectors.
+    """
+
+    def __init__(self, simulation: Simulation, kind: str) -> None:
+        self._simulation = simulation
+        self._kind = kind
+
+    def __getitem__(self, name: str) -> Floats:
+        values = self._simulation.engine.parameter(self._kind, name)
+        return values[:, 0] if values.shape[1] == 1 else values
+
+    def __setitem__(self, name: str, values: ArrayLike) -> None:
+        self.set(name, values)
+
+    def set(self, name: str, values: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Change some worlds (all if None).
+
+        Args:
+            name: Scoped name.
+            values: One for all, or one a world: shape (), (n,), (width,) or (n, width).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: There is nothing of that name, or a value cannot be.
+        """
+        engine = self._simulation.engine
+
+        def work() -> None:
+            width = engine.parameter(self._kind, name, np.array([0])).shape[1]
+            given = np.asarray(values, np.float64)
+            if width == 1 and given.ndim == 1:
+                given = given[:, None]
+            engine.set_parameter(self._kind, name, given, worlds)
+
+        self._simulation.requests.call(work)
+
+
+class SensorNoise:
+    """Standard deviation of the white noise of lidars, by scoped name [m]."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+
+    def __getitem__(self, name: str) -> Floats:
+        return self._model(name).noise.stddev
+
+    def __setitem__(self, name: str, values: ArrayLike) -> None:
+        spread = np.broadcast_to(np.asarray(values, np.float64), (self._simulation.nworld,))
+        if not (np.isfinite(spread).all() and (spread >= 0.0).all()):
+            raise SimulationError(f"the noise of '{name}' must be finite and not negative")
+        model = self._model(name)
+        self._simulation.requests.call(lambda: setattr(model.noise, "stddev", spread))
+
+    def _model(self, name: str) -> LidarModel:
+        lidars = {
+            unit.name: unit.model
+            for robot in self._simulation.robots.values()
+            for unit in robot.sensors.values()
+            if isinstance(unit.model, LidarModel)
+        }
+        if name not in lidars:
+            raise SimulationError(f"there is no lidar '{name}'", hint=did_you_mean(name, lidars))
+        return lidars[name]
+
+
+class InitialPoses:
+    """Where models start after a reset, by name: arrays (nworld, 7) of x, y, z and quaternion."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._poses: dict[str, Floats] = {}
+
+    def __getitem__(self, name: str) -> Floats:
+        if name in self._poses:
+            return self._poses[name].copy()
+        pose = self._simulation.robots[name].description.pose
+        return np.tile((*pose.position, *pose.quaternion), (self._simulation.nworld, 1))
+
+    def __setitem__(self, name: str, values: ArrayLike) -> None:
+        shape = self[name].shape
+        poses = np.array(np.broadcast_to(np.asarray(values, np.float64), shape))
+        if not np.isfinite(poses).all():
+            raise SimulationError(f"the initial poses of '{name}' must be finite")
+        self._poses[name] = poses
+
+    def apply(self, worlds: Worlds | None) -> None:
+        """Put the models there; part of a reset."""
+        rows = slice(None) if worlds is None else worlds
+        for name, poses in self._poses.items():
+            self._simulation.engine.set_model_placement(
+                name, poses[rows, :3], poses[rows, 3:], worlds
+            )
+
+    def forget(self, model: str) -> None:
+        """Drop those of a model that is gone."""
+        self._poses.pop(model, None)
+
+    def state(self) -> dict[str, Floats]:
+        """All that was set."""
+        return {name: poses.copy() for name, poses in self._poses.items()}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Put back what ``state`` gave."""
+        self._poses = dict(state)
+
+
+class WorldParameters:
+    """What each world has of its own, for domain randomisation.
+
+    Nothing is drawn at random unless ``randomize`` is called. What is set lasts: a reset
+    keeps it, a snapshot holds it, spawning and deleting other models do not touch it.
+
+    Attributes:
+        link_mass: [kg], by ``model::link``. The inertia stays; see ``scale_mass``.
+        link_inertia: About the centre of mass, in the link's axes [kg m²]: xx, yy, zz, xy, xz,
+            yz; shape (nworld, 6).
+        link_centre: Centre of mass in the link frame [m], shape (nworld, 3).
+        link_gravity: Share of gravity that acts on it, 0 to 1.
+        joint_damping: [N s/m or N m s/rad], by ``model::joint``.
+        joint_friction: [N or N m].
+        joint_lower: [m or rad].
+        joint_upper: [m or rad].
+        motor_effort: Largest effort of a joint's motor [N or N m].
+        friction: Coefficient of a collision, by ``model::link::collision``.
+        lidar_noise: Standard deviation [m], by ``model::link::sensor``.
+        pose: Where models start after a reset, by model.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self.link_mass = Parameter(simulation, "link_mass")
+        self.link_inertia = Parameter(simulation, "link_inertia")
+        self.link_centre = Parameter(simulation, "link_centre")
+        self.link_gravity = Parameter(simulation, "link_gravity")
+        self.joint_damping = Parameter(simulation, "joint_damping")
+        self.joint_friction = Parameter(simulation, "joint_friction")
+        self.joint_lower = Parameter(simulation, "joint_lower")
+        self.joint_upper = Parameter(simulation, "joint_upper")
+        self.motor_effort = Parameter(simulation, "motor_effort")
+        self.friction = Parameter(simulation, "collision_friction")
+        self.lidar_noise = SensorNoise(simulation)
+        self.pose = InitialPoses(simulation)
+        self._streams: dict[str, Stream] = {}
+
+    @property
+    def gravity(self) -> Floats:
+        """Gravity of each world [m/s²], shape (nworld, 3); settable."""
+        return self._simulation.engine.parameter("gravity", "")
+
+    @gravity.setter
+    def gravity(self, values: ArrayLike) -> None:
+        engine = self._simulation.engine
+        self._simulation.requests.call(lambda: engine.set_parameter("gravity", "", values))
+
+    def scale_mass(self, link: str, factor: ArrayLike) -> None:
+        """Multiply mass and inertia of a link, as if it were made of another material.
+
+        Args:
+            link: Scoped name.
+            factor: Shape () or (nworld,).
+        """
+        shape = (self._simulation.nworld,)
+        by = np.broadcast_to(np.asarray(factor, np.float64), shape)
+        self.link_mass[link] = self.link_mass[link] * by
+        self.link_inertia[link] = self.link_inertia[link] * by[:, None]
+
+    def stream(self, name: str) -> Stream:
+        """Random numbers for one purpose; world i's depend on the seed, the name and i alone."""
+        if name not in self._streams:
+            seed, nworld = self._simulation.seed, self._simulation.nworld
+            self._streams[name] = Stream(seed, f"parameters/{name}", nworld)
+        return self._streams[name]
+
+    def randomize(
+        self,
+        kind: str,
+        name: str,
+        low: ArrayLike,
+        high: ArrayLike,
+        worlds: Worlds | None = None,
+    ) -> Floats:
+        """Draw a parameter evenly between two bounds in each world.
+
+        Args:
+            kind: Such as ``link_mass``, ``friction`` or ``gravity``: an attribute of this class.
+            name: Scoped name; empty for gravity.
+            low: Lower bound, shape () or (width,).
+            high: Upper bound, shape () or (width,).
+            worlds: Which worlds; all if None.
+
+        Returns:
+            What was drawn, shape (n, width).
+
+        Raises:
+            SimulationError: There is no such parameter.
+            EngineError: There is nothing of that name.
+        """
+        engine_kind = {"friction": "collision_friction"}.get(kind, kind)
+        if engine_kind not in PARAMETERS or engine_kind == "attachment":
+            kinds = [*(k for k in PARAMETERS if k != "attachment"), "friction"]
+            raise SimulationError(
+                f"there is no parameter '{kind}' to draw", hint=did_you_mean(kind, kinds)
+            )
+        engine = self._simulation.engine
+        width = engine.parameter(engine_kind, name, np.array([0])).shape[1]
+        share = self.stream(f"{engine_kind}/{name}").uniform(width, worlds)
+        drawn: Floats = np.asarray(low) + share * (np.asarray(high) - np.asarray(low))
+        self._simulation.requests.call(
+            lambda: engine.set_parameter(engine_kind, name, drawn, worlds)
+        )
+        return drawn
+
+    def reseed(self, seed: int, worlds: Worlds | None) -> None:
+        """Draw with the random numbers of another seed from now on."""
+        for stream in self._streams.values():
+            stream.reseed(seed, worlds)
+
+    def state(self) -> dict[str, Any]:
+        """What is not the engine's, for a snapshot."""
+        streams = {n: (s.keys.copy(), s.counters.copy()) for n, s in self._streams.items()}
+        return {"pose": self.pose.state(), "streams": streams}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Put back what ``state`` gave."""
+        self.pose.restore(state["pose"])
+        self._streams = {}
+        for name, (keys, counters) in state["streams"].items():
+            stream = self.stream(name)
+            stream.keys[:], stream.counters[:] = keys, counters

@@ -1,0 +1,133 @@
+"""Write down a run: what was done to the engine, and a hash of the state after every step.
+
+A recording is text, one JSON object a line, and holds no code. The first line says what ran
+and its state; every other line is one change, in order. A line cut off by a crash is left out
+on reading.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable
+from functools import partial
+from pathlib import Path
+from types import TracebackType
+from typing import IO, TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines import CHANGES, Call, DivergenceError, Engine
+from gazelle.errors import Error
+from gazelle.simulation.encoding import encode
+
+if TYPE_CHECKING:
+    from gazelle.description import World
+    from gazelle.simulation.simulation import Simulation
+
+FORMAT = "gazelle-recording"
+VERSION = 1
+
+
+def state_hash(state: NDArray[np.float64]) -> str:
+    """A hash of a state, to the bit: 16 hexadecimal digits of BLAKE2b."""
+    return hashlib.blake2b(np.ascontiguousarray(state).tobytes(), digest_size=8).hexdigest()
+
+
+def header(
+    world: World,
+    history: Iterable[Call],
+    state: NDArray[np.float64],
+    *,
+    seed: int,
+    time_ns: int,
+) -> dict[str, Any]:
+    """The first line of a recording: what ran, and from where on."""
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "engine": "mujoco",
+        "seed": seed,
+        "time": time_ns,
+        "world": encode(world),
+        "history": encode(list(history)),
+        "state": encode(state),
+    }
+
+
+class Recorder:
+    """Writes down a run until it is closed; a context manager.
+
+    It listens to the methods of the engine that change something, whoever calls them.
+
+    Args:
+        simulation: What runs.
+        path: Where to write; an existing file is replaced.
+    """
+
+    def __init__(self, simulation: Simulation, path: str | Path) -> None:
+        self.path = Path(path)
+        self._simulation = simulation
+        self._engine: Engine = simulation.engine
+        first = header(
+            self._engine.world,
+            self._engine.history(),
+            self._engine.snapshot(),
+            seed=simulation.seed,
+            time_ns=simulation.clock.now_ns,
+        )
+        self._file: IO[str] = self.path.open("w", encoding="utf-8")
+        self._depth = 0
+        self._write(first)
+        for name in CHANGES:
+            setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
+
+    def close(self) -> None:
+        """Stop listening; a second call does nothing."""
+        if not self._file.closed:
+            for name in CHANGES:
+                delattr(self._engine, name)
+            self._file.close()
+
+    def _called(self, name: str, method: Callable[..., Any], *args: Any, **options: Any) -> Any:
+        """Do what was asked; write it down unless it is part of something larger."""
+        if self._depth:
+            return method(*args, **options)
+        line: dict[str, Any] = {"call": name, "arguments": encode(args)}
+        if options:
+            line["options"] = encode(options)
+        self._depth += 1
+        try:
+            result = method(*args, **options)
+        except DivergenceError as error:
+            line["diverged"] = [int(world) for world in error.worlds]
+            self._note(name, line, args)
+            raise
+        except Error:
+            raise  # nothing was changed
+        finally:
+            self._depth -= 1
+        self._note(name, line, args)
+        return result
+
+    def _note(self, name: str, line: dict[str, Any], args: tuple[Any, ...]) -> None:
+        line["time"] = self._simulation.clock.now_ns
+        if name == "step":
+            line["time"] += (args[0] if args else 1) * self._simulation.clock.step_ns
+            line["hash"] = state_hash(self._engine.peek())
+        self._write(line)
+
+    def _write(self, line: dict[str, Any]) -> None:
+        self._file.write(json.dumps(line, separators=(",", ":")) + "\n")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()

@@ -1,0 +1,160 @@
+"""Run a recording again, and check that it does the same to the bit."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.description import Link, Model, World
+from gazelle.errors import SimulationError
+from gazelle.simulation.encoding import decode
+from gazelle.simulation.recording import FORMAT, VERSION, state_hash
+from gazelle.simulation.simulation import Simulation
+
+
+class Replay:
+    """A recorded run, done again step by step.
+
+    ``simulation`` is the run: look at its robots, read its sensors, render it. It has no
+    plugins, since what they did is in the recording. Its sensors have the recorded seed, and
+    measure when asked.
+
+    Args:
+        path: The recording.
+        threads: Native threads; all processors if None.
+
+    Attributes:
+        simulation: What runs.
+
+    Raises:
+        SimulationError: The file is no recording, or one of a later version.
+    """
+
+    def __init__(self, path: str | Path, *, threads: int | None = None) -> None:
+        self.path = Path(path)
+        lines = _read(self.path)
+        first = lines[0]
+        if first.get("format") != FORMAT:
+            raise SimulationError("this is no recording of a run", file=str(path))
+        if first["version"] > VERSION:
+            raise SimulationError(
+                f"this recording has version {first['version']}, known are up to {VERSION}",
+                file=str(path),
+                hint="read it with the Gazelle that wrote it",
+            )
+        self._events = lines[1:]
+        self._next = 0
+        state = decode(first["state"])
+        self.simulation = Simulation(
+            _without_plugins(decode(first["world"])),
+            first["engine"],
+            nworld=len(state),
+            seed=first["seed"],
+            threads=threads,
+        )
+        engine = self.simulation.engine
+        engine.adopt(decode(first["history"]))
+        engine.restore(state)
+        self.simulation.clock.now_ns = first["time"]
+
+    @property
+    def done(self) -> bool:
+        """Whether there is nothing more to do."""
+        return self._next >= len(self._events)
+
+    def step(self) -> bool:
+        """Go on to the end of the next recorded run of steps; False when there is none.
+
+        Raises:
+            SimulationError: The state is not the recorded one.
+            DivergenceError: The recorded run broke down here, and does again.
+        """
+        while not self.done:
+            event = self._events[self._next]
+            self._next += 1
+            try:
+                self._do(event)
+            finally:
+                self.simulation.clock.now_ns = event["time"]
+            if event["call"] == "step":
+                self._check(event)
+                return True
+        return False
+
+    def run(self) -> int:
+        """Go on to the end; returns the number of runs of steps made."""
+        count = 0
+        while self.step():
+            count += 1
+        return count
+
+    def _do(self, event: dict[str, Any]) -> None:
+        name, arguments = event["call"], decode(event["arguments"])
+        simulation, engine = self.simulation, self.simulation.engine
+        if name == "spawn":
+            simulation.spawn(_bare(arguments[0]))
+        elif name == "delete":
+            simulation.delete(arguments[0])
+        else:
+            options = decode(event["options"]) if "options" in event else {}
+            getattr(engine, name)(*arguments, **options)
+            simulation.clock.set_step(engine.time_step)
+
+    def _check(self, event: dict[str, Any]) -> None:
+        found = state_hash(self.simulation.engine.peek())
+        if "hash" in event and found != event["hash"]:
+            raise SimulationError(
+                f"at {self.simulation.time:g} s the state is not the recorded one "
+                f"({found}, not {event['hash']})",
+                file=str(self.path),
+                hint="the same version of MuJoCo and the same mesh files give the same bits",
+            )
+
+    def close(self) -> None:
+        """Free the engine."""
+        self.simulation.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _read(path: Path) -> list[dict[str, Any]]:
+    lines: list[dict[str, Any]] = []
+    for text in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        try:
+            line = json.loads(text)
+        except ValueError:
+            break  # cut off
+        lines.append(line if isinstance(line, dict) else {})
+    if not lines:
+        raise SimulationError("this is no recording of a run", file=str(path))
+    return lines
+
+
+def _without_plugins(world: World) -> World:
+    return replace(world, plugins=(), models=tuple(_bare(model) for model in world.models))
+
+
+def _bare(model: Model) -> Model:
+    """A model without plugins."""
+    return replace(
+        model,
+        plugins=(),
+        links=tuple(_bare_link(link) for link in model.links),
+        models=tuple(_bare(nested) for nested in model.models),
+    )
+
+
+def _bare_link(link: Link) -> Link:
+    return replace(link, sensors=tuple(replace(each, plugins=()) for each in link.sensors))

@@ -1,0 +1,38 @@
+"""Pictures of a running simulation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Model, Pose
+from gazelle.engines.tracer import Tracer, make_tracer
+from gazelle.sensors import View, render
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+
+class Eye:
+    """Renders, and keeps what it needs while the models stay the same."""
+
+    def __init__(self) -> None:
+        self._models: tuple[Model, ...] = ()
+        self._tracer: Tracer | None = None
+
+    def see(self, simulation: Simulation, view: View, world: int) -> NDArray[np.uint8]:
+        """A picture of one world, shape (height, width, 3)."""
+        engine = simulation.engine
+        if self._tracer is None or self._models is not engine.world.models:
+            self._models, self._tracer = engine.world.models, make_tracer(engine.world)
+        chosen = np.array([world])
+        places = {name: engine.link_placement(name, chosen) for name in engine.link_names}
+        self._tracer.place(
+            {
+                name: Pose.from_quaternion(tuple(p.position[0]), tuple(p.quaternion[0]))
+                for name, p in places.items()
+            }
+        )
+        return render(self._tracer, engine.world, view)
