@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from gazelle.builders.errors import BuildError
 from gazelle.builders.furniture import (
@@ -18,6 +19,7 @@ from gazelle.builders.furniture import (
 )
 from gazelle.builders.land import hills
 from gazelle.builders.nature import log, plant
+from gazelle.builders.obstacles import PlantKind
 from gazelle.builders.placing import Disc, Rectangle, along
 from gazelle.builders.structures import building, fence
 from gazelle.builders.walling import Opening, Point, door, window
@@ -165,6 +167,7 @@ def outdoor(
     houses: int = 4,
     rocks: int = 8,
     relief: float = 5.0,
+    kinds: Sequence[PlantKind] = ("broadleaf", "conifer", "conifer", "poplar"),
     name: str = "outdoor",
 ) -> World:
     """A road with houses, trees and rocks on a meadow, and hills around it.
@@ -177,6 +180,7 @@ def outdoor(
         houses: From 0 to 6.
         rocks: Number of rocks and bushes, each.
         relief: Height of the highest hills [m]; 0 for flat land.
+        kinds: What the trees may be; a kind named twice is twice as frequent.
         name: Of the world.
 
     Raises:
@@ -207,7 +211,7 @@ def outdoor(
     _houses(builder, houses, Stream(seed, "builders.outdoor", 1))
     area = Rectangle(0.0, 0.0, 74.0, 74.0)
     builder.place(log, -6.0, -6.5, 0.5)
-    builder.plants(trees, area=area, kinds=("broadleaf", "conifer", "conifer", "poplar"))
+    builder.plants(trees, area=area, kinds=kinds)
     builder.plants(rocks, area=area, kinds=("rock",), height=(0.4, 1.4), name="rock")
     builder.plants(rocks, area=area, kinds=("bush",), height=(0.5, 1.1), name="bush")
     return builder.build()
