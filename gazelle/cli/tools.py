@@ -1,0 +1,61 @@
+"""What the commands of ROS 1 tools share: sub-commands, Ctrl-C, standard input."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from gazelle.cli.parsing import Parser
+
+Action = Callable[[argparse.Namespace], int]
+
+
+class SubCommands:
+    """The sub-commands of a command.
+
+    Args:
+        parser: The command's parser.
+    """
+
+    def __init__(self, parser: argparse.ArgumentParser) -> None:
+        self._parsers: Any = parser.add_subparsers(
+            dest="sub_command", required=True, metavar="SUB-COMMAND", parser_class=Parser
+        )
+
+    def add(self, name: str, purpose: str, action: Action) -> argparse.ArgumentParser:
+        """A sub-command; returns its parser."""
+        made: argparse.ArgumentParser = self._parsers.add_parser(
+            name, help=purpose, description=purpose
+        )
+        made.set_defaults(action=action, parser=made)
+        return made
+
+
+@contextlib.contextmanager
+def stopping() -> Iterator[threading.Event]:
+    """An event that Ctrl-C and SIGTERM set."""
+    stop = threading.Event()
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    old = [signal.signal(number, lambda *_: stop.set()) for number in numbers]
+    try:
+        yield stop
+    finally:
+        for number, handler in zip(numbers, old, strict=True):
+            signal.signal(number, handler)
+
+
+def answer(question: str, choices: set[str]) -> str | None:
+    """What the user types, one of the choices; None at the end of standard input."""
+    sys.stdout.write(question)
+    sys.stdout.flush()
+    while line := sys.stdin.readline():
+        if line.strip() in choices:
+            return line.strip()
+        sys.stdout.write(f"please answer with one of: {', '.join(sorted(choices))}\n")
+        sys.stdout.flush()
+    return None

@@ -1,0 +1,1 @@
+"""What rostopic, rosservice, rosnode and rosparam do, as functions that write to a stream."""

@@ -1,0 +1,175 @@
+"""What services there are, of what type, and calls to them."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from gazelle.ros import names, net
+from gazelle.ros.errors import ServiceError
+from gazelle.ros.limits import LIMITS
+from gazelle.ros.messages import MessageException, load_message, load_service
+from gazelle.ros.messages.yaml import fill_message_args, get_printable_message_args
+from gazelle.ros.node import Node
+from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.service_links import ServiceChannel
+from gazelle.ros.time import Time
+from gazelle.ros.tools.errors import ToolError
+from gazelle.ros.tools.graph import Graph
+
+_PATIENCE_S = 5.0
+
+
+def list_services(graph: Graph, space: str | None = None) -> list[tuple[str, list[str]]]:
+    """Services and their nodes, sorted; those of a namespace, or all."""
+    found = sorted(graph.services())
+    if space is None:
+        return found
+    name = graph.resolve(space)
+    below = names.as_namespace(name)
+    return [each for each in found if each[0] == name or each[0].startswith(below)]
+
+
+def service_node(graph: Graph, service: str) -> str:
+    """The node that provides a service.
+
+    Raises:
+        ToolError: Nobody does.
+    """
+    name = graph.resolve(service)
+    known = dict(graph.services())
+    if not known.get(name):
+        raise graph.unknown("service", name, known)
+    return known[name][0]
+
+
+def service_uri(graph: Graph, service: str) -> str:
+    """The address of a service.
+
+    Raises:
+        ToolError: Nobody offers it.
+    """
+    name = graph.resolve(service)
+    uri = graph.service_uri(name)
+    if uri is None:
+        raise graph.unknown("service", name, dict(graph.services()))
+    return uri
+
+
+def probe(graph: Graph, service: str) -> dict[str, str]:
+    """What a service says about itself.
+
+    Raises:
+        ToolError: Nobody offers it, or it does not answer.
+    """
+    name = graph.resolve(service)
+    uri = service_uri(graph, name)
+    host, port, _ = net.split_uri(uri, "rosrpc")
+    fields = {"callerid": graph.caller, "service": name, "md5sum": headers.ANY, "probe": "1"}
+    try:
+        channel = ServiceChannel(host, port, fields, LIMITS, time.monotonic() + _PATIENCE_S)
+    except (ServiceError, TimeoutError) as error:
+        raise ToolError(f"service {name} at {uri} does not answer: {error}") from None
+    channel.close()
+    return channel.header
+
+
+def service_type(graph: Graph, service: str) -> str:
+    """The type of a service.
+
+    Raises:
+        ToolError: Nobody offers it, or it does not answer.
+    """
+    return probe(graph, service).get("type", "")
+
+
+def services_of_type(graph: Graph, kind: str) -> list[str]:
+    """The services of a type; those that do not answer are left out."""
+    found = []
+    for name, _ in graph.services():
+        try:
+            if service_type(graph, name) == kind:
+                found.append(name)
+        except ToolError:
+            continue
+    return found
+
+
+def service_arguments(graph: Graph, service: str) -> str:
+    """The fields of a service's request, with spaces between.
+
+    Raises:
+        ToolError: Nobody offers it, or it does not answer.
+    """
+    request = load_service(service_type(graph, service))._request_class  # noqa: SLF001  # genpy's name
+    return get_printable_message_args(request())
+
+
+def service_info(graph: Graph, service: str) -> str:
+    """Node, address, type and arguments of a service.
+
+    Raises:
+        ToolError: Nobody offers it, or it does not answer.
+    """
+    lines = [
+        f"Node: {service_node(graph, service)}",
+        f"URI: {service_uri(graph, service)}",
+        f"Type: {service_type(graph, service)}",
+        f"Args: {service_arguments(graph, service)}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+class Caller:
+    """Calls one service with values that users write.
+
+    Args:
+        graph: The graph.
+        node: Whose calls they are.
+        service: The service's name.
+
+    Raises:
+        ToolError: Nobody offers it, or it does not answer.
+    """
+
+    def __init__(self, graph: Graph, node: Node, service: str) -> None:
+        self._node = node
+        self._class: Any = load_service(service_type(graph, service))
+        self._client = node.client(graph.resolve(service), self._class)
+
+    @property
+    def takes_values(self) -> bool:
+        """Whether the request has fields."""
+        return bool(self._class._request_class.__slots__)  # noqa: SLF001  # genpy's name
+
+    def request(self, arguments: list[Any]) -> Any:
+        """A request from values.
+
+        Raises:
+            ToolError: They do not fit its fields.
+        """
+        made = self._class._request_class()  # noqa: SLF001  # genpy's name
+        now = Time(nsecs=self._node.clock.now())
+        keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+        try:
+            fill_message_args(made, arguments, keys=keys)
+        except (MessageException, ValueError) as error:
+            given = "\n".join(f" * {each} (type {type(each).__name__})" for each in arguments)
+            known = get_printable_message_args(made)
+            raise ToolError(
+                f"Incompatible arguments to call service:\n{error}\n"
+                f"Provided arguments are:\n{given}\n\nService arguments are: [{known}]"
+            ) from None
+        return made
+
+    def call(self, request: Any) -> Any:
+        """The response.
+
+        Raises:
+            ServiceError: The call failed.
+            ToolError: A field has a value of the wrong type.
+        """
+        try:
+            return self._client.call(request)
+        except MessageException as error:
+            raise ToolError(f"the request cannot be sent: {error}") from None
