@@ -19,7 +19,7 @@ class Material:
         emissive: Colour it glows with; None when the file says none.
         script: Name of a material script such as ``Gazebo/Grey``, whose colours the
             readers have already put into the fields above where they know it.
-        script_uris: Where the file says the script is.
+        script_uris: Where the file says the script is; empty for Gazebo's own.
         texture: Image file of the diffuse texture, or None.
     """
 

@@ -10,6 +10,9 @@ from dataclasses import replace
 
 from gazelle.description import Color, Material
 
+STANDARD = "file://media/materials/scripts/gazebo.material"
+"""Where files say that Gazebo's own scripts are."""
+
 _PREFIX = "Gazebo/"
 
 # ambient and diffuse colour of each
@@ -105,3 +108,8 @@ def with_script_colors(material: Material) -> Material:
         ambient=material.ambient or known[0],
         diffuse=material.diffuse or known[1],
     )
+
+
+def is_standard(script: str, uris: tuple[str, ...] = ()) -> bool:
+    """Whether a script is one of Gazebo's own, which need no URI to be found."""
+    return script.startswith(_PREFIX) and uris in {(), (STANDARD,)}

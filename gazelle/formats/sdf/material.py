@@ -6,7 +6,7 @@ from pathlib import Path
 
 from gazelle.description import Color, Material, Parameters
 from gazelle.formats import values
-from gazelle.formats.materials import with_script_colors
+from gazelle.formats.materials import is_standard, with_script_colors
 from gazelle.formats.reading import Reading
 
 
@@ -21,6 +21,8 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
         # files before SDF 1.3 write the script's name as the text itself
         name = values.word(script, "name") or script.text
         uris = tuple(uri.text for uri in script.find_all("uri") if uri.text)
+        if is_standard(name, uris):
+            uris = ()
     return with_script_colors(
         Material(
             ambient=_color(node, "ambient"),

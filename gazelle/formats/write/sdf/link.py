@@ -13,7 +13,7 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError
 from gazelle.formats import values
-from gazelle.formats.materials import script_colors
+from gazelle.formats.materials import STANDARD, is_standard, script_colors
 from gazelle.formats.sdf.inertial import check_inertia
 from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf
 from gazelle.formats.write.sdf.geometry import write_geometry
@@ -131,11 +131,17 @@ def write_material(material: Material, writing: Writing) -> Parameters:
         leaf("emissive", material.emissive),
         group(
             "script",
-            *(leaf("uri", uri) for uri in material.script_uris),
+            *(leaf("uri", uri) for uri in _script_uris(material)),
             leaf("name", material.script),
         ),
         group("pbr", group("metal", albedo)),
     )
+
+
+def _script_uris(material: Material) -> tuple[str, ...]:
+    """Where the script is; other programs want to be told so of Gazebo's own ones too."""
+    uris = material.script_uris
+    return (STANDARD,) if material.script and is_standard(material.script, uris) else uris
 
 
 def write_light(light: Light) -> Parameters:

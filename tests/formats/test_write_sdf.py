@@ -1,0 +1,263 @@
+"""What is saved as SDF is the same when it is loaded: exactly, in all fields."""
+
+import math
+import shutil
+import subprocess
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from gazelle import Error, FormatError, formats
+from gazelle.description import (
+    Collision,
+    Cone,
+    Inertia,
+    Inertial,
+    Joint,
+    JointAxis,
+    Light,
+    Link,
+    Mesh,
+    Mimic,
+    Model,
+    Parameters,
+    Plugin,
+    Pose,
+    Sensor,
+    Source,
+    World,
+)
+from gazelle.errors import FormatWarning
+from gazelle.formats import loader, xml
+from gazelle.formats.reading import Reading
+from gazelle.formats.resolve import Resolver
+from tests.formats.strategies import models, poses, worlds
+
+# files of the corpus that load, but miss so much that nothing whole can be saved
+UNSAVED = {
+    "gazebosim__sdformat/test/sdf/model_include_with_interface_api.sdf": "has no link",
+    "gazebosim__sdformat/test/sdf/placement_frame.sdf": "has no link",
+    "gazebosim__sdformat/test/sdf/root_duplicate_models.sdf": "two with the name",
+    "elysia-best__gazebo-classic/worlds/iris_arducopter_demo.world": "has no link",
+    "elysia-best__gazebo-classic/worlds/variable_gearbox_plugin.world": "has no link",
+}
+ASSETS = Path(formats.__file__).parents[1] / "assets"
+quiet = pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+
+
+def again(content, folder=None):
+    return formats.load_string(formats.to_string(content, "sdf", folder=folder))
+
+
+@quiet
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@given(worlds())
+def test_every_world_is_the_same_when_loaded_again(world):
+    assert again(world) == world
+
+
+@quiet
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@given(models())
+def test_every_model_is_the_same_when_loaded_again(model):
+    assert again(model).models == (model,)
+
+
+@settings(max_examples=300, deadline=None)
+@given(poses())
+def test_poses_keep_their_last_bit(pose):
+    found = again(Model("m", pose, links=(Link("l"),))).models[0].pose
+    assert (found.position, found.quaternion) == (pose.position, pose.quaternion)
+
+
+def same_after_saving(path):
+    """Whether a file of the corpus is the same when it is saved beside itself and loaded."""
+    world = formats.load(path)
+    text = formats.to_string(world, "sdf", folder=path.parent)
+    reading = Reading(Resolver())
+    with reading.inside(path):
+        return loader.read_root(xml.parse(text, name="again"), reading) == world
+
+
+@quiet
+@pytest.mark.corpus
+def test_every_sdf_and_urdf_of_the_corpus_is_the_same(corpus):
+    schema = corpus / "gazebosim__sdformat" / "sdf"
+    paths = [p for kind in ("sdf", "world", "urdf") for p in sorted(corpus.rglob(f"*.{kind}"))]
+    unsaved, different, count = {}, [], 0
+    for path in paths:
+        name = str(path.relative_to(corpus))
+        if schema in path.parents or formats_refuses(path):
+            continue
+        count += 1
+        try:
+            if not same_after_saving(path):
+                different.append(name)
+        except FormatError as error:
+            unsaved[name] = error.message
+    assert count > 400
+    assert different == []
+    assert unsaved.keys() == UNSAVED.keys()
+    assert all(reason in unsaved[name] for name, reason in UNSAVED.items())
+
+
+def formats_refuses(path):
+    try:
+        formats.load(path)
+    except Error:
+        return True
+    return False
+
+
+@quiet
+@pytest.mark.parametrize(
+    "path", sorted([*ASSETS.glob("worlds/*.world"), *ASSETS.glob("models/*/model.sdf")]), ids=str
+)
+def test_bundled_files_are_the_same(path):
+    assert same_after_saving(path)
+
+
+@quiet
+@pytest.mark.parametrize("name", ["turtlebot3_burger", "turtlebot3_waffle", "turtlebot3_waffle_pi"])
+def test_a_robot_from_xacro_is_the_same_as_sdf(name, tmp_path):
+    robot = formats.load_model(name)
+    formats.save(robot, tmp_path / "robot.sdf")
+    assert formats.load_model(tmp_path / "robot.sdf", paths=[ASSETS]) == robot
+
+
+def test_it_asks_for_no_newer_version_than_it_needs():
+    def version(model):
+        return xml.parse(formats.to_string(model, "sdf"), name="x").attributes["version"]
+
+    plain = Link("l", Pose(yaw=1.57))
+    turned = Link("l", Pose.from_quaternion((0, 0, 0), (0.1, 0.2, 0.3, 0.4)))
+    cone = Link("l", collisions=(Collision("c", Cone(1.0, 2.0)),))
+    mimic = Joint("j", "revolute", "world", "l", axes=(JointAxis(mimic=Mimic("k")),))
+    assert version(Model("m", links=(plain,))) == "1.7"
+    assert version(Model("m", links=(turned,))) == "1.9"
+    assert version(Model("m", links=(plain,), joints=(mimic,))) == "1.11"
+    assert version(Model("m", links=(cone,))) == "1.12"
+
+
+def test_relative_mesh_names_lead_to_the_same_file_from_elsewhere(tmp_path):
+    here, there = tmp_path / "here", tmp_path / "there"
+    here.mkdir()
+    there.mkdir()
+    (here / "part.stl").write_bytes(bytes(84))
+    link = Link("l", collisions=(Collision("c", Mesh("part.stl", here / "part.stl")),))
+    model = Model("m", links=(link,))
+    for folder, uri in ((here, "part.stl"), (there, (here / "part.stl").as_uri())):
+        formats.save(model, folder / "m.sdf")
+        found = formats.load_model(folder / "m.sdf").links[0].collisions[0].geometry
+        assert (found.uri, found.path) == (uri, here / "part.stl")
+
+
+def test_a_state_that_no_longer_fits_is_left_out_with_a_warning():
+    text = (
+        "<sdf version='1.7'><world name='w'><model name='m'><link name='l'/></model>"
+        "<state world_name='w'><model name='m'><pose>1 0 0 0 0 0</pose></model></state>"
+        "</world></sdf>"
+    )
+    world = formats.load_string(text)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert again(world) == world
+    moved = replace(world, models=(replace(world.models[0], pose=Pose(2.0)),))
+    with pytest.warns(FormatWarning, match="<state>"):
+        assert again(moved).models[0].pose == Pose(2.0)
+
+
+def test_an_error_names_the_place_the_part_came_from():
+    source = Source("robot.sdf", 7, "model[@name='m']/link[@name='l']")
+    inertial = Inertial(1.0, inertia=Inertia(math.nan, 1.0, 1.0))
+    with pytest.raises(FormatError) as caught:
+        formats.to_string(Model("m", links=(Link("l", inertial=inertial, source=source),)), "sdf")
+    assert (caught.value.file, caught.value.line) == ("robot.sdf", 7)
+    with pytest.raises(FormatError, match=r"link\[@name='l'\].*nan"):
+        formats.to_string(Model("m", links=(Link("l", velocity_decay_linear=math.nan),)), "sdf")
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (Model("m"), "no link"),
+        (Model("", links=(Link("l"),)), "needs a name"),
+        (Model("m", links=(Link("l"), Link("l"))), "two with the name"),
+        (World(models=(Model("m", links=(Link("l"),)),) * 2), "two with the name"),
+        (Model("m", links=(Link("l", Pose(math.inf)),)), "finite"),
+        (Model("m", links=(Link("l", inertial=Inertial(0.0)),)), "mass"),
+        (Model("a\x00b", links=(Link("l"),)), "cannot stand in XML"),
+        (
+            Model(
+                "m",
+                links=(Link("l"),),
+                plugins=(
+                    Plugin("p", "f", Parameters("plugin", children=(Parameters("no name"),))),
+                ),
+            ),
+            "cannot be a name",
+        ),
+    ],
+)
+def test_what_no_reader_takes_is_not_written(content, message):
+    with pytest.raises(FormatError, match=message):
+        formats.to_string(content, "sdf")
+
+
+def test_by_code_descriptions_need_no_kept_elements():
+    sensor = Sensor("s", "camera")
+    world = World(
+        "w",
+        (Model("m", links=(Link("l", sensors=(sensor,)),), plugins=(Plugin("p", "f.so"),)),),
+        camera=Pose(1.0),
+        lights=(Light("sun"),),
+    )
+    assert again(world) == world
+
+
+def test_a_file_is_whole_or_not_there(tmp_path):
+    bad = Model("m", links=(Link("l", Pose(math.nan)),))
+    with pytest.raises(FormatError):
+        formats.save(bad, tmp_path / "m.sdf")
+    with pytest.raises(FormatError, match="cannot be written"):
+        formats.save(Model("m", links=(Link("l"),)), tmp_path / "missing" / "m.sdf")
+    assert list(tmp_path.iterdir()) == []
+    formats.save(Model("m", links=(Link("l"),)), tmp_path / "m.sdf")
+    assert [file.name for file in tmp_path.iterdir()] == ["m.sdf"]
+
+
+def test_unknown_formats_are_refused_with_the_known_ones(tmp_path):
+    with pytest.raises(FormatError, match=r"\.sdf"):
+        formats.save(World(), tmp_path / "world.txt")
+    with pytest.raises(FormatError, match="to_mjcf"):
+        formats.to_string(World(), "mjcf")
+
+
+def valid(path):
+    """Whether libsdformat finds nothing wrong with a file."""
+    run = subprocess.run(
+        ["ign", "sdf", "-k", str(path)], capture_output=True, text=True, timeout=60, check=False
+    )
+    return "Valid" in run.stdout
+
+
+ORACLE = [
+    "elysia-best__gazebo-classic/worlds/joints.world",
+    "gazebosim__sdformat/test/sdf/double_pendulum.sdf",
+    "gazebosim__sdformat/test/sdf/joint_nested_parent_child.sdf",
+    "osrf__gazebo_models/simple_arm/model.sdf",
+]
+
+
+@quiet
+@pytest.mark.corpus
+@pytest.mark.skipif(shutil.which("ign") is None, reason="libsdformat's `ign sdf` is not installed")
+@pytest.mark.parametrize("name", ORACLE)
+def test_libsdformat_finds_it_valid(corpus, tmp_path, monkeypatch, name):
+    monkeypatch.setenv("SDF_PATH", str(corpus / "osrf__gazebo_models"))
+    world = formats.load(corpus / name, paths=[corpus / "osrf__gazebo_models"])
+    formats.save(world, tmp_path / "saved.sdf")
+    assert valid(tmp_path / "saved.sdf")
