@@ -1,61 +1,158 @@
-"""The real ROS 1 of Debian, run beside ours; without it these tests skip."""
+"""The real ROS 1 of the system, if it is installed: its master and its Python nodes."""
 
 from __future__ import annotations
 
-import json
+import contextlib
 import os
+import signal
+import socket
 import subprocess
-from functools import cache
-from typing import Any
+import tempfile
+import time
+from pathlib import Path
 
 import pytest
 
+from gazelle.ros.errors import RosError
+from gazelle.ros.master.proxy import MasterProxy
+
 PYTHON = "/usr/bin/python3"
+INSTALLED = Path("/usr/bin/roscore").exists() and Path(
+    "/usr/lib/python3/dist-packages/rospy"
+).exists()
+
+needs_ros = pytest.mark.skipif(
+    not INSTALLED, reason="the real ROS 1 is not installed (Debian: ros-core python3-rospy)"
+)
+
+HELPERS = """
+import sys, time, rospy
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, SetBoolResponse
+def say(*words): print(*words, flush=True)
+"""
 
 
-def environment(master_uri: str | None = None, **more: str) -> dict[str, str]:
-    """The environment in which Debian's nodes and tools run."""
-    env = {
+def environment(master_uri):
+    """What real programs need to find each other on this machine only."""
+    home = Path(tempfile.gettempdir()) / f"ros-home-{os.getpid()}"
+    (home / "log").mkdir(parents=True, exist_ok=True)
+    kept = {key: os.environ[key] for key in ("HOME", "LANG", "TMPDIR") if key in os.environ}
+    return kept | {
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
-        "HOME": os.environ.get("HOME", "/tmp"),
+        "ROS_MASTER_URI": master_uri,
         "ROS_IP": "127.0.0.1",
-        "ROS_HOME": os.environ.get("ROS_HOME", "/tmp/gazelle-test-ros-home"),
-        "ROS_PYTHON_VERSION": "3",
+        "ROS_HOME": str(home),
+        "ROS_LOG_DIR": str(home / "log"),
+        "ROS_ROOT": "/usr/share/ros",
+        "ROS_DISTRO": "debian",
+        "PYTHONWARNINGS": "ignore",
+        "PYTHONUNBUFFERED": "1",
     }
-    if master_uri is not None:
-        env["ROS_MASTER_URI"] = master_uri
-    return env | more
 
 
-@cache
-def has(*modules: str) -> bool:
-    """Whether Debian's Python has these modules."""
-    line = "import " + ", ".join(modules)
-    try:
-        run = subprocess.run(
-            [PYTHON, "-c", line], env=environment(), capture_output=True, check=False, timeout=60
-        )
-    except OSError:
-        return False
-    return run.returncode == 0
+def free_port():
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        return sock.getsockname()[1]
 
 
-def need(*modules: str) -> None:
-    """Skip the test if the real ROS has not these modules."""
-    if not has(*modules):
-        pytest.skip(f"the real ROS 1 is not installed (no {', '.join(modules)})")
+def stop(process):
+    """End a program the polite way, then the other."""
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+    for stream in (process.stdin, process.stdout):
+        if stream is not None:
+            stream.close()
 
 
-def ask(script: str, question: Any, **env: str) -> Any:
-    """Run a script in Debian's Python: it reads JSON from stdin and prints JSON."""
-    run = subprocess.run(
-        [PYTHON, "-c", script],
-        input=json.dumps(question),
-        env=environment(**env),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
+@contextlib.contextmanager
+def master(*, core=True, port=None):
+    """A real roscore (or a bare rosmaster); gives its URI."""
+    port = port or free_port()
+    uri = f"http://127.0.0.1:{port}/"
+    program = ["roscore", "-p", str(port)] if core else ["rosmaster", "--core", "-p", str(port)]
+    process = subprocess.Popen(
+        program,
+        env=environment(uri),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=allow_interrupt,
     )
-    assert run.returncode == 0, run.stderr
-    return json.loads(run.stdout)
+    try:
+        wait_for_master(uri, core=core)
+        yield uri
+    finally:
+        stop(process)
+
+
+def allow_interrupt():
+    """A shell's background jobs ignore SIGINT, and children inherit that."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def wait_for_master(uri, *, core):
+    deadline = time.monotonic() + 30
+    proxy = MasterProxy(uri, "/test")
+    while True:
+        with contextlib.suppress(RosError):
+            if core:
+                proxy.lookup_node("/rosout")
+            else:
+                proxy.get_pid()
+            break
+        assert time.monotonic() < deadline, "the real master does not come up"
+        time.sleep(0.05)
+    proxy.close()
+
+
+class RealNode:
+    """A real rospy program; what it prints is read line by line."""
+
+    def __init__(self, uri, script, *arguments):
+        self.process = subprocess.Popen(
+            [PYTHON, "-c", HELPERS + script, *arguments],
+            env=environment(uri),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            preexec_fn=allow_interrupt,
+        )
+
+    def line(self):
+        return self.process.stdout.readline().rstrip("\n")
+
+    def expect(self, *lines):
+        for wanted in lines:
+            got = self.line()
+            assert got == wanted, got + "\n" + (self.rest() if not got else "")
+
+    def rest(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.process.stdout.read()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        stop(self.process)
+
+
+def tool(uri, *command, timeout=60):
+    """What a real command-line tool prints."""
+    done = subprocess.run(
+        command,
+        env=environment(uri),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=timeout,
+        check=False,
+        stdin=subprocess.DEVNULL,
+    )
+    return done.stdout
