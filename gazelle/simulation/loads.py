@@ -115,10 +115,10 @@ class Loads:
         worlds: Worlds | None = None,
     ) -> None:
         """Let a wrench act on a link; see ``LinkHandle.apply_wrench``."""
-        engine = self._engine
-        engine.link_centre(link)  # a wrong name is an error now, not when it begins
+        # What cannot be pushed is an error now, not when it begins.
+        self._push_links([link], self._clock.now_ns)
         if frame:
-            engine.link_placement(frame)
+            self._engine.link_placement(frame)
         start_ns, end_ns = self._span(start, duration)
         self._wrenches.append(
             Wrench(
