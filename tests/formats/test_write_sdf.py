@@ -248,7 +248,7 @@ ORACLE = [
     "elysia-best__gazebo-classic/worlds/joints.world",
     "gazebosim__sdformat/test/sdf/double_pendulum.sdf",
     "gazebosim__sdformat/test/sdf/joint_nested_parent_child.sdf",
-    "osrf__gazebo_models/simple_arm/model.sdf",
+    "osrf__gazebo_models/pioneer3at/model.sdf",
 ]
 
 
