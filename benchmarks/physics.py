@@ -16,7 +16,6 @@ import mujoco
 import gazelle
 from gazelle.description import Box, Collision, Inertia, Inertial, Link, Model, Physics, Plane, Pose
 
-
 STEP = 0.001
 
 

@@ -25,7 +25,8 @@ def multiply(a: Floats, b: Floats) -> Floats:
 
 def conjugate(q: Floats) -> Floats:
     """Inverse rotations of unit quaternions (x, y, z, w), shape (..., 4)."""
-    return q * np.array([-1.0, -1.0, -1.0, 1.0])
+    turned: Floats = q * np.array([-1.0, -1.0, -1.0, 1.0])
+    return turned
 
 
 def cross(a: Floats, b: Floats) -> Floats:

@@ -62,7 +62,9 @@ class Stream:
         chosen = slice(None) if worlds is None else worlds
         start = self._counters[chosen]
         with np.errstate(over="ignore"):
-            steps = start[:, None] + np.arange(1, size + 1, dtype=np.uint64)
+            steps: Uint64 = np.add(
+                start[:, None], np.arange(1, size + 1), dtype=np.uint64, casting="unsafe"
+            )
             bits = _mix(self._keys[chosen][:, None] + steps * _GOLDEN)
         self._counters[chosen] = start + np.uint64(size)
         return (bits >> np.uint64(11)).astype(np.float64) * _TWO_TO_MINUS_53

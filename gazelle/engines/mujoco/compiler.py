@@ -18,7 +18,12 @@ from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.options import set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
-from gazelle.engines.mujoco.surfaces import friction_ranks, surface_options
+from gazelle.engines.mujoco.surfaces import (
+    friction_of,
+    friction_ranks,
+    needs_cone,
+    surface_options,
+)
 from gazelle.engines.mujoco.tree import Body, tree_of
 from gazelle.errors import EngineError
 
@@ -147,8 +152,17 @@ def draft_world(recipe: Recipe) -> Draft:
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
+    if _needs_cone(builder.solids):
+        spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     springs = add_pairs(spec, builder.solids, recipe.time_step)
     return Draft(spec, builder.shapes, bodies, builder.geoms, springs)
+
+
+def _needs_cone(solids: list[Solid]) -> bool:
+    frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
+    return needs_cone(
+        (mu for mu, moves in frictions if moves), (mu for mu, moves in frictions if not moves)
+    )
 
 
 class _Builder:

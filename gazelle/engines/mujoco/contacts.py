@@ -131,16 +131,18 @@ def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:
     erp = h kp / (h kp + kd) and cfm = 1 / (h kp + kd). In MuJoCo's terms that is a reference
     acceleration of -v / h - erp / h² * depth and a regularisation of cfm / h, which is
     expressed by the impedance: R = (1 - d) / d * (inverse inertia of both bodies), times
-    mu² (1 + mu²) / 2 for a friction pyramid of four sides.
+    mu² (1 + mu²) / 2 for a friction pyramid of four sides, 1 for a cone.
     """
     h = float(model.opt.timestep)
+    pyramidal = model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
     for spring in springs:
         give = 1.0 / (h * spring.stiffness + spring.damping)
         erp = h * spring.stiffness * give
         bodies = [int(model.geom_bodyid[g]) for g in _geoms(model, spring.pair)]
         mobility = float(sum(model.body_invweight0[b, 0] for b in bodies))
         mu = float(model.pair_friction[spring.pair, 0])
-        pyramid = mu * mu * (1.0 + mu * mu) / 2.0 if model.pair_dim[spring.pair] > 1 else 1.0
+        flat = bool(pyramidal and model.pair_dim[spring.pair] > 1)
+        pyramid = mu * mu * (1.0 + mu * mu) / 2.0 if flat else 1.0
         ratio = give / h / max(mobility * pyramid, 1e-12)
         d = min(max(1.0 / (1.0 + ratio), 1e-4), 0.9999)
         model.pair_solimp[spring.pair] = (d, d, 0.001, 0.5, 2.0)

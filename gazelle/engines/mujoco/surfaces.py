@@ -12,16 +12,22 @@ from typing import Any
 from gazelle.description import Collision
 from gazelle.errors import EngineWarning
 
-# MuJoCo's friction pyramid is ill-conditioned for the "never slip" coefficients (1e5 and
-# more) of many files. At 10 nothing slips on slopes of up to 84 degrees.
-_LARGEST_FRICTION = 10.0
+# Files say "never slip" with 1e5 and more. At 100 nothing slips on slopes of up to 89 degrees.
+_LARGEST_FRICTION = 100.0
+
+# From here on a direction does not matter: nothing slips in either [-].
+_NEVER_SLIPS = 10.0
+
+# Above this coefficient MuJoCo's friction pyramid throws standing cylinders about; its cone
+# does not. Below, the pyramid is ODE's own model, faster, and lets wheels creep less.
+_LARGEST_IN_A_PYRAMID = 1.0
 
 # Share of the constraint force that acts at first touch, and from a penetration [m] on.
 # Stiffer ones drive no better (tests/engines/test_burger.py) and take the solver longer.
 _IMPEDANCE = (0.9, 0.95, 0.001, 0.5, 2.0)
 
-# Contacts are damped three times as much as critically: nothing rocks itself up.
-_DAMPING_RATIO = 3.0
+# A little more than critical. Less would bounce; twice as much rocks cylinders up.
+_DAMPING_RATIO = 1.25
 
 # Time constant of a contact, in physics steps. MuJoCo needs 2 to be stable; ODE's usual
 # error reduction of 0.2 a step would be 5, which lets wheels creep at large steps.
@@ -31,7 +37,7 @@ _TIME_CONSTANT_STEPS = 3.0
 def friction_of(collision: Collision) -> float:
     """The sliding friction coefficient that is used for a collision."""
     friction = collision.surface.friction
-    if friction.mu != friction.mu2 and min(friction.mu, friction.mu2) < _LARGEST_FRICTION:
+    if friction.mu != friction.mu2 and min(friction.mu, friction.mu2) < _NEVER_SLIPS:
         warnings.warn(
             EngineWarning(
                 f"collision '{collision.name}': friction differs by direction "
@@ -50,6 +56,20 @@ def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
     """
     values = {friction_of(collision) for collision in collisions}
     return {value: rank for rank, value in enumerate(sorted(values, reverse=True))}
+
+
+def needs_cone(moving: Iterable[float], resting: Iterable[float]) -> bool:
+    """Whether some contact has more friction than a pyramid bears.
+
+    Args:
+        moving: Coefficients of the surfaces that move.
+        resting: Of those that do not.
+    """
+    fast, slow = sorted(moving, reverse=True), sorted(resting, reverse=True)
+    if not fast:
+        return False
+    other = max([*fast[1:2], *slow[:1]], default=0.0)
+    return min(fast[0], other) > _LARGEST_IN_A_PYRAMID
 
 
 def surface_options(
