@@ -47,6 +47,7 @@ COMMANDS = {
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),
         Command("launch", "run a roslaunch file", "ROS 1", "launch"),
+        Command("exec", "run a Python script written for ROS 1", "ROS 1", "execute"),
         Command("topic", "list, show, publish and measure topics", "ROS 1", "topic"),
         Command("service", "list, show and call services", "ROS 1", "service"),
         Command("node", "list, show, ping and end nodes", "ROS 1", "node"),

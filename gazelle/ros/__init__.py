@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gazelle.ros.clock import Rate, SimulatedClock, WallClock
+    from gazelle.ros.compat import install, uninstall
     from gazelle.ros.master.proxy import MasterProxy
     from gazelle.ros.master.server import Master, run_master
     from gazelle.ros.messages import load_message, load_service
@@ -41,9 +42,11 @@ _HOMES = {
     "Subscriber": "gazelle.ros.subscribing",
     "Time": "gazelle.ros.time",
     "WallClock": "gazelle.ros.clock",
+    "install": "gazelle.ros.compat",
     "load_message": "gazelle.ros.messages",
     "load_service": "gazelle.ros.messages",
     "run_master": "gazelle.ros.master.server",
+    "uninstall": "gazelle.ros.compat",
 }
 
 __all__ = [
@@ -60,9 +63,11 @@ __all__ = [
     "Subscriber",
     "Time",
     "WallClock",
+    "install",
     "load_message",
     "load_service",
     "run_master",
+    "uninstall",
 ]
 
 

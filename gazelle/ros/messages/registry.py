@@ -231,15 +231,15 @@ def definitions(kind: str = "msg") -> list[str]:
     packages = {*_registered, *bundled_packages()}
     if search.package_path():
         packages |= set(search.find_packages())
-    which = {"msg": "messages", "srv": "services", "action": "actions"}[kind]
     return sorted(
-        {
-            f"{package}/{name}"
-            for package in packages
-            for source in _sources(package)
-            for name in getattr(source, which)
-        }
+        f"{package}/{name}" for package in packages for name in package_names(package, kind)
     )
+
+
+def package_names(package: str, kind: str = "msg") -> list[str]:
+    """Names, without the package, of a package's types of a kind, sorted."""
+    which = {"msg": "messages", "srv": "services", "action": "actions"}[kind]
+    return sorted({name for source in _sources(package) for name in getattr(source, which)})
 
 
 def class_from_text(name: str, text: str) -> type[Message]:

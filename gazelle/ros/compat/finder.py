@@ -1,0 +1,146 @@
+"""Makes the modules of ROS 1 importable, without touching the ones that may be installed.
+
+Three kinds of names are answered: modules this package has (``rospy``), packages with definitions
+(``std_msgs``, ``std_msgs.msg``), and the Python code of packages on ROS_PACKAGE_PATH.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.abc
+import importlib.util
+import sys
+from collections.abc import Sequence
+from functools import cache
+from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
+from types import ModuleType
+
+from gazelle.ros.compat.message_modules import MessageLoader, PackageLoader, has_definitions
+from gazelle.ros.messages.library import bundled_packages
+from gazelle.ros.messages.search import find_packages
+
+HOME = "gazelle.ros.compat"
+_KINDS = ("msg", "srv")
+
+
+@cache
+def own_modules() -> frozenset[str]:
+    """Names of the top-level modules of ROS that this package has itself."""
+    folder = Path(__file__).parent
+    private = {"__init__", "finder", "message_modules", "script"}
+    found = {path.stem for path in folder.glob("*.py")} - private
+    return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
+
+
+class AliasLoader(importlib.abc.Loader):
+    """Loads a module of this package under the name it has in ROS."""
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        """The module itself, so that there is one of it, whatever it is called."""
+        module = importlib.import_module(f"{HOME}.{spec.name}")
+        self._spec = module.__spec__
+        return module
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing is left to do but to undo what the import system did to the module."""
+        module.__spec__ = self._spec
+
+
+class RosFinder(importlib.abc.MetaPathFinder):
+    """Finds the modules of ROS."""
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        """The spec of a module; None if it is not one of ROS."""
+        del target
+        package, _, rest = fullname.partition(".")
+        kind, _, member = rest.partition(".")
+        if kind in _KINDS and has_definitions(package, kind):
+            return ModuleSpec(fullname, MessageLoader(), is_package=not member)
+        if package in own_modules():
+            if importlib.util.find_spec(f"{HOME}.{fullname}") is None:
+                return None
+            return ModuleSpec(fullname, AliasLoader())
+        if rest:
+            return None
+        return self._package(package, path)
+
+    @staticmethod
+    def _package(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
+        if name not in bundled_packages():
+            other = PathFinder.find_spec(name, path)
+            if other is not None and other.loader is not None:
+                return None  # Python code of the user's, which is found without us
+            folder = find_packages().get(name)
+            if folder is None:
+                return ModuleSpec(name, PackageLoader(), is_package=True) if _known(name) else None
+            source = folder / "src" / name / "__init__.py"
+            if source.is_file():
+                return importlib.util.spec_from_file_location(name, source)
+        if _known(name):
+            return ModuleSpec(name, PackageLoader(), is_package=True)
+        return None
+
+
+def _known(package: str) -> bool:
+    return any(has_definitions(package, kind) for kind in _KINDS)
+
+
+_finder = RosFinder()
+_uses = 0
+_hidden: dict[str, ModuleType] = {}
+
+
+def _is_ours(name: str) -> bool:
+    """Whether a module's name is one that this finder would answer at the top level."""
+    top = name.partition(".")[0]
+    return top in own_modules() or top in bundled_packages()
+
+
+class Installed:
+    """What `install` returns: at the end of a ``with`` block, it is undone."""
+
+    def __enter__(self) -> None:
+        """Nothing is left to do."""
+
+    def __exit__(self, *error: object) -> None:
+        uninstall()
+
+
+def install() -> Installed:
+    """Make ``import rospy`` and its like import Gazelle's, whatever else is installed.
+
+    It may be called more than once; as many calls of `uninstall` undo it. As a context manager it
+    undoes itself.
+    """
+    global _uses  # noqa: PLW0603  # there is one import system
+    _uses += 1
+    if _uses == 1:
+        for name in [name for name in sys.modules if _is_ours(name)]:
+            _hidden[name] = sys.modules.pop(name)
+        sys.meta_path.insert(0, _finder)
+    return Installed()
+
+
+def uninstall() -> None:
+    """Undo `install`; modules that were imported stay with those who have them."""
+    global _uses  # noqa: PLW0603  # there is one import system
+    if not _uses:
+        return
+    _uses -= 1
+    if _uses:
+        return
+    sys.meta_path.remove(_finder)
+    ours = (AliasLoader, MessageLoader, PackageLoader)
+    for name, module in list(sys.modules.items()):
+        loader = getattr(getattr(module, "__spec__", None), "loader", None)
+        alias = _is_ours(name) and getattr(module, "__name__", "").startswith(f"{HOME}.")
+        if alias or isinstance(loader, ours):
+            del sys.modules[name]
+    sys.modules.update(_hidden)
+    _hidden.clear()

@@ -1,0 +1,105 @@
+"""Modules such as ``std_msgs.msg``, made of definitions, not of files."""
+
+from __future__ import annotations
+
+import importlib.abc
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+from typing import Any
+
+from gazelle.ros.messages import UnknownTypeError, load_message, load_service
+from gazelle.ros.messages.registry import package_names
+
+_HALVES = ("Request", "Response")
+
+
+def has_definitions(package: str, kind: str) -> bool:
+    """Whether a package defines messages (``msg``) or services (``srv``)."""
+    return bool(package_names(package, kind))
+
+
+def _class_names(package: str, kind: str) -> list[str]:
+    """What a module of messages or services offers."""
+    found = package_names(package, kind)
+    if kind == "msg":
+        return found
+    return [name + half for name in found for half in ("", *_HALVES)]
+
+
+def _load(package: str, kind: str, name: str) -> Any:
+    """A class by its name in a module.
+
+    Raises:
+        AttributeError: There is none.
+    """
+    full_name = f"{package}/{name}"
+    try:
+        if kind == "msg":
+            return load_message(full_name)
+        if name in package_names(package, "srv"):
+            return load_service(full_name)
+        for half in _HALVES:
+            service = name.removesuffix(half)
+            if service != name and service in package_names(package, "srv"):
+                return load_message(full_name)
+    except UnknownTypeError as error:
+        raise AttributeError(str(error)) from None
+    raise AttributeError(f"module '{package}.{kind}' has no attribute '{name}'")
+
+
+class DefinitionsModule(ModuleType):
+    """A module whose classes are made when they are first asked for."""
+
+    def __getattr__(self, name: str) -> Any:
+        package, kind, *_ = self.__name__.split(".")
+        if name == "__all__":
+            return _class_names(package, kind)
+        if name.startswith("_"):
+            raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'")
+        found = _load(package, kind, name)
+        setattr(self, name, found)
+        return found
+
+    def __dir__(self) -> list[str]:
+        package, kind, *_ = self.__name__.split(".")
+        return sorted({*super().__dir__(), *_class_names(package, kind)})
+
+
+class MessageLoader(importlib.abc.Loader):
+    """Loads ``PACKAGE.msg``, ``PACKAGE.srv``, and the module of one class in them."""
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        """An empty module, or one for a class.
+
+        Raises:
+            ModuleNotFoundError: There is no such class.
+        """
+        package, kind, *member = spec.name.split(".")
+        if not member:
+            return DefinitionsModule(spec.name, f"The {kind} definitions of {package}.")
+        name = member[0].removeprefix("_")
+        module = ModuleType(spec.name, f"The class {name}.")
+        try:
+            self._fill(module, package, kind, name)
+        except AttributeError as error:
+            raise ModuleNotFoundError(str(error), name=spec.name) from None
+        return module
+
+    @staticmethod
+    def _fill(module: ModuleType, package: str, kind: str, name: str) -> None:
+        for each in (name,) if kind == "msg" else (name, *(name + half for half in _HALVES)):
+            setattr(module, each, _load(package, kind, each))
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing: classes are made when they are asked for."""
+
+
+class PackageLoader(importlib.abc.Loader):
+    """Loads a package that has definitions and no Python code."""
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        """An empty package."""
+        return ModuleType(spec.name, f"The ROS package {spec.name}.")
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Nothing is in it."""

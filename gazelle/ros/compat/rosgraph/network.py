@@ -1,0 +1,92 @@
+"""Addresses and connection headers."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+from urllib.parse import urlparse
+
+from gazelle.ros import net
+from gazelle.ros.tcpros import headers
+
+
+class ROSHandshakeException(Exception):  # noqa: N818  # rosgraph's name
+    """A connection header is malformed."""
+
+
+def parse_http_host_and_port(url: str) -> tuple[str, int]:
+    """Host and port of an address.
+
+    Raises:
+        ValueError: It is none.
+    """
+    if not url:
+        raise ValueError("not a valid URL")
+    parts = urlparse(url if "://" in url else f"http://{url}")
+    if not parts.hostname:
+        raise ValueError("not a valid URL")
+    return parts.hostname, parts.port or 80
+
+
+def get_address_override() -> str | None:
+    """What ROS_HOSTNAME or ROS_IP say."""
+    return os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP") or None
+
+
+def get_local_address() -> str:
+    """The address other nodes reach this machine by."""
+    return net.default_host()
+
+
+get_host_name = get_local_address
+
+
+def get_local_addresses() -> list[str]:
+    """Addresses of this machine."""
+    found = {net.LOOPBACK}
+    with contextlib.suppress(OSError):
+        found |= {str(entry[4][0]) for entry in socket.getaddrinfo(socket.gethostname(), None)}
+    return sorted(found)
+
+
+def is_local_address(hostname: str) -> bool:
+    """Whether a name means this machine."""
+    try:
+        return net.find_address(hostname) in get_local_addresses()
+    except OSError:
+        return False
+
+
+def get_bind_address(address: str | None = None) -> str:
+    """Where to listen."""
+    return net.bind_address(address or net.default_host())
+
+
+def use_ipv6() -> bool:
+    """Whether ROS_IPV6 asks for version 6 of the internet protocol."""
+    return os.environ.get("ROS_IPV6") == "on"
+
+
+def create_local_xmlrpc_uri(port: int) -> str:
+    """The address of an XML-RPC server on this machine."""
+    return net.uri_of(net.default_host(), port)
+
+
+def encode_ros_handshake_header(header: dict[str, str]) -> bytes:
+    """A connection header as it goes over the wire."""
+    return headers.encode({key: str(value) for key, value in header.items()})
+
+
+def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
+    """A connection header from the wire.
+
+    Raises:
+        ROSHandshakeException: It is malformed.
+    """
+    from gazelle.ros.errors import RosError
+
+    try:
+        return headers.decode(header_str[4:])
+    except RosError as error:
+        raise ROSHandshakeException(str(error)) from None

@@ -1,0 +1,194 @@
+"""What scripts reach for in ``rospy.core``: state, shutdown, logging."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import Any
+from urllib.parse import urlparse
+
+from gazelle.ros.compat.rospy.exceptions import ROSException, ROSInitException
+from gazelle.ros.compat.rospy.logs import (
+    logdebug,
+    logdebug_once,
+    logdebug_throttle,
+    logdebug_throttle_identical,
+    logerr,
+    logerr_once,
+    logerr_throttle,
+    logerr_throttle_identical,
+    logerror,
+    logfatal,
+    logfatal_once,
+    logfatal_throttle,
+    logfatal_throttle_identical,
+    loginfo,
+    loginfo_once,
+    loginfo_throttle,
+    loginfo_throttle_identical,
+    logout,
+    logwarn,
+    logwarn_once,
+    logwarn_throttle,
+    logwarn_throttle_identical,
+)
+from gazelle.ros.compat.rospy.names import (
+    SERVICE_ANYTYPE,
+    TOPIC_ANYTYPE,
+    get_caller_id,
+    get_name,
+    get_namespace,
+    resolve_name,
+)
+from gazelle.ros.compat.rospy.state import process
+
+__all__ = [
+    "ROSRPC",
+    "SERVICE_ANYTYPE",
+    "TOPIC_ANYTYPE",
+    "ROSException",
+    "ROSInitException",
+    "add_client_shutdown_hook",
+    "add_preshutdown_hook",
+    "add_shutdown_hook",
+    "get_caller_id",
+    "get_name",
+    "get_namespace",
+    "get_node_uri",
+    "get_ros_root",
+    "is_initialized",
+    "is_shutdown",
+    "is_shutdown_requested",
+    "logdebug",
+    "logdebug_once",
+    "logdebug_throttle",
+    "logdebug_throttle_identical",
+    "logerr",
+    "logerr_once",
+    "logerr_throttle",
+    "logerr_throttle_identical",
+    "logerror",
+    "logfatal",
+    "logfatal_once",
+    "logfatal_throttle",
+    "logfatal_throttle_identical",
+    "loginfo",
+    "loginfo_once",
+    "loginfo_throttle",
+    "loginfo_throttle_identical",
+    "logout",
+    "logwarn",
+    "logwarn_once",
+    "logwarn_throttle",
+    "logwarn_throttle_identical",
+    "parse_rosrpc_uri",
+    "resolve_name",
+    "rospydebug",
+    "rospyerr",
+    "rospyinfo",
+    "rospywarn",
+    "set_initialized",
+    "signal_shutdown",
+    "xmlrpcapi",
+]
+
+ROSRPC = "rosrpc://"
+rospydebug, rospyinfo, rospywarn, rospyerr = logdebug, loginfo, logwarn, logerr
+
+
+def is_initialized() -> bool:
+    """Whether `init_node` was called."""
+    return process.ready.is_set()
+
+
+def set_initialized(initialized: bool) -> None:  # noqa: FBT001  # rospy's interface
+    """Say that the node runs, or does not."""
+    if initialized:
+        process.ready.set()
+    else:
+        process.ready.clear()
+
+
+def is_shutdown() -> bool:
+    """Whether the node ended, or is about to."""
+    return process.shutdown.is_set()
+
+
+is_shutdown_requested = is_shutdown
+
+
+def signal_shutdown(reason: str) -> None:
+    """End the node."""
+    process.end(reason)
+    process.wait_ended()
+
+
+def add_preshutdown_hook(h: Callable[[str], Any]) -> None:
+    """Call a function with the reason, first of all, when the node ends."""
+    _check_hook(h)
+    process.before.append(h)
+
+
+def add_client_shutdown_hook(h: Callable[[], Any]) -> None:
+    """Call a function when the node ends."""
+    _check_hook(h)
+    process.clients.append(h)
+
+
+def add_shutdown_hook(h: Callable[[str], Any]) -> None:
+    """Call a function with the reason, after the others, when the node ends."""
+    _check_hook(h)
+    process.after.append(h)
+
+
+def _check_hook(h: Any) -> None:
+    if not callable(h):
+        raise TypeError(f"shutdown hook [{h}] must be a function: {type(h)}")
+
+
+def get_node_uri() -> str | None:
+    """Of the node's XML-RPC server; None before `init_node`."""
+    return None if process.node is None else process.node.uri
+
+
+def get_ros_root(required: bool = False, env: Any = None) -> Any:  # noqa: FBT001, FBT002  # rospy's interface
+    """What ROS_ROOT says.
+
+    Raises:
+        ROSException: It is required and not set.
+    """
+    root = (os.environ if env is None else env).get("ROS_ROOT")
+    if required and not root:
+        raise ROSException("The ROS_ROOT environment variable has not been set")
+    return root
+
+
+def parse_rosrpc_uri(uri: str) -> tuple[str, int]:
+    """Host and port of a service's address.
+
+    Raises:
+        ValueError: It is none.
+    """
+    parts = urlparse(uri)
+    if parts.scheme != "rosrpc" or not parts.hostname or not parts.port:
+        raise ValueError(f"Invalid protocol for ROS service URL: {uri}")
+    return parts.hostname, parts.port
+
+
+_servers = threading.local()
+
+
+def xmlrpcapi(uri: str, cache: bool = True) -> Any:  # noqa: FBT001, FBT002  # rospy's interface
+    """The XML-RPC API at an address; None for an address that is none."""
+    import xmlrpc.client
+
+    if not uri or not urlparse(uri).netloc:
+        return None
+    known: dict[str, Any] = _servers.__dict__.setdefault("known", {})
+    if cache and uri in known:
+        return known[uri]
+    server = xmlrpc.client.ServerProxy(uri)
+    if cache:
+        known[uri] = server
+    return server

@@ -1,0 +1,61 @@
+"""What a script may do before `init_node`: ask the master, set parameters, call services."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any, cast
+
+from gazelle.ros import net
+from gazelle.ros.compat.rospy import names
+from gazelle.ros.compat.rospy.state import process
+from gazelle.ros.limits import LIMITS
+from gazelle.ros.master.proxy import MasterProxy
+from gazelle.ros.parameters import Parameters
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+
+class Guest:
+    """Somebody without a node: as much of `Node` as parameters and service calls need."""
+
+    def __init__(self) -> None:
+        self.name = names._own_name()  # noqa: SLF001  # a module of the same package
+        self.master_uri = master_uri()
+        self.master = MasterProxy(self.master_uri, self.name)
+        self.limits = LIMITS
+        self.parameters = Parameters(cast("Node", self))
+        self.uri = "http://127.0.0.1:0/"
+        """Where nobody answers: a guest is told of no changes."""
+
+    def resolve(self, name: str) -> str:
+        """The global name that a name means."""
+        return names.resolve_name(name)
+
+    def wait_closed(self, timeout: float | None = None) -> bool:
+        """Guests are never closed; this only waits."""
+        return process.shutdown.wait(timeout)
+
+    def forget_client(self, client: Any) -> None:
+        """Guests do not keep their clients."""
+
+
+_guests: dict[str, Guest] = {}
+_lock = threading.Lock()
+
+
+def master_uri() -> str:
+    """Of the master this process talks to: the command line's, or ROS_MASTER_URI."""
+    return names.get_mappings().get("__master") or net.default_master_uri()
+
+
+def user() -> Node:
+    """The node, or a guest while there is none."""
+    if process.node is not None:
+        return process.node
+    uri = master_uri()
+    with _lock:
+        guest = _guests.get(uri)
+        if guest is None:
+            guest = _guests[uri] = Guest()
+    return cast("Node", guest)

@@ -1,0 +1,1 @@
+"""The few internals of rospy that scripts and tests reach for."""

@@ -1,0 +1,242 @@
+"""rospy's log functions: to the screen, to /rosout, to a file."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from gazelle.ros.compat.rospy import names
+from gazelle.ros.compat.rospy.rostime import Time, get_rostime, get_time, is_wallclock
+from gazelle.ros.compat.rospy.state import process
+from gazelle.ros.messages import load_message
+
+DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
+LEVELS = {DEBUG: logging.DEBUG, INFO: logging.INFO, WARN: logging.WARNING}
+LEVELS |= {ERROR: logging.ERROR, FATAL: logging.CRITICAL}
+"""Levels of ROS, and those of Python's logging."""
+_NAMES = {logging.DEBUG: "DEBUG", logging.INFO: "INFO", logging.WARNING: "WARN"}
+_NAMES |= {logging.ERROR: "ERROR", logging.CRITICAL: "FATAL"}
+_COLORS = {"WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m", "DEBUG": "\033[32m"}
+_FORMAT = "[${severity}] [${time}]: ${message}"
+_HERE = os.path.dirname(__file__)  # noqa: PTH120  # compared with code objects' names
+
+logger = logging.getLogger("rosout")
+
+
+def level_of(record: logging.LogRecord) -> int:
+    """The level of ROS of a log record."""
+    for level in (FATAL, ERROR, WARN, INFO):
+        if record.levelno >= LEVELS[level]:
+            return level
+    return DEBUG
+
+
+class ScreenHandler(logging.Handler):
+    """Writes to the screen in the form of ROSCONSOLE_FORMAT; warnings and worse to stderr."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        try:
+            severity = _NAMES.get(record.levelno, record.levelname)
+            stream = sys.stderr if record.levelno >= logging.WARNING else sys.stdout
+            if stream is None:
+                return
+            text = self._text(record, severity)
+            color = _COLORS.get(severity, "")
+            if color and stream.isatty():
+                text = f"{color}{text}\033[0m"
+            stream.write(text + "\n")
+            stream.flush()
+        except Exception:  # noqa: BLE001  # logging's own way to report a broken stream
+            self.handleError(record)
+
+    @staticmethod
+    def _text(record: logging.LogRecord, severity: str) -> str:
+        moment = f"{time.time():f}"
+        if process.node is not None and not is_wallclock():
+            moment += f", {get_time():f}"
+        parts = {
+            "severity": severity,
+            "message": record.getMessage(),
+            "walltime": f"{time.time():f}",
+            "time": moment,
+            "thread": str(record.thread),
+            "logger": record.name,
+            "file": record.pathname,
+            "line": str(record.lineno),
+            "function": record.funcName or "?",
+            "node": names.get_caller_id(),
+        }
+        text = os.environ.get("ROSCONSOLE_FORMAT", _FORMAT)
+        message = parts.pop("message")
+        for key, value in parts.items():
+            text = text.replace("${" + key + "}", value)
+        return text.replace("${message}", message)
+
+
+class RosOutHandler(logging.Handler):
+    """Publishes on /rosout."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._busy = False
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Publish a record."""
+        node = process.node
+        if self._busy or node is None or node.closed or _publisher is None:
+            return
+        self._busy = True
+        try:
+            log = load_message("rosgraph_msgs/Log")(
+                level=level_of(record),
+                name=names.get_caller_id(),
+                msg=record.getMessage(),
+                file=record.filename,
+                line=record.lineno,
+                function=record.funcName or "?",
+                topics=[publication.topic for publication in node.publications()],
+            )
+            log.header.stamp = get_rostime()  # type: ignore[attr-defined]
+            _publisher.publish(log)
+        except Exception:  # noqa: BLE001  # a log must not stop what logs
+            self.handleError(record)
+        finally:
+            self._busy = False
+
+
+_publisher: Any = None
+
+
+def start_screen(level: int | None) -> None:
+    """Log to the screen, and to a file if the command line or ROS_LOG_DIR names one."""
+    logger.setLevel(LEVELS.get(level or INFO, logging.INFO))
+    logger.propagate = False
+    if not any(isinstance(handler, ScreenHandler) for handler in logger.handlers):
+        logger.addHandler(ScreenHandler())
+        logging.getLogger("gazelle.ros").addHandler(ScreenHandler())
+    file = _log_file()
+    if file is not None:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        handler = logging.FileHandler(file, encoding="utf-8", delay=True)
+        line = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
+        handler.setFormatter(logging.Formatter(line))
+        logger.addHandler(handler)
+
+
+def _log_file() -> Path | None:
+    named = names.get_mappings().get("__log")
+    if named:
+        return Path(named)
+    folder = os.environ.get("ROS_LOG_DIR")
+    if not folder:
+        return None
+    return Path(folder) / (names.get_caller_id().strip("/").replace("/", "-") + ".log")
+
+
+def start_rosout() -> None:
+    """Log to /rosout."""
+    global _publisher  # noqa: PLW0603  # there is one node a process
+    kind = load_message("rosgraph_msgs/Log")
+    _publisher = process.require().advertise("/rosout", kind, queue_size=100, latch=True)
+    logger.addHandler(RosOutHandler())
+
+
+def stop() -> None:
+    """Take back what was started."""
+    global _publisher  # noqa: PLW0603  # there is one node a process
+    _publisher = None
+    for handler in list(logger.handlers):
+        logger.removeHandler(handler)
+        handler.close()
+    system = logging.getLogger("gazelle.ros")
+    for handler in list(system.handlers):
+        if isinstance(handler, ScreenHandler):
+            system.removeHandler(handler)
+
+
+# The functions -----------------------------------------------------------------------------------
+
+_seen: set[Any] = set()
+_when: dict[Any, Time] = {}
+_last: dict[Any, str] = {}
+Log = Callable[..., None]
+
+
+def _caller() -> Any:
+    """Where the log function was called: file, line and last instruction."""
+    frame = sys._getframe(2)  # noqa: SLF001  # the only way to tell call sites apart
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_HERE):
+        frame = frame.f_back
+    return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
+
+
+def _due(site: Any, period: float) -> bool:
+    """Whether the period since the last time at this place is over."""
+    now = get_rostime()
+    before = _when.get(site)
+    # After a jump back of simulated time, the count begins anew.
+    if before is not None and before <= now and (now - before).to_sec() < period:
+        return False
+    _when[site] = now
+    return True
+
+
+def _write(level: int, msg: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+    name = kwargs.pop("logger_name", None)
+    target = logging.getLogger(f"rosout.{name}") if name else logger
+    kwargs.setdefault("stacklevel", 3)
+    if not logger.handlers and process.node is None:
+        sys.stderr.write(f"[{_NAMES[level]}] {msg % args if args else msg}\n")
+        return
+    target.log(level, msg, *args, **kwargs)
+
+
+def _family(level: int) -> tuple[Log, Log, Log, Log]:
+    """The log functions of a level: plain, once, throttled, throttled when identical."""
+
+    def plain(msg: Any, *args: Any, **kwargs: Any) -> None:
+        _write(level, msg, args, kwargs)
+
+    def once(msg: Any, *args: Any, **kwargs: Any) -> None:
+        site = _caller()
+        if site not in _seen:
+            _seen.add(site)
+            _write(level, msg, args, kwargs)
+
+    def throttle(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
+        if _due(_caller(), period):
+            _write(level, msg, args, kwargs)
+
+    def identical(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
+        site, text = _caller(), str(msg)
+        if _last.get(site) != text or _due(site, period):
+            if _last.get(site) != text:
+                _when[site] = get_rostime()
+            _last[site] = text
+            _write(level, msg, args, kwargs)
+
+    word = {"WARN": "warn", "ERROR": "err"}.get(_NAMES[level], _NAMES[level].lower())
+    for function, suffix in (
+        (plain, ""),
+        (once, "_once"),
+        (throttle, "_throttle"),
+        (identical, "_throttle_identical"),
+    ):
+        function.__name__ = function.__qualname__ = f"log{word}{suffix}"
+        function.__doc__ = f"Log at level {_NAMES[level]}; `msg` may have % places for `args`."
+    return plain, once, throttle, identical
+
+
+logdebug, logdebug_once, logdebug_throttle, logdebug_throttle_identical = _family(logging.DEBUG)
+loginfo, loginfo_once, loginfo_throttle, loginfo_throttle_identical = _family(logging.INFO)
+logwarn, logwarn_once, logwarn_throttle, logwarn_throttle_identical = _family(logging.WARNING)
+logerr, logerr_once, logerr_throttle, logerr_throttle_identical = _family(logging.ERROR)
+logfatal, logfatal_once, logfatal_throttle, logfatal_throttle_identical = _family(logging.CRITICAL)
+logerror = logerr
+logout = loginfo

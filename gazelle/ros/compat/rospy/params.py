@@ -1,0 +1,93 @@
+"""The parameter server."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.compat.rospy.exceptions import ROSException
+from gazelle.ros.compat.rospy.guest import user
+from gazelle.ros.compat.rospy.names import resolve_name
+from gazelle.ros.errors import MarshalError, ParameterNotFoundError, RosError
+
+
+class _Unspecified:
+    """No default was given."""
+
+
+_unspecified: Any = _Unspecified()
+
+
+def get_param(param_name: str, default: Any = _unspecified) -> Any:
+    """The value of a parameter; a namespace is a dict.
+
+    Raises:
+        KeyError: It is not set, and no default was given.
+    """
+    return _get(param_name, default, user().parameters.get)
+
+
+def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
+    """As `get_param`, asking the master only once.
+
+    Raises:
+        KeyError: It is not set, and no default was given.
+    """
+    owner = user()
+    known = owner.parameters.get_cached if hasattr(owner, "advertise") else owner.parameters.get
+    return _get(param_name, default, known)
+
+
+def _get(param_name: str, default: Any, ask: Any) -> Any:
+    try:
+        return ask(resolve_name(param_name))
+    except ParameterNotFoundError:
+        if default is _unspecified:
+            raise KeyError(param_name) from None
+        return default
+    except RosError as error:
+        raise ROSException(f"unable to get parameter {param_name}: {error}") from error
+
+
+def get_param_names() -> list[str]:
+    """All keys that hold a value."""
+    return user().parameters.names()
+
+
+def set_param(param_name: str, param_value: Any) -> None:
+    """Set a parameter or, with a dict, a whole namespace.
+
+    Raises:
+        TypeError: XML-RPC cannot carry the value.
+        ROSException: The name is empty, or the master refuses.
+    """
+    if not param_name:
+        raise ROSException("parameter name is empty")
+    try:
+        user().parameters.set(resolve_name(param_name), param_value)
+    except MarshalError as error:
+        kind = OverflowError if "32" in str(error) else TypeError
+        raise kind(str(error)) from None
+    except RosError as error:
+        raise ROSException(f"unable to set parameter {param_name}: {error}") from error
+
+
+def search_param(param_name: str) -> str | None:
+    """Name of the nearest parameter of this name, from the node's namespace upwards."""
+    return user().parameters.search(param_name)
+
+
+def delete_param(param_name: str) -> None:
+    """Remove a parameter or namespace.
+
+    Raises:
+        KeyError: It is not set.
+    """
+    try:
+        user().parameters.delete(resolve_name(param_name))
+    except ParameterNotFoundError:
+        raise KeyError(param_name) from None
+
+
+def has_param(param_name: str) -> bool:
+    """Whether a parameter is set."""
+    return user().parameters.has(resolve_name(param_name))

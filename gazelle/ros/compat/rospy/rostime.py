@@ -1,0 +1,100 @@
+"""The time of the node: of the machine, or simulated."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Self
+
+from gazelle.ros import time as values
+from gazelle.ros.clock import SECOND, SimulatedClock
+from gazelle.ros.compat.rospy.state import process
+
+
+class Duration(values.Duration):
+    """A span of time; see `gazelle.ros.time.Duration`."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return f"rospy.Duration[{self.to_nsec()}]"
+
+
+class Time(values.Time):
+    """A point in time; see `gazelle.ros.time.Time`."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return f"rospy.Time[{self.to_nsec()}]"
+
+    @staticmethod
+    def now() -> Time:
+        """The node's time.
+
+        Raises:
+            ROSInitException: There is no node yet.
+        """
+        return get_rostime()
+
+    @classmethod
+    def from_seconds(cls, float_secs: float) -> Self:
+        """The time at a number of seconds [s]; `from_sec` does the same."""
+        return cls.from_sec(float_secs)
+
+
+def get_rostime() -> Time:
+    """The node's time; 0 while simulated time did not begin.
+
+    Raises:
+        ROSInitException: There is no node yet.
+    """
+    now = process.clock.now()
+    return Time(now // SECOND, now % SECOND)
+
+
+def get_time() -> float:
+    """The node's time [s].
+
+    Raises:
+        ROSInitException: There is no node yet.
+    """
+    return process.clock.now() / SECOND
+
+
+def is_wallclock() -> bool:
+    """Whether the node goes by the time of the machine."""
+    return process.node is None or not process.node.clock.simulated
+
+
+def is_rostime_initialized() -> bool:
+    """Whether there is a time."""
+    return process.node is not None
+
+
+def switch_to_wallclock() -> None:
+    """Go by the time of the machine from now on."""
+    from gazelle.ros.clock import WallClock
+
+    process.require().clock = WallClock()
+
+
+def wallsleep(duration: float) -> None:
+    """Sleep for some time of the machine [s]."""
+    time.sleep(max(0.0, duration))
+
+
+def _set_rostime(moment: values.Time) -> None:
+    """Set simulated time by hand."""
+    node = process.require()
+    if not isinstance(node.clock, SimulatedClock):
+        node.clock = SimulatedClock()
+    node.clock.set(moment.to_nsec())
+
+
+def get_rostime_cond() -> threading.Condition:
+    """A condition that nobody signals; kept for scripts that only take its lock."""
+    return _condition
+
+
+_condition = threading.Condition()
