@@ -66,6 +66,8 @@ class Node(TopicUser, ServiceUser):
         uri: Of the node's XML-RPC server.
         master: The API of the master.
         parameters: The parameter server as this node sees it.
+        clock: What time it is.
+        statistics: Measures subscriptions, if the graph wants that.
         on_shutdown: Called with a reason when the master or a tool ends the node.
 
     Raises:
@@ -99,7 +101,11 @@ class Node(TopicUser, ServiceUser):
         self.parameters = Parameters(self)
         self.loop = loops.acquire()
         self._open()
-        self.clock: Clock = clock if clock is not None else self._find_clock()
+        try:
+            self._start(clock)
+        except BaseException:
+            self.close()
+            raise
 
     def _open(self) -> None:
         """Open the ports and make sure there is a master."""
@@ -125,14 +131,13 @@ class Node(TopicUser, ServiceUser):
         self._registrar = Registrar(self)
         self.loop.call_soon(self._registrar.start)
 
-    def _find_clock(self) -> Clock:
-        from gazelle.ros.clock import node_clock
+    def _start(self, clock: Clock | None) -> None:
+        """Look at the parameters that say how nodes behave."""
+        from gazelle.ros import clock as clocks
+        from gazelle.ros import statistics
 
-        try:
-            return node_clock(self)
-        except BaseException:
-            self.close()
-            raise
+        self.clock = clocks.node_clock(self) if clock is None else clock
+        self.statistics = statistics.start(self)
 
     # Parameters ----------------------------------------------------------------------------
 

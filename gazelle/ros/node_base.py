@@ -19,7 +19,9 @@ from gazelle.ros.loop import EventLoop
 from gazelle.ros.master.proxy import MasterProxy
 
 if TYPE_CHECKING:
+    from gazelle.ros.clock import Clock
     from gazelle.ros.registration import Registrar
+    from gazelle.ros.statistics import Statistics
     from gazelle.ros.xmlrpc.client import AsyncClient
 
 
@@ -47,6 +49,8 @@ class NodeBase:
     loop: EventLoop
     limits: Limits
     share_messages: bool
+    clock: Clock
+    statistics: Statistics | None = None
     _registrar: Registrar
 
     def __init__(self) -> None:

@@ -33,6 +33,7 @@ class LocalLink:
         self.messages = 0
         self.number = 0
         """Identity in bus info."""
+        self.waits = publication.queue_size is None
         self.same_class = subscription.takes(publication.message_class)
 
     def send(self, message: Any, data: bytes | None) -> None:

@@ -223,7 +223,7 @@ class ServiceClient:
         channel = self._channel
         if channel is not None and channel.is_stale():
             channel.close()
-            channel = None
+            channel = self._channel = None
         if channel is None:
             channel = self._channel = self._connect(deadline)
         healthy = False

@@ -26,13 +26,24 @@ class Strand:
     BATCH = 16
     TURN = 0.002
     """Seconds after which others get a turn."""
-    __slots__ = ("_doubt", "_doubt_until", "_handle", "_lock", "_loop", "_running", "items", "what")
+    __slots__ = (
+        "_doubt",
+        "_doubt_until",
+        "_handle",
+        "_lock",
+        "_loop",
+        "_runner",
+        "_running",
+        "items",
+        "what",
+    )
 
     def __init__(self, loop: EventLoop, handle: Callable[[Any], None], what: str) -> None:
         self._loop = loop
         self._handle = handle
         self._lock = threading.Lock()
         self._running = False
+        self._runner = 0
         self._doubt = FIRST_DOUBT
         self._doubt_until = math.inf
         self.items: deque[Any] = deque()
@@ -48,6 +59,10 @@ class Strand:
         self.items.extend(items)
         self._start()
 
+    def runs_here(self) -> bool:
+        """True if it is the calling thread that handles an item of this strand."""
+        return self._running and self._runner == threading.get_ident()
+
     def _start(self) -> None:
         with self._lock:
             if self._running or not self.items:
@@ -57,6 +72,7 @@ class Strand:
 
     def _run(self) -> None:
         items, handle = self.items, self._handle
+        self._runner = threading.get_ident()
         begin = end = time.monotonic()
         count = 0
         while items and end - begin < self.TURN:

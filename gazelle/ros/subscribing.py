@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -18,12 +19,10 @@ if TYPE_CHECKING:
     from gazelle.ros.node import Node
 
 Callback = Callable[[Any], None]
-MessageHook = Callable[[Any, Any, int], None]
-"""Called with link, message and its size; for statistics."""
-
 _LOCAL_BACKLOG = 1000
 """Messages a subscriber in the same process may be behind before the oldest are dropped; over
 a network the buffers of the system would hold about as many."""
+_LOCAL_PATIENCE_S = 5.0
 
 
 class Subscription:
@@ -45,7 +44,9 @@ class Subscription:
         self.subscribers: tuple[Subscriber, ...] = ()
         self.links: dict[str, InboundLink] = {}
         self.local: dict[str, LocalLink] = {}
-        self.hook: MessageHook | None = None
+        self._statistics = node.statistics
+        if self._statistics is not None and not self._statistics.measures(topic):
+            self._statistics = None
         self._loop: EventLoop = node.loop
         self._strand = Strand(self._loop, self._deliver, f"callback of {topic}")
         self._received = 0
@@ -171,8 +172,19 @@ class Subscription:
             return
         self._strand.post((link, data, message if data is None else None))
         limit = self.queue_size or _LOCAL_BACKLOG
+        if len(self._strand.items) > limit and link.waits and self.queue_size is None:
+            self._let_catch_up(limit)
         while len(self._strand.items) > limit:
             self._drop_oldest()
+
+    def _let_catch_up(self, limit: int) -> None:
+        """A publisher without queue size waits, though not for ever: it may wait for itself."""
+        self._loop.give_way()
+        deadline = time.monotonic() + _LOCAL_PATIENCE_S
+        while len(self._strand.items) > limit // 2 and not self._closed:
+            if self._strand.runs_here() or time.monotonic() > deadline:
+                return
+            time.sleep(0.001)
 
     def takes(self, message_class: Any) -> bool:
         """True if objects of that class can be delivered as they are."""
@@ -200,8 +212,8 @@ class Subscription:
             message.deserialize(data)
         if self._marks:
             message._connection_header = link.header  # noqa: SLF001  # genpy's name
-        if self.hook is not None:
-            self.hook(link, message, len(data) if data is not None else 0)
+        if self._statistics is not None:
+            self._statistics.take(self.topic, link, message, 0 if data is None else len(data))
         for subscriber in self.subscribers:
             try:
                 subscriber.callback(message)

@@ -17,9 +17,9 @@ from gazelle.ros.errors import RosError
 from gazelle.ros.master.proxy import MasterProxy
 
 PYTHON = "/usr/bin/python3"
-INSTALLED = Path("/usr/bin/roscore").exists() and Path(
-    "/usr/lib/python3/dist-packages/rospy"
-).exists()
+INSTALLED = (
+    Path("/usr/bin/roscore").exists() and Path("/usr/lib/python3/dist-packages/rospy").exists()
+)
 
 needs_ros = pytest.mark.skipif(
     not INSTALLED, reason="the real ROS 1 is not installed (Debian: ros-core python3-rospy)"

@@ -117,7 +117,9 @@ def test_a_real_node_calls_our_service(graph, node):
 
     node.serve("flip", Flag, handle)
     with real.RealNode(graph, CLIENT) as client:
-        refusal = "service [/flip] responded with an error: b'service cannot process request: not today'"
+        refusal = (
+            "service [/flip] responded with an error: b'service cannot process request: not today'"
+        )
         client.expect(*(["True ours", "True ours", refusal] * 2))
 
 

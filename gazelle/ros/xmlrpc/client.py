@@ -219,6 +219,9 @@ class _Peer:
 
     def close(self) -> None:
         self._queue.clear()
+        self._busy = False
+        if self._deadline is not None:
+            self._deadline.cancel()
         self._drop()
 
     def _next(self) -> None:
