@@ -34,8 +34,17 @@ _OF_SOLVER = {
 }
 _NAMES = (*_OF_WORLD, *_OF_PROFILE, *_OF_SOLVER)
 
-# What MuJoCo's solver has no use for: it is kept and reported.
-_WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts")
+# What the engine has no use for: it is kept and reported. Contacts have the stiffness that
+# their surfaces ask for, whatever ODE's solver would make of them.
+_WITHOUT_EFFECT = (
+    "sor",
+    "precon_iterations",
+    "max_contacts",
+    "erp",
+    "cfm",
+    "contact_surface_layer",
+    "contact_max_correcting_velocity",
+)
 
 _POSITIVE = ("time_step", "iterations")
 _NOT_NEGATIVE = ("update_rate", "real_time_factor", "max_contacts", "erp", "cfm", "sor")
@@ -157,7 +166,7 @@ class PhysicsProperties:
 
     @property
     def erp(self) -> float:
-        """Share of a constraint's error that is reduced in a step, 0 to 1."""
+        """Share of a constraint's error that ODE reduces in a step: kept, without effect."""
         return self.profile.ode.erp
 
     @erp.setter
@@ -166,7 +175,7 @@ class PhysicsProperties:
 
     @property
     def cfm(self) -> float:
-        """How much constraints give way: constraint force mixing."""
+        """ODE's constraint force mixing: kept, without effect."""
         return self.profile.ode.cfm
 
     @cfm.setter
@@ -175,7 +184,7 @@ class PhysicsProperties:
 
     @property
     def contact_surface_layer(self) -> float:
-        """Penetration that is left uncorrected [m]."""
+        """Penetration that ODE leaves uncorrected [m]: kept, without effect."""
         return self.profile.ode.contact_surface_layer
 
     @contact_surface_layer.setter
@@ -184,7 +193,7 @@ class PhysicsProperties:
 
     @property
     def contact_max_correcting_velocity(self) -> float:
-        """Largest velocity with which a penetration is corrected [m/s]."""
+        """Largest velocity with which ODE corrects a penetration [m/s]: kept, without effect."""
         return self.profile.ode.contact_max_correcting_vel
 
     @contact_max_correcting_velocity.setter

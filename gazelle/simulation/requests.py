@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Future
-from contextlib import contextmanager
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -20,28 +19,25 @@ _PATIENCE = 0.002
 
 
 class RequestQueue:
-    """Serialises all access to a simulation."""
+    """Serialises all access to a simulation.
+
+    Attributes:
+        lock: Held by whoever owns the state; the owner calls ``drain`` between two steps.
+    """
 
     def __init__(self) -> None:
-        self._lock = threading.RLock()
+        self.lock = threading.RLock()
         self._waiting: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
-
-    @contextmanager
-    def owned(self) -> Iterator[None]:
-        """Hold the state for a run of steps."""
-        with self._lock:
-            yield
-            self.drain()
 
     def post(self, work: Callable[[], T]) -> Future[T]:
         """Have something done between two steps; at once when nothing is stepping."""
         future: Future[T] = Future()
         self._waiting.append((work, future))
-        if self._lock.acquire(blocking=False):
+        if self.lock.acquire(blocking=False):
             try:
                 self.drain()
             finally:
-                self._lock.release()
+                self.lock.release()
         return future
 
     def call(self, work: Callable[[], T]) -> T:
@@ -50,11 +46,11 @@ class RequestQueue:
         Raises:
             Exception: What the work raised.
         """
-        if self._lock.acquire(blocking=False):
+        if self.lock.acquire(blocking=False):
             try:
                 return work()
             finally:
-                self._lock.release()
+                self.lock.release()
         future = self.post(work)
         while True:
             try:
@@ -62,11 +58,11 @@ class RequestQueue:
             except TimeoutError:
                 if future.done():
                     return future.result()
-                if self._lock.acquire(blocking=False):
+                if self.lock.acquire(blocking=False):
                     try:
                         self.drain()
                     finally:
-                        self._lock.release()
+                        self.lock.release()
 
     def drain(self) -> None:
         """Do all that waits; the caller owns the state."""

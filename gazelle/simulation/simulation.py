@@ -136,11 +136,12 @@ class Simulation:
             raise SimulationError("the simulation is closed")
         if count < 0:
             raise SimulationError(f"cannot step {count} times; time goes forward only")
-        with self.requests.owned():
+        with self.requests.lock:
             remaining = count
             while remaining > 0:
                 self.requests.drain()
                 remaining -= self._advance(remaining)
+            self.requests.drain()
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time.

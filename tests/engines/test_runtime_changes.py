@@ -8,6 +8,10 @@ import pytest
 import scenes
 
 from gazelle.description import (
+    Box,
+    Collision,
+    Contact,
+    Friction,
     Inertia,
     Inertial,
     Joint,
@@ -15,6 +19,7 @@ from gazelle.description import (
     Link,
     Model,
     Pose,
+    Surface,
 )
 from gazelle.engines import CHANGES, PARAMETERS, Engine, make_engine
 from gazelle.errors import EngineError
@@ -327,6 +332,22 @@ def test_friction_of_each_world_decides_how_far_a_block_slides():
     engine.step(1500)
     slid = engine.model_placement("box").position[:, 0] - start
     np.testing.assert_allclose(slid, 1.0 / (2 * mu * 9.8), rtol=0.03)
+
+
+def test_friction_of_each_world_holds_for_springy_contacts_too():
+    surface = Surface(Friction(1.0, 1.0), Contact(kp=1e5, kd=300.0))
+    collision = Collision("c", Box((0.4, 0.4, 0.1)), surface=surface)
+    link = Link("link", inertial=Inertial(), collisions=(collision,))
+    block = Model("box", pose=Pose(z=0.05), links=(link,))
+    engine = make(scenes.ground(), block, nworld=2)
+    mu = np.array([0.1, 0.3])
+    engine.set_parameter("collision_friction", "box::link::c", mu[:, None])
+    engine.step(500)
+    start = engine.model_placement("box").position[:, 0]
+    engine.set_model_motion("box", (1.0, 0.0, 0.0), np.zeros(3))
+    engine.step(1500)
+    slid = engine.model_placement("box").position[:, 0] - start
+    np.testing.assert_allclose(slid, 1.0 / (2 * mu * 9.8), rtol=0.05)
 
 
 def test_each_world_has_its_gravity():

@@ -9,7 +9,6 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
-from gazelle.description import Pose
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
@@ -116,6 +115,21 @@ class StateAccess(ABC):
     ) -> None:
         """Move a model rigidly, joints as they are; a static model becomes kinematic for it."""
         slot = self._now().model(model)
+        if not slot.loose:
+            slot = self._loosen(model, slot)
+        goal_p, goal_q = np.asarray(position, np.float64), np.asarray(quaternion, np.float64)
+        if len(slot.roots) == 1:
+            self._put_only(slot, goal_p, goal_q, worlds)
+        else:
+            self._put_all(model, slot, goal_p, unit(goal_q), worlds)
+        self._stale = True
+
+    def _loosen(self, model: str, slot: ModelSlot) -> ModelSlot:
+        """Make a static model one that can be placed.
+
+        Raises:
+            EngineError: A joint holds the model to the world.
+        """
         if any(self._layout.link(root).root == "static" for root in slot.roots):
             self.make_kinematic(model)
             slot = self._now().model(model)
@@ -125,24 +139,16 @@ class StateAccess(ABC):
                 f"model '{model}' is fixed to the world by a joint and cannot be moved",
                 hint=f"the joint that holds '{fixed[0]}' would have to go",
             )
-        count = self._nworld if worlds is None else len(worlds)
-        goal_p = np.broadcast_to(np.asarray(position, np.float64), (count, 3))
-        goal_q = np.broadcast_to(np.asarray(quaternion, np.float64), (count, 4))
-        if len(slot.roots) == 1:
-            self._put_only(slot, goal_p, goal_q, worlds)
-        else:
-            self._put_all(model, slot, goal_p, unit(goal_q), worlds)
-        self._stale = True
+        return slot
 
     def _put_only(
         self, slot: ModelSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
         """Place a model that one link carries: no need to know where it was."""
-        if slot.offset != Pose():
-            back = slot.offset.inverse()
+        if slot.back is not None:
             quaternion = unit(quaternion)
-            position = position + rotate(quaternion, np.asarray(back.position))
-            quaternion = multiply(quaternion, np.asarray(back.quaternion))
+            position = position + rotate(quaternion, np.asarray(slot.back.position))
+            quaternion = multiply(quaternion, np.asarray(slot.back.quaternion))
         self._put(self._layout.link(slot.roots[0]), position, quaternion, worlds)
 
     def _put_all(
@@ -171,7 +177,9 @@ class StateAccess(ABC):
             self._state.mocap_pos[rows, slot.mocap] = position
             self._state.mocap_quat[rows, slot.mocap] = wxyz
         elif slot.free is not None:
-            self._state.qpos[rows, slot.free.position] = np.concatenate((position, wxyz), axis=1)
+            start = slot.free.position.start
+            self._state.qpos[rows, start : start + 3] = position
+            self._state.qpos[rows, start + 3 : start + 7] = wxyz
 
     def set_model_motion(
         self, model: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
@@ -280,8 +288,8 @@ def rows_of(worlds: Worlds | None) -> slice | Worlds:
 
 def unit(q: Floats) -> Floats:
     """Quaternions normalised; zero becomes the identity, as in Gazebo."""
-    norm: Floats = np.linalg.norm(q, axis=-1, keepdims=True)
-    unit: Floats = q / np.where(norm > 0.0, norm, 1.0)
-    if not norm.all():
-        unit[norm[..., 0] == 0.0] = (0.0, 0.0, 0.0, 1.0)
-    return unit
+    norm: Floats = np.sqrt(np.einsum("...i,...i->...", q, q))[..., None]
+    if norm.all():
+        return q / norm
+    whole = np.where(norm > 0.0, q, (0.0, 0.0, 0.0, 1.0))
+    return whole / np.where(norm > 0.0, norm, 1.0)

@@ -132,7 +132,7 @@ class MujocoEngine(BodyAccess):
         except SimulationError as error:
             failed = error.ids
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
-        if len(failed) or self._state.faults.any():
+        if len(failed) or np.count_nonzero(self._state.faults):
             bad = np.asarray(self._state.faults.any(axis=1))
             bad[np.asarray(failed, np.intp)] = True
             self._give_up(np.flatnonzero(bad), count)

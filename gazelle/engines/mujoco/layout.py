@@ -60,12 +60,16 @@ class ModelSlot:
         roots: Scoped names of the links that carry the others.
         canonical: Scoped name of the link that the model's pose follows.
         offset: The model frame in the canonical link's frame.
+        back: The canonical link in the model frame; None if they agree.
+        loose: Whether all roots can be placed as they are.
         joints: Scoped names of its joints that move.
     """
 
     roots: tuple[str, ...]
     canonical: str
     offset: Pose
+    back: Pose | None
+    loose: bool
     joints: tuple[str, ...]
 
 
@@ -178,4 +182,7 @@ def _model_slot(bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]) -> M
     canonical = bodies[0]
     offset = canonical.link.pose.inverse()
     own = tuple(body.joint_name for body in bodies if body.joint_name in joints)
-    return ModelSlot(roots, canonical.name, offset, own)
+    back = None if canonical.link.pose == Pose() else canonical.link.pose
+    kinds = {body.root for body in bodies if body.parent is None}
+    loose = kinds <= {"free", "kinematic"}
+    return ModelSlot(roots, canonical.name, offset, back, loose, own)

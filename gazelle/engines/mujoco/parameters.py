@@ -174,6 +174,11 @@ def _write_friction(target: _Target, name: str, values: Floats) -> None:
     # The slipperier of two surfaces decides: the finer their order, the better.
     slipperiness = (_LARGEST_FRICTION - friction[:, :, 0]) * 1e6
     target.batch.expand("geom_priority")[:] = slipperiness.astype(np.int32)
+    model = target.batch.model
+    if model.npair:
+        ends = friction[:, model.pair_geom1, 0], friction[:, model.pair_geom2, 0]
+        both = target.batch.expand("pair_friction")
+        both[:, :, 0] = both[:, :, 1] = np.minimum(*ends)
 
 
 def _write_gravity(target: _Target, _: str, values: Floats) -> None:
