@@ -61,7 +61,10 @@ def load_model(
     Raises:
         FormatError: The file holds no model, or several.
     """
-    return _only_model(load(path, paths=paths, xacro_args=xacro_args, strict=strict), str(path))
+    reading = _reading(paths, xacro_args)
+    world = read_path(find_file(path, reading, model=True), reading)
+    reading.report(strict=strict)
+    return _only_model(world, str(path))
 
 
 def load_string(
@@ -121,8 +124,13 @@ def _only_model(world: World, name: str) -> Model:
     return world.models[0]
 
 
-def find_file(path: PathLike, reading: Reading) -> Path:
+def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     """The file that a path, URI or bundled name means.
+
+    Args:
+        path: What was asked for.
+        reading: Resolves it.
+        model: Of a bundled model and a bundled world of one name, take the model.
 
     Raises:
         ResolveError: There is none.
@@ -133,7 +141,7 @@ def find_file(path: PathLike, reading: Reading) -> Path:
         if plain.exists():
             return entry_file(plain.absolute())
     found = reading.resolver.find(text, Path.cwd()) if "://" in text else None
-    found = found or _bundled(text, reading.resolver)
+    found = found or _bundled(text, reading.resolver, model=model)
     if found is None:
         looked = reading.resolver.looked_in(text)
         names = bundled_names(reading.resolver.assets)
@@ -143,11 +151,12 @@ def find_file(path: PathLike, reading: Reading) -> Path:
     return entry_file(found)
 
 
-def _bundled(name: str, resolver: Resolver) -> Path | None:
+def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
     if "://" in name:
         return None
-    model = resolver.model(name)
-    return model or _bundled_files(resolver.assets).get(name)
+    folder = resolver.model(name)
+    file = _bundled_files(resolver.assets).get(name)
+    return (folder or file) if model else (file or folder)
 
 
 def bundled_names(assets: Path) -> list[str]:

@@ -6,6 +6,7 @@ import pytest
 
 import gazelle
 from gazelle import assets
+from gazelle.formats import load_model
 
 
 @pytest.mark.parametrize("name", sorted(assets.worlds()))
@@ -33,3 +34,9 @@ def test_robots_load(name):
     assert len(model.plugins) >= 2
     sensors = {sensor.name for link in model.links for sensor in link.sensors}
     assert {"imu", "lds_lfcd_sensor"} <= sensors
+
+
+def test_a_world_and_a_model_of_one_name_are_told_apart():
+    assert gazelle.load("turtlebot3_world").physics
+    assert load_model("turtlebot3_world").name == "turtlebot3_world"
+    assert gazelle.load("table").models[0].name == "table"
