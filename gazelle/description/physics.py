@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.parameters import Parameters
 from gazelle.description.source import Source
 
 
@@ -48,10 +49,11 @@ class Physics:
         real_time_factor: Simulated seconds a wall second to aim at.
         real_time_update_rate: Steps a wall second to aim at [Hz]; 0 means as fast as possible.
         max_contacts: At most so many contact points between two collisions.
-        ode: Solver terms.
+        ode: Solver terms; those of Bullet that ODE has too, where a file gives only Bullet's.
         auto_disable: Whether bodies at rest go to sleep; None leaves it to the engine.
         speculative_contacts: Whether contacts are looked for on the way of the coming step,
             so that fast bodies do not pass through thin ones; None leaves it to the engine.
+        extras: Elements of other engines kept whole: bullet, dart, simbody.
     """
 
     name: str = "default_physics"
@@ -64,4 +66,5 @@ class Physics:
     ode: Ode = field(default_factory=Ode)
     auto_disable: bool | None = None
     speculative_contacts: bool | None = None
+    extras: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)

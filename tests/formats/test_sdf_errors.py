@@ -120,8 +120,8 @@ def test_an_unknown_element_is_one_warning_with_a_suggestion():
 
 
 def test_an_element_of_which_nothing_is_kept_is_named():
-    with pytest.warns(FormatWarning, match="<bullet> is not supported yet"):
-        world("<physics type='bullet'><bullet/></physics>")
+    with pytest.warns(FormatWarning, match="<must_be_base_link> is not supported yet"):
+        model("<link name='l'><must_be_base_link>true</must_be_base_link></link>")
 
 
 def test_elements_of_other_tools_may_stand_anywhere():

@@ -156,7 +156,9 @@ def test_xacro_is_expanded(tmp_path):
 def test_panda(corpus):
     folder = corpus / "moveit__moveit_resources"
     semantics = load_srdf(folder / "panda_moveit_config/config/panda.srdf")
-    model = formats.load_model(folder / "panda_description/urdf/panda_arm_hand.urdf.xacro", paths=[corpus])
+    model = formats.load_model(
+        folder / "panda_description/urdf/panda_arm_hand.urdf.xacro", paths=[corpus]
+    )
     arm = [joint.name for joint in semantics.joints_of("panda_arm", model)]
     assert arm == [f"panda_joint{i}" for i in range(1, 8)]
     hand = [joint.name for joint in semantics.joints_of("hand", model)]

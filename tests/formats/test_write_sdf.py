@@ -38,10 +38,12 @@ from tests.formats.strategies import models, poses, worlds
 
 # files of the corpus that load, but miss so much that nothing whole can be saved
 UNSAVED = {
+    "gazebosim__sdformat/test/sdf/merge_include_with_interface_api_frame_semantics.sdf": "no link",
     "gazebosim__sdformat/test/sdf/model_include_with_interface_api.sdf": "has no link",
     "gazebosim__sdformat/test/sdf/placement_frame.sdf": "has no link",
     "gazebosim__sdformat/test/sdf/root_duplicate_models.sdf": "two with the name",
     "elysia-best__gazebo-classic/worlds/iris_arducopter_demo.world": "has no link",
+    "elysia-best__gazebo-classic/worlds/population.world": "has no link",
     "elysia-best__gazebo-classic/worlds/variable_gearbox_plugin.world": "has no link",
 }
 ASSETS = Path(formats.__file__).parents[1] / "assets"

@@ -14,7 +14,8 @@ from gazelle.description import Model, Parameters, Pose
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
-from gazelle.formats.sdf.frames import MODEL, WORLD, Entry, Scope
+from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, Entry, Scope
+from gazelle.formats.sdf.merge import is_merge, with_merges
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
 Version = tuple[int, int]
@@ -69,6 +70,7 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
     Raises:
         FormatError: Two frames have one name, or a name is missing.
     """
+    node = with_merges(node, version, reading, include)
     pose = node.find("pose")
     draft = Draft(
         node,
@@ -98,6 +100,8 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
 
 def missing_names(node: Parameters) -> set[str]:
     """What an include that was not found may be called; empty stands for any name."""
+    if is_merge(node):
+        return {ANY}
     name = values.word(node, "name")
     return {name} if name else {"", values.word(node, "uri").rstrip("/").rpartition("/")[2]}
 

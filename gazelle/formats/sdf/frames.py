@@ -13,6 +13,7 @@ from gazelle.formats import values
 
 MODEL = "__model__"
 WORLD = "world"
+ANY = "*"
 
 _IDENTITY = Pose()
 
@@ -46,7 +47,8 @@ class Scope:
         canonical: The link that stands for the scope, scoped by ``::``.
         name: Of the model.
         missing: Names of included models that were not found; an empty one where the
-            include gives no name, so that it could be any.
+            include gives no name, so that it could be any; ``ANY`` where it would have
+            been merged, so that any name could be of it.
         entries: Links, joints, frames and nested models.
     """
 
@@ -132,6 +134,8 @@ class Scope:
         head, _, rest = name.partition("::")
         if not self.missing or head in self.entries:
             return False
+        if ANY in self.missing:
+            return name != self.name
         unnamed = "" in self.missing and bool(rest) and head != self.name
         return head in self.missing or unnamed or (head == self.name and self.lacks(rest))
 

@@ -11,8 +11,10 @@ from gazelle.formats import urdf, values, xml
 from gazelle.formats.model_config import entry_file
 from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
+from gazelle.formats.sdf.actor import as_model
 from gazelle.formats.sdf.draft import Draft, Version, draft_model, name_frames
 from gazelle.formats.sdf.pose import frame_of, read_pose
+from gazelle.formats.sdf.upgrade import upgraded
 
 KINDS = ("model", "light", "actor")
 
@@ -50,10 +52,12 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
             return Included(root, file, (1, 11), model)
         if root.tag not in {"sdf", "gazebo"}:
             raise values.fail(root, f"expected <sdf> or <robot>, found <{root.tag}>")
+        version = version_of(root, reading)
+        root = upgraded(root, version)
         schema.check(root, "root", reading)
         for child in root.children:
             if child.tag in KINDS:
-                return Included(child, file, version_of(root, reading))
+                return Included(child if child.tag != "actor" else as_model(child), file, version)
     raise values.fail(root, "there is no model, light or actor to include")
 
 

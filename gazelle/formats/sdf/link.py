@@ -6,6 +6,7 @@ from gazelle.description import Collision, Inertial, Link, Parameters, Pose, Vis
 from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.automatic import automatic_inertial, is_automatic
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.geometry import read_geometry
 from gazelle.formats.sdf.inertial import read_inertial
@@ -26,13 +27,12 @@ def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool 
     name = values.attribute(node, "name")
     place = placer(name, scope)
     self_collide = node.find("self_collide")
+    collisions = tuple(read_collision(child, place, reading) for child in _named(node, "collision"))
     return Link(
         name=name,
         pose=scope.pose(name, node),
-        inertial=_inertial(node.find("inertial"), reading, static=static),
-        collisions=tuple(
-            read_collision(child, place, reading) for child in _named(node, "collision")
-        ),
+        inertial=_inertial(node, collisions, reading, static=static),
+        collisions=collisions,
         visuals=tuple(read_visual(child, place, reading) for child in _named(node, "visual")),
         sensors=tuple(read_sensor(child, place) for child in _named(node, "sensor")),
         lights=tuple(read_light(child, place(child)) for child in _named(node, "light")),
@@ -49,8 +49,13 @@ def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool 
     )
 
 
-def _inertial(node: Parameters | None, reading: Reading, *, static: bool) -> Inertial | None:
+def _inertial(
+    link: Parameters, collisions: tuple[Collision, ...], reading: Reading, *, static: bool
+) -> Inertial | None:
+    node = link.find("inertial")
     try:
+        if node is not None and is_automatic(node):
+            return automatic_inertial(link, collisions, reading)
         return read_inertial(node)
     except FormatError as error:
         if not static or node is None:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from gazelle.description import Ode, Parameters, Physics
 from gazelle.formats import values
+
+_OTHERS = ("bullet", "dart", "simbody")
 
 
 def read_physics(node: Parameters) -> Physics:
@@ -23,9 +27,18 @@ def read_physics(node: Parameters) -> Physics:
         real_time_factor=values.real(node, "real_time_factor", 1.0),
         real_time_update_rate=values.real(node, "real_time_update_rate", 1000.0),
         max_contacts=values.whole(node, "max_contacts", 20),
-        ode=read_ode(node.find("ode")),
+        ode=read_solver(node),
+        extras=tuple(child for child in node.children if child.tag in _OTHERS),
         source=node.source,
     )
+
+
+def read_solver(node: Parameters) -> Ode:
+    """ODE's terms; without them those of Bullet that go by the same names."""
+    bullet = node.find("bullet")
+    if "ode" in node or bullet is None:
+        return read_ode(node.find("ode"))
+    return replace(read_ode(bullet), solver="quick")
 
 
 def read_ode(node: Parameters | None) -> Ode:

@@ -6,12 +6,14 @@ from gazelle.description import Model, Parameters, World
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf import schema
+from gazelle.formats.sdf.actor import as_model
 from gazelle.formats.sdf.draft import Version, draft_model
 from gazelle.formats.sdf.frames import WORLD, Scope
 from gazelle.formats.sdf.include import include_model, version_of
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.model import read_model
 from gazelle.formats.sdf.pose import read_pose
+from gazelle.formats.sdf.upgrade import upgraded
 from gazelle.formats.sdf.world import read_world
 
 
@@ -22,6 +24,7 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
         FormatError: The file says something that cannot be.
     """
     version = version_of(root, reading)
+    root = upgraded(root, version)
     schema.check(root, "root", reading)
     worlds = list(root.find_all("world"))
     if len(worlds) > 1:
@@ -29,11 +32,14 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
     if worlds:
         return read_world(worlds[0], version, reading)
     return World(
-        models=tuple(_model(node, version, reading) for node in root.find_all("model")),
+        models=tuple(
+            _model(as_model(node) if node.tag == "actor" else node, version, reading)
+            for node in root.children
+            if node.tag in {"actor", "model"}
+        ),
         lights=tuple(
             read_light(node, read_pose(node.find("pose"))) for node in root.find_all("light")
         ),
-        actors=tuple(root.find_all("actor")),
         source=root.source,
     )
 

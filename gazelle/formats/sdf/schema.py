@@ -24,7 +24,6 @@ _NOT_KEPT = {
     "collision": {"enabled"},
     "joint/physics": {"simbody"},
     "link": {"must_be_base_link"},
-    "physics": {"bullet", "simbody", "dart"},
     "surface": {"soft_contact"},
     "world": set[str](),
 }

@@ -5,19 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from gazelle.description import Link, Model, Parameters, Pose, World
-from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.pose import read_pose
 
 
-def apply(world: World, reading: Reading) -> World:
+def apply(world: World) -> World:
     """The world with the poses of its first state, which is the one that Gazebo restores."""
     if not world.states:
         return world
     state = world.states[0]
-    for tag in ("insertions", "deletions"):
-        part = state.find(tag)
-        if part is not None and part.children:
-            reading.note(f"<{tag}> of a <state> is not supported yet and was ignored", part)
     saved = {node.attributes.get("name", ""): node for node in state.find_all("model")}
     lights = {node.attributes.get("name", ""): node for node in state.find_all("light")}
     return replace(

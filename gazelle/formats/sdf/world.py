@@ -35,12 +35,14 @@ from gazelle.formats.sdf.include import (
 from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
+from gazelle.formats.sdf.merge import with_merges
 from gazelle.formats.sdf.model import read_frame, read_model
 from gazelle.formats.sdf.physics import read_physics
 from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
+from gazelle.formats.sdf.prepare import prepared
 
-_EXTRAS = ("audio", "gui", "population", "road")
+_EXTRAS = ("audio", "gui", "road")
 USER_CAMERA = "user_camera"
 _GRAVITY = (0.0, 0.0, -9.8)
 _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
@@ -48,16 +50,16 @@ _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
 
 @dataclass(slots=True)
 class _Contents:
-    """Models, lights and actors of a world, those of includes too, in file order."""
+    """Models and lights of a world, those of includes too, in file order."""
 
     scope: Scope = field(default_factory=lambda: Scope(WORLD))
     drafts: list[Draft] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
-    actors: list[Parameters] = field(default_factory=list)
 
 
 def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     """A world with everything in it; the first ``<state>`` is applied."""
+    node = with_merges(prepared(node), version, reading, include_model)
     contents = _collect(node, version, reading)
     scope = contents.scope
     camera = node.find("gui/camera")
@@ -76,14 +78,13 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
         joints=read_joints(node, scope, version, reading),
         plugins=read_plugins(node),
         camera=None if camera is None else read_pose(camera.find("pose")),
-        actors=tuple(contents.actors),
         states=tuple(node.find_all("state")),
         extras=tuple(
             extra for child in node.children if (extra := _extra(child, camera)) is not None
         ),
         source=node.source,
     )
-    return state.apply(world, reading)
+    return state.apply(world)
 
 
 def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
@@ -103,8 +104,6 @@ def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
                 _keep_included(contents, child, included, reading)
         elif child.tag == "light":
             contents.lights.append(_light(child, contents.scope))
-        elif child.tag == "actor":
-            contents.actors.append(child)
     return contents
 
 
@@ -120,8 +119,6 @@ def _keep_included(
     if inner.tag == "light":
         place = node.find("pose") or inner.find("pose")
         contents.lights.append(read_light(inner, read_pose(place)))
-    elif inner.tag == "actor":
-        contents.actors.append(inner)
     else:
         _keep(contents, draft_included(node, included, reading))
 

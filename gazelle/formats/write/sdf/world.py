@@ -13,8 +13,6 @@ from gazelle.description import (
     World,
 )
 from gazelle.errors import FormatError
-from gazelle.formats.reading import Reading
-from gazelle.formats.resolve import Resolver
 from gazelle.formats.sdf import state
 from gazelle.formats.sdf.world import USER_CAMERA
 from gazelle.formats.write.element import distinct, element, group, inside, leaf, overlay, pose_leaf
@@ -62,6 +60,7 @@ def write_physics(physics: Physics) -> Parameters:
             leaf("real_time_update_rate", physics.real_time_update_rate),
             leaf("max_contacts", physics.max_contacts, usual.max_contacts),
             write_ode(physics.ode),
+            *physics.extras,
             name=physics.name,
             default="true" if physics.default else "",
             type=physics.type,
@@ -148,7 +147,7 @@ def _states(world: World, writing: Writing) -> tuple[Parameters, ...]:
     if not world.states:
         return ()
     try:
-        restored = state.apply(world, Reading(Resolver()))
+        restored = state.apply(world)
     except FormatError:
         restored = None
     if restored == world:

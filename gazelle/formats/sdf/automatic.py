@@ -1,0 +1,55 @@
+"""``<inertial auto="true">`` (SDF 1.11): mass and inertia from the shapes that collide."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gazelle.description import Collision, Inertial, Parameters
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.inertial import read_inertial
+from gazelle.formats.solids import Solid, inertial_of, joined, solid_of
+
+WATER = 1000.0
+"""The schema's default density [kg/m³]."""
+
+
+def is_automatic(node: Parameters) -> bool:
+    """Whether an ``<inertial>`` asks to be computed."""
+    text = node.attributes.get("auto", "")
+    return bool(text) and values.parse_flag(node, text, "attribute 'auto'")
+
+
+def automatic_inertial(
+    link: Parameters, collisions: tuple[Collision, ...], reading: Reading
+) -> Inertial:
+    """The inertial of all collisions together, each of its own density or the link's.
+
+    A ``<mass>`` in the file decides over the densities, which then only share it out.
+
+    Raises:
+        FormatError: A density or the mass is not greater than zero, or a mesh is broken.
+    """
+    node = link.find("inertial") or link
+    usual = _density(node, WATER)
+    parts: list[Solid] = []
+    for child, collision in zip(link.find_all("collision"), collisions, strict=True):
+        solid = solid_of(collision.geometry)
+        if solid is not None:
+            parts.append(solid.placed(collision.pose).scaled(_density(child, usual)))
+    whole = joined(parts)
+    if whole is None:
+        reading.note(
+            "the inertia cannot be computed: no collision of the link has a volume; "
+            "the default of 1 kg is used",
+            node,
+        )
+        return read_inertial(replace(node, children=())) or Inertial()
+    mass = values.real(node, "mass", 0.0)
+    if mass > 0.0:
+        whole = whole.scaled(mass / whole.volume)
+    return replace(inertial_of(whole), source=node.source)
+
+
+def _density(node: Parameters, default: float) -> float:
+    return values.positive(node, values.real(node, "density", default), "<density>")

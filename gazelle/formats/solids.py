@@ -1,0 +1,193 @@
+"""Volume, centre and inertia of shapes filled with matter of even density.
+
+Closed forms of the simple ones; of meshes from signed tetrahedra (Tonon, "Explicit exact
+formulas for the 3-D tetrahedron inertia tensor", Journal of Mathematics and Statistics 1,
+2004).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Geometry,
+    Inertia,
+    Inertial,
+    Mesh,
+    Polyline,
+    Pose,
+    Sphere,
+)
+from gazelle.formats.mesh import load_mesh
+from gazelle.formats.patches import prism
+from gazelle.formats.polygon import convex_polygons
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A body of density 1 kg/m³.
+
+    Attributes:
+        volume: [m³].
+        center: Centre of mass [m], shape (3,).
+        inertia: About the centre of mass [m⁵], shape (3, 3).
+    """
+
+    volume: float
+    center: Floats
+    inertia: Floats
+
+    def placed(self, pose: Pose) -> Solid:
+        """The same body in the frame that a pose is given in."""
+        turn = pose.matrix()[:3, :3]
+        center: Floats = turn @ self.center + np.asarray(pose.position)
+        inertia: Floats = turn @ self.inertia @ turn.T
+        return Solid(self.volume, center, inertia)
+
+    def scaled(self, density: float) -> Solid:
+        """The same body with its volume and inertia times a density [kg/m³]."""
+        return Solid(self.volume * density, self.center, self.inertia * density)
+
+
+def solid_of(shape: Geometry) -> Solid | None:
+    """The body that a shape encloses; None for one without volume, or of unknown extent.
+
+    Raises:
+        FormatError: A mesh cannot be read.
+    """
+    maker = _MAKERS.get(type(shape))
+    found = None if maker is None else maker(shape)
+    return found if found is not None and found.volume > 0.0 else None
+
+
+def joined(solids: Iterable[Solid]) -> Solid | None:
+    """Several bodies as one (parallel axis theorem); None if there is none."""
+    parts = list(solids)
+    volume = sum(part.volume for part in parts)
+    if volume <= 0.0:
+        return None
+    center = sum((part.volume * part.center for part in parts), np.zeros(3)) / volume
+    inertia = np.zeros((3, 3))
+    for part in parts:
+        away = part.center - center
+        inertia += part.inertia + part.volume * (away @ away * np.eye(3) - np.outer(away, away))
+    return Solid(volume, center, inertia)
+
+
+def inertial_of(solid: Solid) -> Inertial:
+    """Mass and inertia of a body whose volume is already its mass [kg]."""
+    i = solid.inertia
+    x, y, z = solid.center.tolist()
+    return Inertial(
+        mass=solid.volume,
+        pose=Pose(x, y, z),
+        inertia=Inertia(
+            ixx=float(i[0, 0]),
+            iyy=float(i[1, 1]),
+            izz=float(i[2, 2]),
+            ixy=float(i[0, 1]),
+            ixz=float(i[0, 2]),
+            iyz=float(i[1, 2]),
+        ),
+    )
+
+
+def _even(volume: float, moments: tuple[float, float, float], z: float = 0.0) -> Solid:
+    return Solid(volume, np.array([0.0, 0.0, z]), np.diag(moments) * volume)
+
+
+def _box(shape: Box) -> Solid:
+    x, y, z = shape.size
+    return _even(
+        x * y * z, ((y * y + z * z) / 12.0, (x * x + z * z) / 12.0, (x * x + y * y) / 12.0)
+    )
+
+
+def _sphere(shape: Sphere) -> Solid:
+    moment = 0.4 * shape.radius**2
+    return _even(4.0 / 3.0 * math.pi * shape.radius**3, (moment, moment, moment))
+
+
+def _cylinder(shape: Cylinder) -> Solid:
+    r, h = shape.radius, shape.length
+    across = r * r / 4.0 + h * h / 12.0
+    return _even(math.pi * r * r * h, (across, across, r * r / 2.0))
+
+
+def _capsule(shape: Capsule) -> Solid:
+    """A cylinder and two half balls, whose centres lie 3/8 r beyond its ends."""
+    r, h = shape.radius, shape.length
+    tube, balls = math.pi * r * r * h, 4.0 / 3.0 * math.pi * r**3
+    across = tube * (r * r / 4.0 + h * h / 12.0)
+    across += balls * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r)
+    along = tube * r * r / 2.0 + balls * 0.4 * r * r
+    return Solid(tube + balls, np.zeros(3), np.diag((across, across, along)))
+
+
+def _ellipsoid(shape: Ellipsoid) -> Solid:
+    a, b, c = shape.radii
+    moments = ((b * b + c * c) / 5.0, (a * a + c * c) / 5.0, (a * a + b * b) / 5.0)
+    return _even(4.0 / 3.0 * math.pi * a * b * c, moments)
+
+
+def _cone(shape: Cone) -> Solid:
+    r, h = shape.radius, shape.length
+    across = 3.0 / 80.0 * (4.0 * r * r + h * h)
+    return _even(math.pi * r * r * h / 3.0, (across, across, 0.3 * r * r), z=-h / 4.0)
+
+
+def _mesh(shape: Mesh) -> Solid | None:
+    if shape.path is None:
+        return None
+    data = load_mesh(shape)
+    return solid_of_triangles(data.vertices, data.faces)
+
+
+def _polyline(shape: Polyline) -> Solid | None:
+    parts = []
+    for corners in convex_polygons(shape.outlines):
+        rim = np.column_stack([corners, np.full(len(corners), shape.height)])
+        parts.append(solid_of_triangles(*prism(rim, np.array([0.0, 0.0, shape.height]))))
+    return joined(parts)
+
+
+def solid_of_triangles(vertices: Floats, faces: NDArray[np.int32]) -> Solid:
+    """The body within closed triangles that look outwards, as signed tetrahedra."""
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0
+    corners = (vertices - middle)[faces]
+    volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    volume = float(volumes.sum())
+    if volume <= 0.0:
+        return Solid(0.0, middle, np.zeros((3, 3)))
+    total = corners.sum(axis=1)
+    center = (volumes[:, None] * total).sum(axis=0) / 4.0 / volume
+    second = np.einsum("i,ij,ik->jk", volumes, total, total)
+    second = (second + np.einsum("i,icj,ick->jk", volumes, corners, corners)) / 20.0
+    second -= volume * np.outer(center, center)
+    inertia: Floats = np.trace(second) * np.eye(3) - second
+    return Solid(volume, center + middle, inertia)
+
+
+_MAKERS: dict[type, Callable[[Any], Solid | None]] = {
+    Box: _box,
+    Capsule: _capsule,
+    Cone: _cone,
+    Cylinder: _cylinder,
+    Ellipsoid: _ellipsoid,
+    Mesh: _mesh,
+    Polyline: _polyline,
+    Sphere: _sphere,
+}

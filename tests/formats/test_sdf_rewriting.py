@@ -1,0 +1,380 @@
+"""What stands for other elements: old spellings, merges, actors, populations, saved changes."""
+
+import math
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from xml_samples import link, model, sdf, world
+
+from gazelle import FormatError, Pose, formats
+from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Polyline, Sphere
+from gazelle.errors import FormatWarning
+from gazelle.formats.solids import joined, solid_of
+
+OLD = """<gazebo version="1.0"><world name="w">
+<scene><ambient rgba="0.5 0.5 0.5 1.0"/><background rgba="0.1 0.2 0.3 1">
+<sky material="Gazebo/CloudySky"/></background><shadows enabled="false"/></scene>
+<physics type="ode"><gravity xyz="0 0 -1"/><ode>
+<solver type="quick" dt="0.002" iters="30" sor="1.1"/>
+<constraints cfm="0.5" erp="0.3" contact_max_correcting_vel="9" contact_surface_layer="0.01"/>
+</ode></physics>
+<model name="m" static="false"><origin pose="0 0 2.1 0.5 0 0"/>
+<link name="l" self_collide="true" gravity="false">
+<origin pose="1 0 0 0 0 0"/>
+<inertial mass="10"><origin pose="0 0 -0.5 0 0 0"/><damping linear="0.1" angular="0.2"/>
+<inertia ixx="2" ixy="0" ixz="0" iyy="3" iyz="0" izz="4"/></inertial>
+<visual name="v" cast_shadows="false"><origin pose="0 0 1 0 0 0"/>
+<geometry><cylinder radius="0.1" length="1"/></geometry><material script="Gazebo/Green"/></visual>
+<collision name="c" laser_retro="7"><geometry><box size="1 2 3"/></geometry>
+<surface><friction><ode mu="0.5" mu2="0.2" fdir1="1 0 0"/></friction>
+<contact><ode kp="1e6" min_depth="0.001"/></contact></surface></collision>
+</link>
+<joint name="j" type="revolute"><parent link="world"/><child link="l"/>
+<origin pose="0 0 0.1 0 0 0"/>
+<axis xyz="1 0 0"><limit lower="-1" upper="1"/><dynamics damping="0.3"/></axis></joint>
+</model></world></gazebo>"""
+
+
+def test_sdf_1_0_is_read_whole():
+    found = formats.load_string(OLD)
+    assert found.gravity == (0, 0, -1)
+    assert found.scene.background == (0.1, 0.2, 0.3, 1)
+    assert (found.scene.shadows, found.scene.sky) == (False, True)
+    physics = found.profile
+    assert (physics.max_step_size, physics.ode.iters, physics.ode.erp) == (0.002, 30, 0.3)
+    (robot,) = found.models
+    (body,) = robot.links
+    assert robot.pose == Pose(z=2.1, roll=0.5)
+    assert body.pose == Pose(x=1)
+    assert (body.gravity, body.self_collide) == (False, True)
+    assert (body.velocity_decay_linear, body.velocity_decay_angular) == (0.1, 0.2)
+    assert (body.inertial.mass, body.inertial.pose) == (10, Pose(z=-0.5))
+    assert (body.inertial.inertia.ixx, body.inertial.inertia.izz) == (2, 4)
+    assert body.visuals[0].geometry == Cylinder(0.1, 1)
+    assert body.visuals[0].material.diffuse == (0, 1, 0, 1)
+    assert not body.visuals[0].cast_shadows
+    assert body.collisions[0].geometry == Box((1, 2, 3))
+    assert body.collisions[0].laser_retro == 7
+    assert body.collisions[0].surface.friction.mu2 == 0.2
+    assert body.collisions[0].surface.contact.kp == 1e6
+    (joint,) = robot.joints
+    assert (joint.parent, joint.pose) == ("world", Pose(z=0.1))
+    assert (joint.axes[0].lower, joint.axes[0].damping) == (-1, 0.3)
+
+
+def test_sdf_1_3_moves_the_step_out_of_the_solver():
+    text = "<physics type='bullet'><bullet><dt>0.01</dt></bullet><update_rate>7</update_rate>"
+    found = world(f"{text}</physics>", "1.3").profile
+    assert (found.max_step_size, found.real_time_update_rate) == (0.01, 7)
+
+
+def test_errors_in_old_files_name_the_line():
+    with pytest.raises(FormatError) as caught:
+        formats.load_string(OLD.replace('mass="10"', 'mass="ten"'), name="old.world")
+    assert (caught.value.file, caught.value.line) == ("old.world", 11)
+
+
+ARM = """<model name='arm'><pose>9 9 9 0 0 0</pose>
+<link name='upper'><pose>1 0 0 0 0 0.3</pose><inertial><mass>2</mass></inertial>
+<visual name='v'><pose {frame}='__model__'/></visual></link>
+<link name='lower'><pose>1 0 1 0 0.2 0</pose><collision name='c'><geometry>
+<mesh><uri>meshes/m.stl</uri></mesh></geometry></collision></link>
+<joint name='elbow' type='revolute'><parent>upper</parent><child>lower</child>
+<pose>0 0 .1 0.5 0 0</pose><axis><xyz>1 0 0</xyz>{axis}</axis></joint>
+<model name='tool'><pose>0 0 3 0 0 0</pose><link name='tip'/></model>
+<plugin name='p' filename='libp.so'/></model>"""
+ROBOT = """<model name='robot'><link name='base'><pose>0 1 0 0 0 0</pose></link>
+<include merge='true'><uri>model://arm</uri><name>left</name>
+<pose relative_to='base'>0 0 2 0 0 1.5</pose><plugin name='q' filename='libq.so'/></include>
+<joint name='shoulder' type='fixed'><parent>base</parent><child>upper</child></joint></model>"""
+
+
+def arm(folder, version="1.9"):
+    """A folder of models that holds the arm."""
+    new = version not in {"1.4", "1.6"}
+    here = folder / "arm"
+    (here / "meshes").mkdir(parents=True)
+    (here / "meshes/m.stl").write_bytes(b"solid")
+    (here / "model.config").write_text("<model><sdf version='1.6'>model.sdf</sdf></model>")
+    axis = "" if new else "<use_parent_model_frame>1</use_parent_model_frame>"
+    text = ARM.format(frame="relative_to" if new else "frame", axis=axis)
+    if new:
+        text = text.replace("<xyz>", "<xyz expressed_in='__model__'>")
+    (here / "model.sdf").write_text(sdf(text, version))
+    return folder
+
+
+@pytest.mark.parametrize("version", ["1.4", "1.6", "1.9"])
+def test_merged_parts_stand_where_the_include_says(tmp_path, version):
+    text = sdf(ROBOT, "1.9")
+    robot = formats.load_model_string(text, paths=[arm(tmp_path, version)])
+    assert [part.name for part in robot.links] == ["base", "upper", "lower"]
+    assert [part.name for part in robot.models] == ["tool"]
+    assert [part.name for part in robot.plugins] == ["p", "q"]
+    assert [part.name for part in robot.joints] == ["elbow", "shoulder"]
+    stand = Pose(0, 1, 2, yaw=1.5)
+    assert link(robot, "upper").pose.is_close(stand * Pose(1, yaw=0.3))
+    assert robot.models[0].pose.is_close(stand * Pose(z=3))
+    frame = next(frame for frame in robot.frames if frame.name == "_merged__left__model__")
+    assert frame.attached_to == "upper"
+    assert (link(robot, "upper").pose * frame.pose).is_close(stand)
+    if version != "1.4":  # whose poses have no frames
+        assert (link(robot, "upper").pose * link(robot, "upper").visuals[0].pose).is_close(stand)
+    axis = link(robot, "lower").pose * robot.joints[0].pose
+    assert axis.rotate(robot.joints[0].axes[0].xyz) == pytest.approx(stand.rotate((1, 0, 0)))
+    mesh = link(robot, "lower").collisions[0].geometry
+    assert mesh.path == tmp_path / "arm/meshes/m.stl"
+
+
+@pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+@pytest.mark.skipif(shutil.which("ign") is None, reason="libsdformat is not installed")
+def test_merging_is_what_libsdformat_does(tmp_path, monkeypatch):
+    monkeypatch.setenv("SDF_PATH", str(arm(tmp_path)))
+    file = tmp_path / "robot.sdf"
+    file.write_text(sdf(ROBOT, "1.9"))
+    run = ["ign", "sdf", "-p", str(file)]
+    said = subprocess.run(run, capture_output=True, text=True, timeout=60, check=True).stdout
+    theirs = formats.load_model_string(said[said.index("<sdf") :], paths=[tmp_path])
+    ours = formats.load_model(file)
+    for one, other in zip(ours.links, theirs.links, strict=True):
+        assert one.name == other.name
+        assert one.pose.is_close(other.pose)
+    for one, other in zip(ours.joints, theirs.joints, strict=True):
+        assert (one.name, one.parent, one.child) == (other.name, other.parent, other.child)
+        for mine, its in zip(one.axes, other.axes, strict=True):
+            assert mine.xyz == pytest.approx(its.xyz, abs=1e-12)
+    names = [frame.name for frame in ours.frames]
+    assert names == [frame.name for frame in theirs.frames]
+    for one, other in zip(ours.frames, theirs.frames, strict=True):
+        assert one.pose.is_close(other.pose)
+
+
+def test_a_world_merges_models_but_no_links(tmp_path):
+    text = sdf(
+        "<world name='w'><include merge='true'><uri>model://arm</uri><pose>1 2 3 0 0 0</pose>"
+        "</include></world>",
+        "1.10",
+    )
+    arm(tmp_path)
+    with pytest.raises(FormatError, match="cannot merge a model with a <link>"):
+        formats.load_string(text, paths=[tmp_path])
+    file = tmp_path / "arm/model.sdf"
+    two = "<model name='{0}'><pose>0 0 1 0 0 0</pose><link name='l'/></model>"
+    both = two.format("a") + two.format("b")
+    file.write_text(sdf(f"<model name='arm'>{both}</model>", "1.10"))
+    found = formats.load_string(text, paths=[tmp_path])
+    assert [m.name for m in found.models] == ["a", "b"]
+    assert all(m.pose.is_close(Pose(1, 2, 4)) for m in found.models)
+
+
+def test_a_merge_that_is_not_found_is_left_out(tmp_path):
+    with pytest.warns(FormatWarning, match="model://arm|is of a model that was not found"):
+        found = formats.load_model_string(sdf(ROBOT, "1.9"))
+    assert [part.name for part in found.links] == ["base"]
+
+
+ACTOR = """<actor name='walker'><pose>5 0 0 0 0 0</pose>{body}<script><loop>{loop}</loop>
+<delay_start>1</delay_start><auto_start>{start}</auto_start><trajectory id='0' type='t'>
+<waypoint><time>2</time><pose>1 0 0 0 0 1.5</pose></waypoint>
+<waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint>
+<waypoint><time>2</time><pose>9 9 9 0 0 0</pose></waypoint></trajectory></script></actor>"""
+
+
+def actor(body="", loop="true", start="true"):
+    return world(ACTOR.format(body=body, loop=loop, start=start)).models[0]
+
+
+def test_an_actor_is_a_static_model_that_follows_its_script():
+    found = actor("<link name='b'/>")
+    assert (found.name, found.static, found.pose) == ("walker", True, Pose(x=5))
+    (plugin,) = found.plugins
+    assert plugin.filename == "libgazelle_scripted_motion.so"
+    waypoints = list(plugin.parameters.find_all("waypoint"))
+    assert [point.get("time", 0.0) for point in waypoints] == [1.0, 3.0]
+    assert waypoints[1].numbers("pose", (0.0,) * 6) == pytest.approx((1, 0, 0, 0, 0, 1.5))
+    assert plugin.parameters.get("loop", False) is True
+    assert actor(loop="false").plugins[0].parameters.get("loop", True) is False
+
+
+def test_an_actor_that_does_not_start_stands():
+    assert actor(start="false").plugins == ()
+
+
+def test_an_actor_shows_its_skin(tmp_path):
+    (tmp_path / "walk.dae").write_text("")
+    skin = f"<skin><filename>{tmp_path}/walk.dae</filename><scale>2</scale></skin>"
+    text = sdf(f"<world name='w'>{ACTOR.format(body=skin, loop=1, start=1)}</world>")
+    found = formats.load_string(text, paths=[tmp_path]).models[0]
+    (visual,) = found.links[0].visuals
+    assert isinstance(visual.geometry, Mesh)
+    assert visual.geometry.path == tmp_path / "walk.dae"
+    assert visual.geometry.scale == (2, 2, 2)
+    assert found.links[0].collisions == ()
+
+
+POPULATION = """<population name='p'><model name='can'><link name='l'/></model>
+<pose>1 2 3 0 0 {yaw}</pose>{region}<model_count>{count}</model_count>
+<distribution><type>{kind}</type>{rest}</distribution></population>"""
+BOX = "<box><size>4 2 0.5</size></box>"
+TUBE = "<cylinder><radius>1</radius><length>2</length></cylinder>"
+
+
+def spread(kind, count=12, region=BOX, yaw=0, rest=""):
+    found = world(
+        POPULATION.format(kind=kind, count=count, region=region, yaw=yaw, rest=rest)
+    ).models
+    return found, np.array([m.pose.position for m in found]) - (1, 2, 3)
+
+
+@pytest.mark.parametrize("kind", ["random", "uniform"])
+@pytest.mark.parametrize("region", [BOX, TUBE])
+def test_a_population_stays_in_its_region(kind, region):
+    models, places = spread(kind, region=region)
+    assert [m.name for m in models] == [f"can_clone_{i}" for i in range(12)]
+    if region == BOX:
+        assert (np.abs(places) <= (2, 1, 0.25)).all()
+    else:
+        assert np.hypot(places[:, 0], places[:, 1]).max() <= 1
+    np.testing.assert_array_equal(places, spread(kind, region=region)[1])  # no chance
+    gaps = np.linalg.norm(places[:, None] - places[None], axis=2)[~np.eye(12, dtype=bool)]
+    assert gaps.min() > (0.2 if kind == "uniform" else 0)
+
+
+def test_grids_and_rows():
+    rest = "<rows>2</rows><cols>3</cols><step>0.5 0.25 0</step>"
+    models, places = spread("grid", rest=rest)
+    expected = [(x, y, 0) for y in (0, 0.25) for x in (0, 0.5, 1)]
+    np.testing.assert_allclose(places, expected)
+    _, places = spread("linear-x", count=4)
+    np.testing.assert_allclose(places, [(x, 0, 0) for x in (-1.5, -0.5, 0.5, 1.5)])
+    turned, places = spread("linear-y", count=2, yaw=math.pi / 2)
+    np.testing.assert_allclose(places, [(0.5, 0, 0), (-0.5, 0, 0)], atol=1e-12)
+    assert turned[0].pose.yaw == pytest.approx(math.pi / 2)
+    assert models[0].links[0].name == "l"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"kind": "rnadom"}, "did you mean 'random'"),
+        ({"kind": "random", "count": -1}, "0 to 10000 models"),
+        ({"kind": "random", "count": 10**9}, "0 to 10000 models"),
+        ({"kind": "grid", "rest": "<rows>99999</rows><cols>99999</cols>"}, "0 to 10000 models"),
+    ],
+)
+def test_populations_that_make_no_sense(options, message):
+    with pytest.raises(FormatError, match=message):
+        spread(**options)
+
+
+def test_saved_changes_are_made():
+    found = world(
+        "<model name='a'><link name='l'/></model><model name='b'><link name='l'/></model>"
+        "<light name='sun' type='point'/><state world_name='w'><insertions>"
+        "<model name='c'><link name='l'/></model><model name='a'><link name='x'/></model>"
+        "<light name='lamp' type='point'/></insertions>"
+        "<deletions><name>b</name><name>sun</name></deletions>"
+        "<model name='c'><pose>1 2 3 0 0 0</pose></model></state>"
+    )
+    assert [m.name for m in found.models] == ["a", "c"]
+    assert found.models[0].links[0].name == "l"
+    assert found.models[1].pose == Pose(1, 2, 3)
+    assert [light.name for light in found.lights] == ["lamp"]
+    assert [child.tag for child in found.states[0].children] == ["model"]
+
+
+def test_bullets_terms_serve_where_odes_are_missing():
+    text = (
+        "<physics type='bullet'><bullet><solver><iters>70</iters><sor>1.5</sor></solver>"
+        "<constraints><erp>0.4</erp></constraints></bullet></physics>"
+    )
+    found = world(text).profile
+    assert (found.type, found.ode.iters, found.ode.sor, found.ode.erp) == ("bullet", 70, 1.5, 0.4)
+    assert [extra.tag for extra in found.extras] == ["bullet"]
+
+
+def auto(collisions, inertial=""):
+    text = f"<link name='l'><inertial auto='true'>{inertial}</inertial>{collisions}</link>"
+    return model(text, "1.11").links[0].inertial
+
+
+def cube(name, pose="", density=""):
+    return (
+        f"<collision name='{name}'><pose>{pose or '0 0 0 0 0 0'}</pose>{density}"
+        "<geometry><box><size>1 1 1</size></box></geometry></collision>"
+    )
+
+
+def test_inertias_are_computed():
+    plain = auto(cube("a"))
+    assert plain.mass == pytest.approx(1000)
+    assert plain.inertia.ixx == pytest.approx(1000 / 6)
+    assert auto(cube("a"), "<density>6</density>").mass == pytest.approx(6)
+    heavy = auto(cube("a", density="<density>3</density>"), "<density>6</density>")
+    assert heavy.mass == pytest.approx(3)
+    scaled = auto(cube("a"), "<mass>12</mass>")
+    assert (scaled.mass, scaled.inertia.iyy) == pytest.approx((12, 2))
+    pair = auto(cube("a", "1 0 0 0 0 0") + cube("b", "-1 0 0 0 0 0.3", "<density>3000</density>"))
+    assert pair.pose.position == pytest.approx((-0.5, 0, 0))
+    assert pair.inertia.izz == pytest.approx(4000 / 6 + 1000 * 1.5**2 + 3000 * 0.5**2)
+
+
+def test_no_shape_gives_the_default():
+    with pytest.warns(FormatWarning, match="no collision of the link has a volume"):
+        assert auto("").mass == 1.0
+    with pytest.raises(FormatError, match="<density> must be greater than zero"):
+        auto(cube("a"), "<density>-1</density>")
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Box((1.0, 2.0, 3.0)),
+        Sphere(0.7),
+        Cylinder(0.5, 2.0),
+        Capsule(0.5, 1.5),
+        Ellipsoid((0.5, 1.0, 1.5)),
+        Cone(0.8, 2.0),
+        Polyline((((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)),), 0.5),
+    ],
+)
+def test_closed_forms_agree_with_random_points(shape):
+    chance = np.random.default_rng(0)
+    points = chance.uniform(-1.6, 2.1, (400_000, 3))
+    points = points[inside(shape, points)]
+    volume = 3.7**3 * len(points) / 400_000
+    found = solid_of(shape)
+    assert found.volume == pytest.approx(volume, rel=0.03)
+    np.testing.assert_allclose(found.center, points.mean(axis=0), atol=0.03)
+    away = points - found.center
+    second = away.T @ away / len(points) * found.volume
+    inertia = np.trace(second) * np.eye(3) - second
+    np.testing.assert_allclose(found.inertia, inertia, atol=0.04 * np.trace(inertia))
+
+
+def inside(shape, points):
+    x, y, z = points.T
+    r = np.hypot(x, y)
+    if isinstance(shape, Box):
+        return (np.abs(points) <= np.array(shape.size) / 2).all(axis=1)
+    if isinstance(shape, Sphere):
+        return np.linalg.norm(points, axis=1) <= shape.radius
+    if isinstance(shape, Cylinder):
+        return (r <= shape.radius) & (np.abs(z) <= shape.length / 2)
+    if isinstance(shape, Capsule):
+        beyond = np.maximum(np.abs(z) - shape.length / 2, 0)
+        return np.hypot(r, beyond) <= shape.radius
+    if isinstance(shape, Ellipsoid):
+        return np.linalg.norm(points / shape.radii, axis=1) <= 1
+    if isinstance(shape, Cone):
+        return (r <= shape.radius * (0.5 - z / shape.length)) & (z >= -shape.length / 2)
+    low = (z >= 0) & (z <= shape.height) & (x >= 0) & (y >= 0)
+    return low & (((x <= 2) & (y <= 1)) | ((x <= 1) & (y <= 2)))
+
+
+def test_parts_join_into_the_whole():
+    half = solid_of(Box((1.0, 2.0, 3.0)))
+    whole = joined([half.placed(Pose(x=0.5)), half.placed(Pose(x=-0.5, yaw=math.pi))])
+    np.testing.assert_allclose(whole.inertia, solid_of(Box((2.0, 2.0, 3.0))).inertia, atol=1e-12)
