@@ -37,6 +37,7 @@ def test_robots_load(name):
 
 
 def test_a_world_and_a_model_of_one_name_are_told_apart():
-    assert gazelle.load("turtlebot3_world").physics
-    assert load_model("turtlebot3_world").name == "turtlebot3_world"
+    names = [model.name for model in gazelle.load("turtlebot3_world").models]
+    assert names == ["ground_plane", "ros_symbol"]
+    assert load_model("turtlebot3_world").name == "ros_symbol"
     assert gazelle.load("table").models[0].name == "table"
