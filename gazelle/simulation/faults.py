@@ -83,13 +83,7 @@ class FaultLog:
         """Write the steps that broke one world as a recording of that world alone."""
         world = int(error.worlds[row])
         history = [_of_one(call, world) for call in simulation.engine.history()]
-        first = header(
-            simulation.engine.world,
-            history,
-            error.before[row : row + 1],
-            seed=simulation.seed,
-            time_ns=time_ns,
-        )
+        first = header(simulation, history, error.before[row : row + 1], time_ns)
         after = time_ns + error.steps * simulation.clock.step_ns
         step = {"call": "step", "arguments": encode((error.steps,)), "time": after}
         path = self._next_path()

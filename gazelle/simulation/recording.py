@@ -23,7 +23,6 @@ from gazelle.errors import Error
 from gazelle.simulation.encoding import encode
 
 if TYPE_CHECKING:
-    from gazelle.description import World
     from gazelle.simulation.simulation import Simulation
 
 FORMAT = "gazelle-recording"
@@ -36,21 +35,16 @@ def state_hash(state: NDArray[np.float64]) -> str:
 
 
 def header(
-    world: World,
-    history: Iterable[Call],
-    state: NDArray[np.float64],
-    *,
-    seed: int,
-    time_ns: int,
+    simulation: Simulation, history: Iterable[Call], state: NDArray[np.float64], time_ns: int
 ) -> dict[str, Any]:
     """The first line of a recording: what ran, and from where on."""
     return {
         "format": FORMAT,
         "version": VERSION,
-        "engine": "mujoco",
-        "seed": seed,
+        "engine": simulation.engine_name,
+        "seed": simulation.seed,
         "time": time_ns,
-        "world": encode(world),
+        "world": encode(simulation.engine.world),
         "history": encode(list(history)),
         "state": encode(state),
     }
@@ -70,13 +64,8 @@ class Recorder:
         self.path = Path(path)
         self._simulation = simulation
         self._engine: Engine = simulation.engine
-        first = header(
-            self._engine.world,
-            self._engine.history(),
-            self._engine.snapshot(),
-            seed=simulation.seed,
-            time_ns=simulation.clock.now_ns,
-        )
+        now_ns = simulation.clock.now_ns
+        first = header(simulation, self._engine.history(), self._engine.snapshot(), now_ns)
         self._file: IO[str] = self.path.open("w", encoding="utf-8")
         self._depth = 0
         self._write(first)

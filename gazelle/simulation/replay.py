@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from gazelle.description import Link, Model, World
+from gazelle.engines import DivergenceError
 from gazelle.errors import SimulationError
 from gazelle.simulation.encoding import decode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
@@ -70,13 +71,16 @@ class Replay:
 
         Raises:
             SimulationError: The state is not the recorded one.
-            DivergenceError: The recorded run broke down here, and does again.
+            DivergenceError: A world broke down, and the recorded run did not go on from there.
         """
         while not self.done:
             event = self._events[self._next]
             self._next += 1
             try:
                 self._do(event)
+            except DivergenceError as error:
+                if event.get("diverged") != [int(world) for world in error.worlds]:
+                    raise
             finally:
                 self.simulation.clock.now_ns = event["time"]
             if event["call"] == "step":

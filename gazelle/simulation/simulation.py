@@ -83,13 +83,13 @@ class Simulation:
     ) -> None:
         loaded = world if isinstance(world, World) else formats.load(world)
         self.engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
+        self.engine_name = engine
         self.seed = seed
         self.clock = Clock(self.engine.time_step)
         self.requests = RequestQueue()
         self.plugins: list[ScheduledPlugin] = []
         self.paused = False
-        self.physics = PhysicsProperties(self)
-        self.parameters = WorldParameters(self)
+        self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self.loads = Loads(self.engine, self.clock)
         self._robots: dict[str, Robot] = {}
         self._sensors: list[SensorUnit] = []
@@ -152,7 +152,7 @@ class Simulation:
 
         Raises:
             SimulationError: The simulation is paused or closed.
-            DivergenceError: The state of some worlds became infinite; see ``on_fault``.
+            DivergenceError: As ``step``.
         """
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
@@ -373,7 +373,7 @@ class Simulation:
     def record(self, path: str | Path) -> Recorder:
         """Write the run down from now on, until the recorder is closed; see ``Replay``.
 
-        It is a context manager: ``with sim.record("run.jsonl"): sim.run(seconds=10.0)``.
+        Use it with ``with``: ``with sim.record("run.jsonl"): sim.run(seconds=10.0)``.
         """
         return self.requests.call(lambda: Recorder(self, path))
 

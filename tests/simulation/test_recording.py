@@ -171,6 +171,21 @@ def test_a_broken_world_can_be_reset_instead(balls):
         assert np.isfinite(sim.engine.snapshot()).all()
 
 
+def test_a_run_that_went_on_after_a_fault_replays(balls, tmp_path):
+    path = tmp_path / "run.jsonl"
+    with Simulation(balls, nworld=2, on_fault="reset", fault_dump=tmp_path / "f.jsonl") as sim:
+        with sim.record(path):
+            sim.step(10)
+            poison(sim, 1)
+            with pytest.warns(SimulationWarning, match="world 1"):
+                sim.step(10)
+            sim.step(10)
+        end = sim.state_hash()
+    with Replay(path) as replay:
+        replay.run()
+        assert replay.simulation.state_hash() == end
+
+
 def test_a_nan_command_of_one_world_breaks_only_that_world(balls, tmp_path):
     with Simulation(balls, nworld=2, fault_dump=tmp_path / "f.jsonl") as sim:
         force = np.array([[np.nan, 0.0, 0.0]])
