@@ -89,7 +89,7 @@ def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
 
 def _arguments_only(
     words: list[str], given: dict[str, str], packages: Packages, parser: Any
-) -> Any:
+) -> LaunchPlan:
     from gazelle.ros.launch.loader import declared_arguments
 
     plan: LaunchPlan = declared_arguments(_files(words, packages, parser), given, packages=packages)

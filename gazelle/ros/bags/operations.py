@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.errors import Error
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.reader import BagReader, Entry, messages_of
-from gazelle.ros.bags.records import HEADER_BYTES, MAGIC, SECOND, Connection
+from gazelle.ros.bags.records import SECOND, Connection
 from gazelle.ros.bags.scanning import Scan, scan
 from gazelle.ros.bags.writer import BagWriter
 from gazelle.ros.messages import load_message
@@ -128,7 +128,7 @@ def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, 
     """
     reader = BagReader(path, allow_unindexed=True)
     try:
-        found = scan(reader.file.view(), len(MAGIC) + HEADER_BYTES)
+        found = scan(reader.file.view(), reader.begin)
         entries = messages_of(reader.file, found.index)
         old = _replace(Path(path), entries, "none", folder=folder, force=force)
     finally:

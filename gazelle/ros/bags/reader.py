@@ -131,6 +131,7 @@ class BagReader:
 
     Attributes:
         index: What is in it.
+        begin: Where in the file the first record after the header is.
 
     Raises:
         BagFormatError: It is no bag, or damaged.
@@ -142,6 +143,7 @@ class BagReader:
         self.path = str(path)
         self._stream: IO[bytes] = Path(path).open("rb")  # noqa: SIM115  # close() closes it
         self.file = BagFile(self._stream, self.path)
+        self.begin = 0
         try:
             self.index = self._read_index(allow_unindexed=allow_unindexed)
         except BagFormatError as error:
@@ -171,6 +173,7 @@ class BagReader:
         fields, _, after = records.read_record(view, position)
         if fields.op != records.BAG_HEADER:
             raise BagFormatError("the bag has no header")
+        self.begin = after
         if fields.text("encryptor"):
             raise BagFormatError(f"the bag is encrypted by {fields.text('encryptor')}")
         if fields.u64("index_pos") == 0:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import struct
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -45,6 +47,7 @@ class _Scanner:
                 position = self._record(position)
             except BagFormatError as error:
                 self._found.damage = error.message
+                self._salvage(position)
                 break
         self._close_chunk()
         return self._found
@@ -72,6 +75,13 @@ class _Scanner:
         if chunk.compression != compression.NONE:
             found = compression.decompress(chunk.compression, content, chunk.size)
             content = memoryview(found)
+        try:
+            self._content(content)
+        finally:
+            self._close_chunk()
+
+    def _content(self, content: memoryview) -> None:
+        """The records of a chunk."""
         place = 0
         while place < len(content):
             inner, first, after = records.read_record(content, place)
@@ -80,7 +90,16 @@ class _Scanner:
             elif inner.op == records.MESSAGE:
                 self._message(inner, place)
             place = after
-        self._close_chunk()
+
+    def _salvage(self, position: int) -> None:
+        """What is whole of a chunk that the end of the file cuts off."""
+        with contextlib.suppress(BagFormatError, struct.error):
+            (length,) = records.U32.unpack_from(self._view, position)
+            after = position + 4 + length
+            fields = records.unpack_fields(self._view[position + 4 : after])
+            if fields.op == records.CHUNK and fields.text("compression") == compression.NONE:
+                self._close_chunk()
+                self._chunk(position, fields, after + 4, len(self._view))
 
     def _loose_message(self, fields: Fields, position: int, end: int) -> None:
         """A message of a chunk that was never finished."""
