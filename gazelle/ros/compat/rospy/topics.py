@@ -178,6 +178,15 @@ class Publisher(Topic):
         except RosError as error:
             raise ROSException(str(error)) from error
 
+    @property
+    def closed(self) -> bool:
+        """Whether it can publish no more."""
+        impl = self.impl
+        if impl is None:
+            return True
+        node = process.node
+        return node is None or node.closed if impl.publisher is not None else False
+
     def publish(self, *args: Any, **kwds: Any) -> None:
         """Publish a message.
 

@@ -1,0 +1,346 @@
+"""The server of an action: takes goals, says how they stand, and what came of them."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from gazelle.ros.actions.spec import ActionTypes, goal_id, header, now
+from gazelle.ros.actions.states import FINAL, GoalStatus
+from gazelle.ros.errors import NodeClosedError
+from gazelle.ros.messages import load_message
+from gazelle.ros.time import Duration, Time
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+_LOG = logging.getLogger("gazelle.ros.actions")
+_QUEUE = 50
+_CANCELLED_BEFORE = (
+    "This goal handle was canceled by the action server because its timestamp is before the "
+    "timestamp of the last cancel request"
+)
+
+
+class ServerGoalHandle:
+    """A goal, for the server that works on it.
+
+    Attributes:
+        status: The ``GoalStatus`` message.
+        goal: The goal with its header and id; None if only a cancel request came.
+    """
+
+    def __init__(self, server: ActionServer, status: Any, goal: Any) -> None:
+        self._server = server
+        self.status = status
+        self.goal = goal
+        self.finished = 0
+        """When it ended [ns]; 0 before."""
+
+    def get_goal(self) -> Any:
+        """What is to be done; None if only a cancel request came."""
+        return None if self.goal is None else self.goal.goal
+
+    def get_goal_id(self) -> Any:
+        """The ``GoalID``."""
+        return self.status.goal_id
+
+    def get_goal_status(self) -> Any:
+        """The ``GoalStatus``."""
+        return self.status
+
+    def get_default_result(self) -> Any:
+        """An empty result."""
+        return self._server.types.result()
+
+    def set_accepted(self, text: str = "") -> bool:
+        """Work on it begins; False if it cannot."""
+        table = {
+            GoalStatus.PENDING: GoalStatus.ACTIVE,
+            GoalStatus.RECALLING: GoalStatus.PREEMPTING,
+        }
+        return self._move("an active", "pending or recalling", table, text)
+
+    def set_canceled(self, result: Any = None, text: str = "") -> bool:
+        """It was given up as asked; False if it cannot be."""
+        table = {
+            GoalStatus.PENDING: GoalStatus.RECALLED,
+            GoalStatus.RECALLING: GoalStatus.RECALLED,
+            GoalStatus.ACTIVE: GoalStatus.PREEMPTED,
+            GoalStatus.PREEMPTING: GoalStatus.PREEMPTED,
+        }
+        words = "pending, recalling, active, or preempting"
+        return self._move("a cancelled", words, table, text, result, over=True)
+
+    def set_rejected(self, result: Any = None, text: str = "") -> bool:
+        """It will not be worked on; False if work has begun."""
+        states = (GoalStatus.PENDING, GoalStatus.RECALLING)
+        table = dict.fromkeys(states, GoalStatus.REJECTED)
+        return self._move("a rejected", "pending or recalling", table, text, result, over=True)
+
+    def set_aborted(self, result: Any = None, text: str = "") -> bool:
+        """It failed; False if work had not begun."""
+        table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.ABORTED)
+        return self._move("an aborted", "preempting or active", table, text, result, over=True)
+
+    def set_succeeded(self, result: Any = None, text: str = "") -> bool:
+        """It is done; False if work had not begun."""
+        table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.SUCCEEDED)
+        return self._move("a succeeded", "preempting or active", table, text, result, over=True)
+
+    def set_cancel_requested(self) -> bool:
+        """Somebody wants it to be given up; False if it is too late."""
+        table = {
+            GoalStatus.PENDING: GoalStatus.RECALLING,
+            GoalStatus.ACTIVE: GoalStatus.PREEMPTING,
+        }
+        with self._server.lock:
+            after = table.get(self.status.status)
+            if after is None:
+                return False
+            self.status.status = after
+            self._server.publish_status()
+            return True
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Say what is going on."""
+        self._server.publish_feedback(self.status, feedback)
+
+    def _move(
+        self,
+        name: str,
+        words: str,
+        table: dict[int, int],
+        text: str,
+        result: Any = None,
+        *,
+        over: bool = False,
+    ) -> bool:
+        with self._server.lock:
+            before = self.status.status
+            after = table.get(before)
+            if after is None:
+                _LOG.error(
+                    "To transition to %s state, the goal must be in a %s state, it is currently "
+                    "in state: %d",
+                    name,
+                    words,
+                    before,
+                )
+                return False
+            self.status.status, self.status.text = after, text
+            if over:
+                self.finished = max(1, self._server.node.clock.now())
+                given = self._server.types.result() if result is None else result
+                self._server.publish_result(self.status, given)
+            else:
+                self._server.publish_status()
+            return True
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ServerGoalHandle):
+            return NotImplemented
+        return bool(self.status.goal_id.id == other.status.goal_id.id)
+
+    def __hash__(self) -> int:
+        return hash(self.status.goal_id.id)
+
+
+GoalCallback = Callable[[ServerGoalHandle], Any]
+
+
+class ActionServer:
+    """Takes goals and cancel requests.
+
+    The parameters ``NAME/status_frequency`` (5 Hz) and ``NAME/status_list_timeout`` (5 s) say how
+    often the goals are listed, and how long ended ones stay in the list.
+
+    Args:
+        node: Whose server it is.
+        name: Of the action; topics are below it.
+        spec: The message class of the action.
+        goal_cb: Called with each new goal.
+        cancel_cb: Called with each goal somebody wants given up.
+        auto_start: Start at once.
+
+    Raises:
+        ActionException: `spec` is no action.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        spec: Any,
+        goal_cb: GoalCallback | None = None,
+        cancel_cb: GoalCallback | None = None,
+        *,
+        auto_start: bool = True,
+    ) -> None:
+        self.node = node
+        self.ns = name
+        self.types = ActionTypes.of(spec)
+        self.goal_callback = goal_cb
+        self.cancel_callback = cancel_cb
+        self.lock = threading.RLock()
+        self.started = False
+        self._handles: list[ServerGoalHandle] = []
+        self._last_cancel = Time(0)
+        self._stopped = False
+        self._open()
+        if auto_start:
+            self.start()
+
+    def _open(self) -> None:
+        node, name = self.node, self.ns
+        size = int(node.get_param("actionlib_server_pub_queue_size", _QUEUE)) or None
+        self._goal_status = load_message("actionlib_msgs/GoalStatus")
+        self._status_array = load_message("actionlib_msgs/GoalStatusArray")
+        self.status_frequency = float(node.get_param(f"{name}/status_frequency", 5.0))
+        timeout = float(node.get_param(f"{name}/status_list_timeout", 5.0))
+        self.status_list_timeout = Duration.from_sec(timeout)
+        self._status = node.advertise(f"{name}/status", self._status_array, size)
+        self._result = node.advertise(f"{name}/result", self.types.action_result, size)
+        self._feedback = node.advertise(f"{name}/feedback", self.types.action_feedback, size)
+        cancel = load_message("actionlib_msgs/GoalID")
+        self._subscribers = [
+            node.subscribe(f"{name}/goal", self.types.action_goal, self._take_goal),
+            node.subscribe(f"{name}/cancel", cancel, self._take_cancel),
+        ]
+
+    def register_goal_callback(self, cb: GoalCallback | None) -> None:
+        """Call another function with each new goal."""
+        self.goal_callback = cb
+
+    def register_cancel_callback(self, cancel_cb: GoalCallback | None) -> None:
+        """Call another function with each goal to be given up."""
+        self.cancel_callback = cancel_cb
+
+    def start(self) -> None:
+        """Take goals from now on."""
+        with self.lock:
+            if self.started:
+                return
+            self.started = True
+        self._tick()
+
+    def stop(self) -> None:
+        """Take no more goals, and close the topics."""
+        self._stopped = True
+        self.started = False
+        for publisher in (self._status, self._result, self._feedback):
+            publisher.close()
+        for subscriber in self._subscribers:
+            subscriber.close()
+
+    def _tick(self) -> None:
+        if self._stopped or self.node.closed:
+            return
+        if self.status_frequency > 0:
+            period = 1.0 / self.status_frequency
+            self.node.loop.call_later(period, lambda: self.node.loop.submit(self._tick))
+        self.publish_status()
+
+    # What goes out -----------------------------------------------------------------------------
+
+    def publish_status(self) -> None:
+        """List the goals."""
+        with self.lock:
+            self._forget_old()
+            message: Any = self._status_array()
+            message.header = header(self.node)
+            message.status_list = [handle.status for handle in self._handles]
+            self._send(self._status, message)
+
+    def publish_result(self, status: Any, result: Any) -> None:
+        """Say what came of a goal."""
+        with self.lock:
+            message = self.types.action_result(
+                header=header(self.node), status=status, result=result
+            )
+            self._send(self._result, message)
+            self.publish_status()
+
+    def publish_feedback(self, status: Any, feedback: Any) -> None:
+        """Say what is going on with a goal."""
+        with self.lock:
+            message = self.types.action_feedback(
+                header=header(self.node), status=status, feedback=feedback
+            )
+            self._send(self._feedback, message)
+
+    def _send(self, publisher: Any, message: Any) -> None:
+        try:
+            publisher.publish(message)
+        except NodeClosedError:
+            self._stopped = True
+
+    def _forget_old(self) -> None:
+        limit = self.node.clock.now() - self.status_list_timeout.to_nsec()
+        self._handles = [h for h in self._handles if not h.finished or h.finished > limit]
+
+    # What comes in -----------------------------------------------------------------------------
+
+    def _find(self, name: str) -> ServerGoalHandle | None:
+        return next((h for h in self._handles if h.status.goal_id.id == name), None)
+
+    def _take_goal(self, goal: Any) -> None:
+        with self.lock:
+            if not self.started:
+                return
+            known = self._find(goal.goal_id.id) if goal.goal_id.id else None
+            if known is not None:
+                self._take_again(known)
+                return
+            status: Any = self._goal_status()
+            status.goal_id = goal.goal_id
+            if not status.goal_id.id:
+                status.goal_id = goal_id(self.node)
+            stamped = bool(goal.goal_id.stamp)
+            if not stamped:
+                status.goal_id.stamp = now(self.node)
+            handle = ServerGoalHandle(self, status, goal)
+            self._handles.append(handle)
+            if stamped and goal.goal_id.stamp <= self._last_cancel:
+                handle.set_canceled(None, _CANCELLED_BEFORE)
+                return
+        if self.goal_callback is not None:
+            self.goal_callback(handle)
+
+    def _take_again(self, handle: ServerGoalHandle) -> None:
+        """A goal whose cancel request came first, or that was sent twice."""
+        if handle.status.status == GoalStatus.RECALLING:
+            handle.status.status = GoalStatus.RECALLED
+            self.publish_result(handle.status, self.types.result())
+        if handle.status.status in FINAL:
+            handle.finished = max(1, self.node.clock.now())
+
+    def _take_cancel(self, request: Any) -> None:
+        with self.lock:
+            if not self.started:
+                return
+            everything = not request.id and not request.stamp
+            chosen = [
+                handle
+                for handle in self._handles
+                if everything
+                or handle.status.goal_id.id == request.id
+                or (request.stamp and handle.status.goal_id.stamp <= request.stamp)
+            ]
+            if request.id and self._find(request.id) is None:
+                self._remember_cancel(request)
+            self._last_cancel = max(self._last_cancel, request.stamp)
+            wanted = [handle for handle in chosen if handle.set_cancel_requested()]
+        for handle in wanted:
+            if self.cancel_callback is not None:
+                self.cancel_callback(handle)
+
+    def _remember_cancel(self, request: Any) -> None:
+        """The goal may come after its cancel request."""
+        status: Any = self._goal_status()
+        status.goal_id, status.status = request, GoalStatus.RECALLING
+        handle = ServerGoalHandle(self, status, None)
+        handle.finished = max(1, self.node.clock.now())
+        self._handles.append(handle)

@@ -1,0 +1,103 @@
+"""What an action is made of, and names for goals."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gazelle.errors import RosError
+from gazelle.ros.clock import SECOND
+from gazelle.ros.messages import load_message
+from gazelle.ros.time import Duration, Time
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
+
+_count = itertools.count(1)
+
+
+class ActionException(RosError):  # noqa: N818  # actionlib's name
+    """A class is no action."""
+
+
+@dataclass(frozen=True)
+class ActionTypes:
+    """The message classes of an action.
+
+    Attributes:
+        action_goal: Goes to the server, with header and id; so do `action_result` and
+            `action_feedback` come back.
+        goal: What is to be done.
+        result: What came of it.
+        feedback: What is going on.
+    """
+
+    action_goal: Any
+    action_result: Any
+    action_feedback: Any
+    goal: Any
+    result: Any
+    feedback: Any
+
+    @classmethod
+    def of(cls, spec: Any) -> ActionTypes:
+        """Of the message class of an action, such as ``control_msgs/FollowJointTrajectoryAction``.
+
+        Raises:
+            ActionException: The class is no action.
+        """
+        try:
+            whole = spec()
+            parts = whole.action_goal, whole.action_result, whole.action_feedback
+            inner = parts[0].goal, parts[1].result, parts[2].feedback
+        except (AttributeError, TypeError):
+            raise ActionException(f"Type is not an action spec: {spec}") from None
+        return cls(*(type(part) for part in parts), *(type(part) for part in inner))
+
+
+def now(node: Node) -> Time:
+    """The node's time."""
+    stamp = node.clock.now()
+    return Time(stamp // SECOND, stamp % SECOND)
+
+
+def goal_id(node: Node, name: str | None = None) -> Any:
+    """A ``GoalID`` nobody else has."""
+    stamp = now(node)
+    made: Any = load_message("actionlib_msgs/GoalID")()
+    made.stamp = stamp
+    made.id = f"{name or node.name}-{next(_count)}-{stamp.secs}.{stamp.nsecs}"
+    return made
+
+
+def header(node: Node) -> Any:
+    """A ``Header`` with the node's time."""
+    made: Any = load_message("std_msgs/Header")()
+    made.stamp = now(node)
+    return made
+
+
+def wait(
+    node: Node, condition: threading.Condition, done: Any, timeout: Duration | float | None
+) -> bool:
+    """Wait for something that a condition announces.
+
+    Args:
+        node: Whose time counts, and whose end ends the wait.
+        condition: Is held while `done` is called.
+        done: Whether the wait is over.
+        timeout: The longest wait, a duration or seconds; 0 or None for ever.
+
+    Returns:
+        Whether it came true.
+    """
+    limit = timeout.to_nsec() if isinstance(timeout, Duration) else int((timeout or 0) * SECOND)
+    begin = node.clock.now()
+    with condition:
+        while not done():
+            if node.closed or (limit > 0 and node.clock.now() - begin >= limit):
+                return False
+            condition.wait(0.05)
+    return True

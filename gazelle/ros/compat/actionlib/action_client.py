@@ -1,0 +1,29 @@
+"""The client of an action, in the node of this process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros import actions
+from gazelle.ros.actions.client import ClientGoalHandle
+from gazelle.ros.actions.states import CommState, TerminalState, name_of
+from gazelle.ros.compat.rospy.state import process
+
+__all__ = ["ActionClient", "ClientGoalHandle", "CommState", "TerminalState"]
+
+
+class ActionClient(actions.ActionClient):
+    """Sends goals; see `gazelle.ros.actions.ActionClient`.
+
+    Args:
+        ns: Name of the action.
+        ActionSpec: The message class of the action.
+    """
+
+    def __init__(self, ns: str, ActionSpec: Any) -> None:  # noqa: N803  # actionlib's name
+        super().__init__(process.require(), ns, ActionSpec)
+
+
+def get_name_of_constant(C: Any, n: int) -> str:  # noqa: N803  # actionlib's name
+    """The name of a state in a class of states."""
+    return name_of(C, n)

@@ -1,0 +1,5 @@
+"""Where actionlib keeps it."""
+
+from gazelle.ros.actions.spec import ActionException
+
+__all__ = ["ActionException"]

@@ -1,0 +1,23 @@
+"""A client that follows one goal, in the node of this process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros import actions
+from gazelle.ros.actions.states import SimpleGoalState
+from gazelle.ros.compat.rospy.state import process
+
+__all__ = ["SimpleActionClient", "SimpleGoalState"]
+
+
+class SimpleActionClient(actions.SimpleActionClient):
+    """Follows one goal; see `gazelle.ros.actions.SimpleActionClient`.
+
+    Args:
+        ns: Name of the action.
+        ActionSpec: The message class of the action.
+    """
+
+    def __init__(self, ns: str, ActionSpec: Any) -> None:  # noqa: N803  # actionlib's name
+        super().__init__(process.require(), ns, ActionSpec)

@@ -1,0 +1,52 @@
+"""Sends transforms on /tf, in tf's older way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gazelle.ros.compat.rospy.topics import Publisher
+from gazelle.ros.messages import load_message
+
+
+class TransformBroadcaster:
+    """Sends transforms.
+
+    Args:
+        queue_size: Messages kept for a slow listener.
+    """
+
+    def __init__(self, queue_size: int = 100) -> None:
+        self._many = load_message("tf2_msgs/TFMessage")
+        self._one = load_message("geometry_msgs/TransformStamped")
+        self.pub_tf = Publisher("/tf", self._many, queue_size=queue_size)
+
+    def sendTransform(  # noqa: N802  # tf's name
+        self,
+        translation: Sequence[float],
+        rotation: Sequence[float],
+        time: Any,
+        child: str,
+        parent: str,
+    ) -> None:
+        """Send a transform.
+
+        Args:
+            translation: Of the child in the parent [m], shape (3,).
+            rotation: (x, y, z, w).
+            time: When it holds.
+            child: Name of the frame.
+            parent: Name of the frame it is in.
+        """
+        message: Any = self._one()
+        message.header.frame_id, message.header.stamp = parent, time
+        message.child_frame_id = child
+        place, turn = message.transform.translation, message.transform.rotation
+        place.x, place.y, place.z = translation
+        turn.x, turn.y, turn.z, turn.w = rotation
+        self.sendTransformMessage(message)
+
+    def sendTransformMessage(self, transform: Any) -> None:  # noqa: N802
+        """Send a ``TransformStamped``, or a list of them."""
+        several = isinstance(transform, (list, tuple))
+        self.pub_tf.publish(self._many(transform if several else [transform]))

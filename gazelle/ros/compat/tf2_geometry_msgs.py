@@ -1,0 +1,118 @@
+"""Teaches tf2's buffers to transform the messages of geometry_msgs."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+
+from gazelle.ros.compat.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
+from gazelle.ros.messages import load_message
+from gazelle.ros.tf.rotations import Quaternion, Vector, add, matrix, multiply, rotate
+
+
+def _vector(message: Any) -> Vector:
+    return (message.x, message.y, message.z)
+
+
+def _quaternion(message: Any) -> Quaternion:
+    return (message.x, message.y, message.z, message.w)
+
+
+def _make(name: str, transform: Any) -> Any:
+    made: Any = load_message(f"geometry_msgs/{name}")()
+    made.header = deepcopy(transform.header)
+    return made
+
+
+def _turned(vector: Any, transform: Any) -> Vector:
+    return rotate(_unit(transform), _vector(vector))
+
+
+def _moved(point: Any, transform: Any) -> Vector:
+    return add(_turned(point, transform), _vector(transform.transform.translation))
+
+
+def _unit(transform: Any) -> Quaternion:
+    x, y, z, w = _quaternion(transform.transform.rotation)
+    norm = (x * x + y * y + z * z + w * w) ** 0.5 or 1.0
+    return (x / norm, y / norm, z / norm, w / norm)
+
+
+def to_msg_msg(msg: Any) -> Any:
+    """The message itself."""
+    return msg
+
+
+from_msg_msg = to_msg_msg
+
+
+def do_transform_point(point: Any, transform: Any) -> Any:
+    """A ``PointStamped`` in the target frame of a ``TransformStamped``."""
+    result = _make("PointStamped", transform)
+    result.point.x, result.point.y, result.point.z = _moved(point.point, transform)
+    return result
+
+
+def do_transform_vector3(vector3: Any, transform: Any) -> Any:
+    """A ``Vector3Stamped`` in the target frame: turned, not moved."""
+    result = _make("Vector3Stamped", transform)
+    result.vector.x, result.vector.y, result.vector.z = _turned(vector3.vector, transform)
+    return result
+
+
+def do_transform_pose(pose: Any, transform: Any) -> Any:
+    """A ``PoseStamped`` in the target frame."""
+    result = _make("PoseStamped", transform)
+    _put_pose(result.pose, pose.pose, transform)
+    return result
+
+
+def _put_pose(result: Any, pose: Any, transform: Any) -> None:
+    place, turn = result.position, result.orientation
+    place.x, place.y, place.z = _moved(pose.position, transform)
+    turn.x, turn.y, turn.z, turn.w = multiply(_unit(transform), _quaternion(pose.orientation))
+
+
+def do_transform_wrench(wrench: Any, transform: Any) -> Any:
+    """A ``WrenchStamped`` in the target frame: force and torque turned."""
+    result = _make("WrenchStamped", transform)
+    force, torque = result.wrench.force, result.wrench.torque
+    force.x, force.y, force.z = _turned(wrench.wrench.force, transform)
+    torque.x, torque.y, torque.z = _turned(wrench.wrench.torque, transform)
+    return result
+
+
+def transform_covariance(cov_in: Any, transform: Any) -> list[float]:
+    """The covariance of a pose, 36 numbers by rows, in the target frame."""
+    turn = np.kron(np.identity(2), np.array(matrix(_unit(transform))))
+    turned: list[float] = (turn @ np.reshape(cov_in, (6, 6)) @ turn.T).ravel().tolist()
+    return turned
+
+
+def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
+    """A ``PoseWithCovarianceStamped`` in the target frame."""
+    result = _make("PoseWithCovarianceStamped", transform)
+    _put_pose(result.pose.pose, pose.pose.pose, transform)
+    result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
+    return result
+
+
+def _register() -> None:
+    transforms, conversions = TransformRegistration(), ConvertRegistration()
+    doers = {
+        "PointStamped": do_transform_point,
+        "Vector3Stamped": do_transform_vector3,
+        "PoseStamped": do_transform_pose,
+        "WrenchStamped": do_transform_wrench,
+        "PoseWithCovarianceStamped": do_transform_pose_with_covariance_stamped,
+    }
+    for name, doer in doers.items():
+        kind = load_message(f"geometry_msgs/{name}")
+        transforms.add(kind, doer)
+        conversions.add_to_msg(kind, to_msg_msg)
+        conversions.add_from_msg(kind, from_msg_msg)
+
+
+_register()

@@ -1,0 +1,47 @@
+"""tf2_ros's interface on Gazelle's frames."""
+
+from gazelle.ros.compat.tf2_py import (
+    BufferCore,
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from gazelle.ros.compat.tf2_ros.buffer import Buffer
+from gazelle.ros.compat.tf2_ros.buffer_client import BufferClient
+from gazelle.ros.compat.tf2_ros.buffer_interface import (
+    BufferInterface,
+    ConvertRegistration,
+    NotImplementedException,
+    Stamped,
+    TransformRegistration,
+    TypeException,
+    convert,
+)
+from gazelle.ros.compat.tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
+from gazelle.ros.compat.tf2_ros.transform_broadcaster import TransformBroadcaster
+from gazelle.ros.compat.tf2_ros.transform_listener import TransformListener
+
+__all__ = [
+    "Buffer",
+    "BufferClient",
+    "BufferCore",
+    "BufferInterface",
+    "ConnectivityException",
+    "ConvertRegistration",
+    "ExtrapolationException",
+    "InvalidArgumentException",
+    "LookupException",
+    "NotImplementedException",
+    "Stamped",
+    "StaticTransformBroadcaster",
+    "TimeoutException",
+    "TransformBroadcaster",
+    "TransformException",
+    "TransformListener",
+    "TransformRegistration",
+    "TypeException",
+    "convert",
+]
