@@ -256,23 +256,27 @@ class Crew(ABC):
     def _run_quick(self, seat: Seat) -> bool:
         """Run the quick tasks without giving away the lead; False if it was taken."""
         me, quick = self._leader, self._quick
-        self._last_quick = time.monotonic()
+        self._last_quick = seat.started = time.monotonic()
         with self._mutex:
             if self._sentry is None:  # nobody would notice if a task blocked
                 self._tasks.extend(quick)
                 quick.clear()
                 return True
-            seat.started = time.monotonic()
             self._leader, self._inline_ident, self._inline = 0, me, seat
-        while quick and self._inline is seat:
+        task = quick.popleft()
+        while True:
+            try:
+                task()
+            except Exception as error:  # noqa: BLE001  # a task must not end its thread
+                report("a task of the event loop", error)
+            if not quick or self._inline is not seat:
+                break
             task = quick.popleft()
             seat.started = time.monotonic()
-            self._try(task)
         with self._mutex:
             kept = self._inline is seat
             if kept:
-                self._inline, self._inline_ident = None, 0
-                self._leader = me
+                self._inline, self._inline_ident, self._leader = None, 0, me
         return kept
 
     @staticmethod

@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import heapq
 import os
-import selectors
 import socket
 import threading
 import time
@@ -16,13 +15,12 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.ros import poller
 from gazelle.ros.crew import GRACE, Crew, Seat, Task
 from gazelle.ros.errors import report
+from gazelle.ros.poller import READ, WRITE, Handler
 
-READ = selectors.EVENT_READ
-WRITE = selectors.EVENT_WRITE
-
-Handler = Callable[[int], None]
+__all__ = ["READ", "WRITE", "EventLoop", "Handler", "Timer", "acquire", "give_way", "release"]
 
 
 class Timer:
@@ -43,14 +41,14 @@ class EventLoop(Crew):
 
     def __init__(self) -> None:
         super().__init__()
-        self._selector = selectors.DefaultSelector()
+        self._poller = poller.make()
         self._soon: deque[Task] = deque()
         self._timers: list[tuple[float, int, Timer]] = []
         self._timer_count = 0
         self._bell, self._button = socket.socketpair()
         self._bell.setblocking(False)
         self._button.setblocking(False)
-        self._selector.register(self._bell, READ, self._answer_bell)
+        self._poller.watch(self._bell, READ, self._answer_bell)
         self._spawn_leader()
 
     # What any thread may call ------------------------------------------------------------
@@ -106,37 +104,33 @@ class EventLoop(Crew):
 
     def watch(self, sock: socket.socket, events: int, handler: Handler) -> None:
         """Call `handler(ready)` whenever `sock` is ready for one of `events`; 0 ends it."""
-        known = sock.fileno() >= 0 and sock in self._selector.get_map()
-        if not known:
-            if events:
-                self._selector.register(sock, events, handler)
-        elif events:
-            self._selector.modify(sock, events, handler)
-        else:
-            self._selector.unregister(sock)
+        self._poller.watch(sock, events, handler)
 
     # What the leader does ----------------------------------------------------------------
 
     def _lead(self, seat: Seat) -> bool:
         """Handle sockets and timers until there is a task to run; False if deposed."""
         self._leader = threading.get_ident()
-        select = self._selector.select
+        poll, handlers = self._poller.poll, self._poller.handlers
         while not self._stopping:
             if self._quick and not self._run_quick(seat):
                 return False
             if self._tasks and self._should_step_down():
                 return True
             self._sleeping = True  # from here on others ring, so look at their wishes after it
-            ready = select(self._patience())
+            ready = poll(self._patience())
             self._sleeping = False
-            for key, events in ready:
+            for number, events in ready:
+                handler = handlers.get(number)
+                if handler is None:
+                    continue  # another handler closed it in this very round
                 try:
-                    key.data(events)
+                    handler(events)
                 except Exception as error:  # noqa: BLE001  # one socket must not end the loop
                     report("a socket's handler", error)
             if self._soon:
                 self._run_soon()
-            if self._timers:
+            if self._timers and not self._quick:
                 self._run_timers()
         return False
 
@@ -167,7 +161,7 @@ class EventLoop(Crew):
             self._button.send(b"\0")
 
     def _close(self) -> None:
-        self._selector.close()
+        self._poller.close()
         self._bell.close()
         self._button.close()
 

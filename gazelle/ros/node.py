@@ -175,6 +175,8 @@ class Node(TopicUser, ServiceUser):
             if self._closing:
                 return
             self._closing = True
+        # What re-registers must be quiet before anything is unregistered.
+        self.loop.run(self._close_calls)
         self._unregister_all()
         self.loop.run(self._close_links)
         self._server.close()
@@ -208,8 +210,11 @@ class Node(TopicUser, ServiceUser):
             for method, *params in calls:
                 self.master.call_raw(method, *params)
 
-    def _close_links(self) -> None:
+    def _close_calls(self) -> None:
         self._registrar.stop()
+        self.calls.close()
+
+    def _close_links(self) -> None:
         for subscription in self.subscriptions():
             subscription.close()
         for publication in self.publications():

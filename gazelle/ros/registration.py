@@ -23,12 +23,13 @@ class Registrar:
         self._timer: Timer | None = None
         self._stopped = False
         self._asking = False
+        self._unknown = False
         self.lost = False
         """True while the master does not answer."""
 
     def start(self) -> None:
         """Begin to watch."""
-        self._check()
+        self._schedule(_ALERT_S)
 
     def stop(self) -> None:
         """Watch no more."""
@@ -63,10 +64,24 @@ class Registrar:
             self._schedule(_ALERT_S * 2)
             return
         self.lost = False
-        self._schedule(_CALM_S)
         # Another node under our name is no reason to fight: the master told us to end.
-        if triple[0] == -1:
-            self._register_all()
+        unknown = triple[0] == -1 and self._has_registrations()
+        if unknown and not self._unknown:
+            self._schedule(_ALERT_S)  # a first registration may be under way
+        else:
+            self._schedule(_CALM_S)
+            if unknown:
+                self._register_all()
+        self._unknown = unknown
+
+    def _has_registrations(self) -> bool:
+        node = self._node
+        return bool(
+            node.publications()
+            or node.subscriptions()
+            or node.services()
+            or node.parameters.followed()
+        )
 
     def _register_all(self) -> None:
         node = self._node

@@ -68,11 +68,10 @@ class Statistics:
         self._publisher = node.advertise(TOPIC, self._class, queue_size=100)
 
     def _setting(self, name: str, least: float, most: float) -> tuple[float, float]:
-        ends = {"min": least, "max": most}
-        for end in ends:
-            key = f"/statistics_window_{end}_{name}"
-            ends[end] = float(self._node.parameters.get(key, ends[end]))
-        return ends["min"], ends["max"]
+        get = self._node.parameters.get
+        lower = float(get(f"/statistics_window_min_{name}", least))
+        upper = float(get(f"/statistics_window_max_{name}", most))
+        return lower, upper
 
     def measures(self, topic: str) -> bool:
         """False for topics that would only measure themselves."""
@@ -105,7 +104,7 @@ class Statistics:
             self._lengths[key] = length * 2
 
     def _report(self, key: tuple[str, str], window: _Window, now: int) -> Any:
-        message = self._class()
+        message: Any = self._class()
         message.topic, message.node_pub = key
         message.node_sub = self._node.name
         _set(message.window_start, window.start)

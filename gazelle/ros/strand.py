@@ -76,10 +76,10 @@ class Strand:
         begin = end = time.monotonic()
         count = 0
         while items and end - begin < self.TURN:
-            for _ in range(self.BATCH):
+            for _ in range(min(self.BATCH, len(items))):
                 try:
                     item = items.popleft()
-                except IndexError:
+                except IndexError:  # a queue that is full drops items meanwhile
                     break
                 count += 1
                 try:
@@ -87,7 +87,8 @@ class Strand:
                 except Exception as error:  # noqa: BLE001  # a callback must not end its thread
                     report(self.what, error)
             end = time.monotonic()
-        self._learn((end - begin) / max(1, count), end)
+        if end - begin > QUICK or self._doubt_until > end:
+            self._learn((end - begin) / max(1, count), end)
         with self._lock:
             if not items:
                 self._running = False

@@ -151,19 +151,20 @@ class Subscription:
 
     def receive(self, link: InboundLink, frames: list[bytes]) -> None:
         """Queue whole messages for the callbacks."""
-        items = self._strand.items
-        size = 0
-        for data in frames:
-            size += len(data)
+        strand, limit = self._strand, self.queue_size
+        if len(frames) == 1:
+            size = len(frames[0])
+            strand.post((link, frames[0], None))
+        else:
+            size = sum(map(len, frames))
+            strand.post_all([(link, data, None) for data in frames])
         link.bytes += size
-        self._strand.post_all([(link, data, None) for data in frames])
-        limit = self.queue_size
         if limit is None:
             self._received += size
             if self._received - self._handled > self.limits.receive_backlog_bytes:
                 self._pause()
         elif limit:
-            while len(items) > limit:
+            while len(strand.items) > limit:
                 link.dropped += self._drop_oldest()
 
     def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:

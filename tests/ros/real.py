@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import socket
 import subprocess
 import tempfile
@@ -60,7 +59,7 @@ def free_port():
 def stop(process):
     """End a program the polite way, then the other."""
     if process.poll() is None:
-        process.send_signal(signal.SIGINT)
+        process.terminate()
         try:
             process.wait(10)
         except subprocess.TimeoutExpired:
@@ -82,18 +81,12 @@ def master(*, core=True, port=None):
         env=environment(uri),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        preexec_fn=allow_interrupt,
     )
     try:
         wait_for_master(uri, core=core)
         yield uri
     finally:
         stop(process)
-
-
-def allow_interrupt():
-    """A shell's background jobs ignore SIGINT, and children inherit that."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def wait_for_master(uri, *, core):
@@ -121,7 +114,6 @@ class RealNode:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            preexec_fn=allow_interrupt,
         )
 
     def line(self):
@@ -133,7 +125,7 @@ class RealNode:
             assert got == wanted, got + "\n" + (self.rest() if not got else "")
 
     def rest(self):
-        self.process.send_signal(signal.SIGINT)
+        self.process.terminate()
         return self.process.stdout.read()
 
     def __enter__(self):

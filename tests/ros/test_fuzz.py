@@ -8,6 +8,7 @@ import struct
 import threading
 
 import pytest
+from ros.graph import Flag, Text, until
 
 from gazelle.ros import Master, MasterProxy
 from gazelle.ros.limits import Limits
@@ -15,7 +16,6 @@ from gazelle.ros.net import split_uri
 from gazelle.ros.tcpros import headers
 from gazelle.ros.xmlrpc.http import request
 from gazelle.ros.xmlrpc.writing import write_call
-from ros.graph import Flag, Text, until
 
 TOPIC_HEADER = {
     "callerid": "/fuzz",

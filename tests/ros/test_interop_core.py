@@ -6,11 +6,11 @@ import signal
 import time
 
 import pytest
+from ros import real
+from ros.graph import Flag, FlagResponse, Text, until
 
 from gazelle.ros import Master, MasterProxy, Node
 from gazelle.ros.errors import ServiceFailedError
-from ros import real
-from ros.graph import Flag, FlagResponse, Text, until
 
 pytestmark = [pytest.mark.ros, real.needs_ros]
 

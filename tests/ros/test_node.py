@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import struct
 import threading
 
 import pytest
+from ros.graph import Flag, Text, Word, until
 
 from gazelle.ros import Master, Node
 from gazelle.ros.errors import MasterUnreachableError, ServiceFailedError
-from ros.graph import Flag, Text, Word, until
 
 
 def test_a_message_reaches_a_subscriber_as_the_same_object(make_node):
@@ -52,7 +51,7 @@ def test_a_service_answers(make_node):
 def test_a_service_that_raises_tells_the_client(make_node):
     node = make_node("both")
     node.serve("bad", Flag, lambda request: 1 // 0)
-    with pytest.raises(ServiceFailedError, match="error processing request: .*by zero"):
+    with pytest.raises(ServiceFailedError, match=r"error processing request: .*by zero"):
         node.client("bad", Flag).call(Flag._request_class(True))
 
 

@@ -66,6 +66,8 @@ class FrameReader:
         self.received += len(data)
         if missing:
             return self._add(data)
+        if not self._rest and len(data) > 4 and LENGTH.unpack_from(data)[0] == len(data) - 4:
+            return [data[4:]]  # by far the most common case
         return self.cut(self._rest + data if self._rest else data)
 
     def cut(self, data: bytes) -> list[bytes]:

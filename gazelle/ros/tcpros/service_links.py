@@ -112,7 +112,18 @@ class ServiceConnection:
                 self._loop.call_soon(self.close)
 
     def _send(self, data: bytes) -> None:
-        rest = memoryview(data)
+        try:
+            sent = self._sock.send(data)
+        except (BlockingIOError, InterruptedError):
+            sent = 0
+        except OSError:
+            self._loop.call_soon(self.close)
+            return
+        if sent < len(data):
+            self._send_patiently(memoryview(data)[sent:])
+
+    def _send_patiently(self, rest: memoryview) -> None:
+        self._loop.give_way()
         deadline = time.monotonic() + _SEND_PATIENCE_S
         try:
             while rest and not self._closed:
