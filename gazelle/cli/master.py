@@ -37,14 +37,18 @@ def run(args: argparse.Namespace) -> int:
     from gazelle.ros import net
     from gazelle.ros.master.server import run_master
 
-    end = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: end.set())
     port = args.port
     if port is None:
         port = net.split_uri(net.default_master_uri())[1]
     host = args.host or net.default_host()
-    run_master(host, port, rosout=not args.no_rosout, ready=_announce, end=end)
+    end = threading.Event()
+    ending = (signal.SIGINT, signal.SIGTERM)
+    former = [signal.signal(number, lambda *_: end.set()) for number in ending]
+    try:
+        run_master(host, port, rosout=not args.no_rosout, ready=_announce, end=end)
+    finally:
+        for number, handler in zip(ending, former, strict=True):
+            signal.signal(number, handler)
     return 0
 
 

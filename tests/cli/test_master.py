@@ -1,0 +1,88 @@
+"""`gazelle master` answers soon, keeps to loopback, and ends without a trace."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+from gazelle.ros import MasterProxy
+from gazelle.ros.errors import RosError
+
+
+@pytest.fixture
+def start():
+    started = []
+
+    def begin(*arguments):
+        command = [sys.executable, "-m", "gazelle.cli.main", "master", *arguments]
+        started.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True))
+        return started[-1]
+
+    yield begin
+    for process in started:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+def free_port():
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        return sock.getsockname()[1]
+
+
+def test_it_answers_soon_and_ends_on_a_signal(start):
+    durations = []
+    for _ in range(3):
+        port = free_port()
+        begin = time.monotonic()
+        process = start("--port", str(port))
+        proxy = MasterProxy(f"http://127.0.0.1:{port}/", "/test")
+        while True:
+            with contextlib.suppress(RosError):
+                proxy.lookup_node("/rosout")
+                break
+            assert time.monotonic() - begin < 20
+            time.sleep(0.005)
+        durations.append(time.monotonic() - begin)
+        assert proxy.get_param("/run_id")
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(5) == 0
+        assert process.stdout.readline() == f"ROS master at http://127.0.0.1:{port}/\n"
+        proxy.close()
+    assert min(durations) < 0.6, "0.2 s on a quiet machine, with rosout"
+
+
+def test_it_listens_on_loopback_only(start):
+    process = start("--port", "0", "--no-rosout")
+    port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))
+        except OSError:
+            pytest.skip("there is no network")
+        outside = probe.getsockname()[0]
+    if outside.startswith("127."):
+        pytest.skip("there is no network")
+    socket.create_connection(("127.0.0.1", port), timeout=5).close()
+    with pytest.raises(OSError, match="refused"):
+        socket.create_connection((outside, port), timeout=5)
+
+
+def test_a_taken_port_is_one_clear_error(cli):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        code, _, err = cli("master", "--port", port, "--no-rosout")
+    assert code == 1
+    assert f"cannot listen on 127.0.0.1:{port}" in err
+    assert "hint: another master may run there" in err
+
+
+def test_a_bad_port_is_wrong_usage(cli):
+    assert cli("master", "--port", "99999")[0] == 2
