@@ -106,6 +106,8 @@ class StateAccess(ABC):
         """Where a model's frame is: it moves with the canonical link."""
         slot = self._now().model(model)
         link = self.link_placement(slot.canonical, worlds)
+        if slot.back is None:
+            return link
         offset = np.asarray(slot.offset.position), np.asarray(slot.offset.quaternion)
         position = link.position + rotate(link.quaternion, offset[0])
         return Placement(position, multiply(link.quaternion, offset[1]))
