@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -189,6 +190,7 @@ class ActionServer:
         self._handles: list[ServerGoalHandle] = []
         self._last_cancel = Time(0)
         self._stopped = False
+        self._due = time.monotonic()
         self._open()
         if auto_start:
             self.start()
@@ -239,8 +241,9 @@ class ActionServer:
         if self._stopped or self.node.closed:
             return
         if self.status_frequency > 0:
-            period = 1.0 / self.status_frequency
-            self.node.loop.call_later(period, lambda: self.node.loop.submit(self._tick))
+            self._due = max(self._due + 1.0 / self.status_frequency, time.monotonic())
+            wait = self._due - time.monotonic()
+            self.node.loop.call_later(wait, lambda: self.node.loop.submit(self._tick))
         self.publish_status()
 
     # What goes out -----------------------------------------------------------------------------

@@ -1,0 +1,121 @@
+"""rosnode's interface: nodes of the graph."""
+
+from __future__ import annotations
+
+import io
+import sys
+import threading
+from typing import Any
+
+from gazelle.ros.errors import RosError
+from gazelle.ros.tools import nodes
+from gazelle.ros.tools.graph import Graph
+
+ID = "/rosnode"
+
+
+class ROSNodeException(Exception):  # noqa: N818  # rosnode's names
+    """Root of the errors about nodes."""
+
+
+class ROSNodeIOException(ROSNodeException):
+    """The master does not answer."""
+
+
+def _graph() -> Graph:
+    return Graph("rosnode")
+
+
+def get_node_names(namespace: str | None = None) -> list[str]:
+    """Names of the nodes in a namespace.
+
+    Raises:
+        ROSNodeIOException: The master does not answer.
+    """
+    try:
+        return _graph().nodes(namespace)
+    except RosError as error:
+        raise ROSNodeIOException(str(error)) from None
+
+
+def get_api_uri(master: Any, caller_id: str, skip_cache: bool = False) -> str | None:  # noqa: FBT001, FBT002  # rosnode's interface
+    """The address of a node; None if there is none."""
+    del master
+    return _graph().node_uri(caller_id, fresh=skip_cache)
+
+
+def get_machines_by_nodes() -> list[str]:
+    """Names of the machines with nodes."""
+    return nodes.machines(_graph())
+
+
+def get_nodes_by_machine(machine: str) -> list[str]:
+    """Names of the nodes of a machine."""
+    return nodes.nodes_on(_graph(), machine)
+
+
+def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
+    """End nodes.
+
+    Returns:
+        Those that were told, and those that could not be.
+    """
+    failed = nodes.kill(_graph(), node_names)
+    return [name for name in node_names if name not in failed], failed
+
+
+def get_node_info_description(node_name: str) -> str:
+    """What a node publishes, subscribes to and offers."""
+    return nodes.node_info(_graph(), node_name, quiet=True)
+
+
+def rosnode_info(node_name: str, quiet: bool = False) -> None:  # noqa: FBT001, FBT002  # rosnode's interface
+    """Print what a node publishes, subscribes to and offers."""
+    sys.stdout.write(nodes.node_info(_graph(), node_name, quiet=quiet))
+
+
+def rosnode_ping(
+    node_name: str,
+    max_count: int | None = None,
+    verbose: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
+    skip_cache: bool = False,  # noqa: FBT001, FBT002
+) -> bool:
+    """Whether a node answers, called once a second.
+
+    Raises:
+        ROSNodeIOException: The master does not answer.
+    """
+    del skip_cache
+    out = sys.stdout if verbose else io.StringIO()
+    try:
+        return nodes.ping(
+            _graph(),
+            node_name,
+            out,
+            threading.Event(),
+            count=max_count,
+            complain=_complain,
+        )
+    except RosError as error:
+        raise ROSNodeIOException(str(error)) from None
+
+
+def rosnode_ping_all(
+    verbose: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
+    skip_cache: bool = False,  # noqa: FBT001, FBT002
+) -> tuple[list[str], list[str]]:
+    """Nodes that answer, and nodes that do not."""
+    del verbose, skip_cache
+    graph = _graph()
+    dead = nodes.dead_nodes(graph)
+    return [name for name in graph.nodes() if name not in dead], dead
+
+
+def _complain(text: str) -> None:
+    sys.stderr.write(f"ERROR: {text}\n")
+
+
+def cleanup_master_blacklist(master: Any, blacklist: list[str]) -> None:
+    """Take nodes off the master."""
+    del master
+    nodes.unregister(_graph(), blacklist)

@@ -1,0 +1,134 @@
+"""rosservice's interface: services of the graph."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.compat.rospy.exceptions import ServiceException
+from gazelle.ros.compat.rospy.guest import user
+from gazelle.ros.compat.rospy.service import ServiceProxy
+from gazelle.ros.errors import RosError
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages.yaml import fill_message_args
+from gazelle.ros.time import Time
+from gazelle.ros.tools import services
+from gazelle.ros.tools.graph import Graph
+
+
+class ROSServiceException(Exception):  # noqa: N818  # rosservice's names
+    """Root of the errors about services."""
+
+
+class ROSServiceIOException(ROSServiceException):
+    """The master or the service does not answer."""
+
+
+def _graph() -> Graph:
+    return Graph("rosservice")
+
+
+def get_service_list(
+    node: str | None = None,
+    namespace: str | None = None,
+    include_nodes: bool = False,  # noqa: FBT001, FBT002  # rosservice's interface
+) -> Any:
+    """Names of the services, of a node or in a namespace; with their nodes if asked for.
+
+    Raises:
+        ROSServiceIOException: The master does not answer.
+    """
+    try:
+        found = services.list_services(_graph(), namespace)
+    except RosError as error:
+        raise ROSServiceIOException(str(error)) from None
+    if node is not None:
+        found = [each for each in found if node in each[1]]
+    if include_nodes:
+        return [list(each) for each in found]
+    return [name for name, _ in found]
+
+
+def get_service_type(service_name: str) -> str | None:
+    """The type of a service; None if there is none."""
+    try:
+        return services.service_type(_graph(), service_name)
+    except RosError:
+        return None
+
+
+def get_service_class_by_name(service_name: str) -> Any:
+    """The class of a service's type.
+
+    Raises:
+        ROSServiceException: There is no such service, or its type is not known.
+    """
+    try:
+        return load_service(services.service_type(_graph(), service_name))
+    except RosError as error:
+        raise ROSServiceException(str(error)) from None
+
+
+def get_service_node(service_name: str) -> str | None:
+    """The node that offers a service; None if nobody does."""
+    try:
+        return services.service_node(_graph(), service_name)
+    except RosError:
+        return None
+
+
+def get_service_uri(service_name: str) -> str | None:
+    """The address of a service; None if there is none."""
+    return _graph().service_uri(_graph().resolve(service_name))
+
+
+def get_service_args(service_name: str) -> str:
+    """Names of the request's fields.
+
+    Raises:
+        ROSServiceException: There is no such service.
+    """
+    try:
+        return services.service_arguments(_graph(), service_name).strip()
+    except RosError as error:
+        raise ROSServiceException(str(error)) from None
+
+
+def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
+    """What a service answers to a probe.
+
+    Raises:
+        ROSServiceException: It does not answer.
+    """
+    del service_uri
+    try:
+        return services.probe(_graph(), service_name)
+    except RosError as error:
+        raise ROSServiceIOException(str(error)) from None
+
+
+def rosservice_find(service_type: str) -> list[str]:
+    """Services of a type."""
+    return services.services_of_type(_graph(), service_type)
+
+
+def call_service(
+    service_name: str, service_args: list[Any], service_class: Any = None
+) -> tuple[Any, Any]:
+    """Call a service with values as users write them.
+
+    Returns:
+        The request and the response.
+
+    Raises:
+        ROSServiceException: The values do not fit, or the call failed.
+    """
+    kind = service_class or get_service_class_by_name(service_name)
+    request = kind._request_class()  # noqa: SLF001  # genpy's name
+    clock = getattr(user(), "clock", None)
+    now = Time(nsecs=clock.now() if clock is not None else 0)
+    keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+    try:
+        fill_message_args(request, service_args, keys=keys)
+        return request, ServiceProxy(service_name, kind)(request)
+    except (RosError, ServiceException, ValueError) as error:
+        raise ROSServiceException(str(error)) from None
