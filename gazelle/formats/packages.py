@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,21 +14,46 @@ from gazelle.formats import xml
 MAX_DEPTH = 5
 MAX_FOLDERS = 5_000
 
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_NAME = re.compile(rb"<name>([^<]*\S[^<]*)</name>")
 _SKIPPED = {"node_modules", "__pycache__", "site-packages", "build", "install", "log", "venv"}
+
+
+Listing = tuple[set[str], list[Path]]
+"""Names of the files in a folder, and the folders in it."""
 
 
 @dataclass(slots=True)
 class Index:
-    """What a search below one folder found, by name."""
+    """What a search below one folder found.
 
-    packages: dict[str, Path] = field(default_factory=dict)
+    Attributes:
+        models: Folders of models by name.
+        package_folders: Folders of packages, whose names are read when they are asked for.
+    """
+
     models: dict[str, Path] = field(default_factory=dict)
+    package_folders: list[Path] = field(default_factory=list)
+    _packages: dict[str, Path] | None = None
+
+    @property
+    def packages(self) -> dict[str, Path]:
+        """Folders of packages by name."""
+        if self._packages is None:
+            self._packages = {}
+            for folder in self.package_folders:
+                self._packages.setdefault(package_name(folder), folder)
+        return self._packages
 
 
-def scan(root: Path) -> Index:
+def scan(root: Path, listings: dict[Path, Listing]) -> Index:
     """All packages and models up to ``MAX_DEPTH`` folders below ``root``, shallow ones first.
 
     Links to folders are not followed, so that the search ends and stays below ``root``.
+
+    Args:
+        root: Where the search begins.
+        listings: What is known of folders already; those met are added.
     """
     index = Index()
     level = [root]
@@ -38,9 +64,11 @@ def scan(root: Path) -> Index:
             seen += 1
             if seen > MAX_FOLDERS:
                 return index
-            names, folders = _list(folder)
+            if folder not in listings:
+                listings[folder] = _list(folder)
+            names, folders = listings[folder]
             if "package.xml" in names:
-                index.packages.setdefault(package_name(folder), folder)
+                index.package_folders.append(folder)
             if "model.config" in names:
                 index.models.setdefault(folder.name, folder)
             following.extend(folders)
@@ -48,7 +76,7 @@ def scan(root: Path) -> Index:
     return index
 
 
-def _list(folder: Path) -> tuple[set[str], list[Path]]:
+def _list(folder: Path) -> Listing:
     names: set[str] = set()
     folders: list[Path] = []
     try:
@@ -64,13 +92,16 @@ def _list(folder: Path) -> tuple[set[str], list[Path]]:
 
 
 def package_name(folder: Path) -> str:
-    """The name in a folder's ``package.xml``, or the folder's own where it has none."""
+    """The name in a folder's ``package.xml``, or the folder's own where it has none.
+
+    A search reads hundreds of these files, so they are not parsed.
+    """
     try:
-        root = xml.read_file(folder / "package.xml")
+        text = _COMMENT.sub(b"", xml.read_bytes(folder / "package.xml"))
     except FormatError:
         return folder.name
-    name = root.find("name")
-    return name.text if name is not None and name.text else folder.name
+    found = _NAME.search(text)
+    return folder.name if found is None else found[1].decode(errors="replace").strip()
 
 
 def exported_model_paths(package: Path) -> Iterator[Path]:

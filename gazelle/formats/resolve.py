@@ -51,6 +51,9 @@ class Resolver:
         self._environ = os.environ if environ is None else environ
         self.paths = tuple(Path(path).expanduser().absolute() for path in paths)
         self._indices: dict[Path, packages.Index] = {}
+        self._listings: dict[Path, packages.Listing] = {}
+        self._models_in: list[Path] | None = None
+        self._readable_in: list[Path] | None = None
         self._packages: dict[str, Path | None] = {}
         self._models: dict[str, Path | None] = {}
         self._around: list[Path] = []
@@ -62,6 +65,7 @@ class Resolver:
         for folder in _ancestors(file):
             if folder not in self._around:
                 self._around.append(folder)
+                self._models_in = self._readable_in = None
                 self._packages = {name: at for name, at in self._packages.items() if at}
                 self._models = {name: at for name, at in self._models.items() if at}
 
@@ -207,7 +211,7 @@ class Resolver:
 
     def _index(self, root: Path) -> packages.Index:
         if root not in self._indices:
-            self._indices[root] = packages.scan(root)
+            self._indices[root] = packages.scan(root, self._listings)
         return self._indices[root]
 
     def _split(self, variable: str) -> list[Path]:
@@ -227,20 +231,24 @@ class Resolver:
         return [*self.paths, *self._split(PACKAGE_VARIABLE), *self._around]
 
     def _model_roots(self) -> list[Path]:
-        exported = [
-            path
-            for root in (*self.paths, *self._split(PACKAGE_VARIABLE), *self._around)
-            if (root / "package.xml").is_file()
-            for path in packages.exported_model_paths(root)
-        ]
-        return [*self.paths, *self._variable_roots, *exported, *self._around]
+        if self._models_in is None:
+            exported = [
+                path
+                for root in self._package_roots()
+                if (root / "package.xml").is_file()
+                for path in packages.exported_model_paths(root)
+            ]
+            self._models_in = [*self.paths, *self._variable_roots, *exported, *self._around]
+        return self._models_in
 
     def _given_roots(self) -> list[Path]:
         return [*self.paths, *self._split(PACKAGE_VARIABLE)]
 
     def _readable_roots(self) -> list[Path]:
-        roots = [*self._model_roots(), *self._split(PACKAGE_VARIABLE), self.assets]
-        return [root.resolve() for root in roots]
+        if self._readable_in is None:
+            roots = [*self._model_roots(), *self._split(PACKAGE_VARIABLE), self.assets]
+            self._readable_in = [root.resolve() for root in roots]
+        return self._readable_in
 
 
 def _plain_name(name: str) -> bool:

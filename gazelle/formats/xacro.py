@@ -23,12 +23,24 @@ from xacro import substitution_args
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
-from gazelle.formats import xml
+from gazelle.formats import expressions, xml
 from gazelle.formats.reading import Reading
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
 _PREFIX = "xacro:"
 _NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "xacro")
+
+
+MAX_MADE = 40_000
+
+
+class _Made(threading.local):
+    """How many elements macros have made in the expansion that is going on."""
+
+    count = 0
+
+
+_made = _Made()
 
 
 class PlacedElement(dom.Element):
@@ -37,10 +49,23 @@ class PlacedElement(dom.Element):
     place: tuple[str, int] | None = None
 
     def cloneNode(self, deep: bool) -> Any:  # noqa: N802, FBT001  # the name is the DOM's
-        """A copy with the same places."""
+        """A copy with the same places.
+
+        Raises:
+            FormatError: Macros have made more than ``MAX_MADE`` elements.
+        """
+        if deep:
+            _count_made(self)
         copy = super().cloneNode(deep)
         _copy_places(self, copy)
         return copy
+
+
+def _count_made(node: Any) -> None:
+    """Count the elements below a node that is copied, of all copies in this expansion."""
+    _made.count += 1 + len(node.getElementsByTagName("*"))
+    if _made.count > MAX_MADE:
+        raise FormatError(f"the macros make more than {MAX_MADE} elements")
 
 
 def _copy_places(source: Any, target: Any) -> None:
@@ -76,6 +101,7 @@ def expand_text(text: str | bytes, name: str, reading: Reading) -> Parameters:
 def _run(name: str, data: bytes, reading: Reading) -> Parameters:
     with _LOCK, _patched(reading) as said:
         engine.init_stacks(name)
+        _made.count = 0
         try:
             document = _parse(data, name)
             engine.process_doc(document, mappings=dict(reading.xacro_args))
@@ -141,18 +167,38 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         return builtins.open(_checked(filename), encoding="utf-8")  # noqa: PTH123
 
     said = io.StringIO()
-    package: Any = engine
-    old = (package.parse, substitution_args._eval_find, substitution_args._eval_dict["find"])  # noqa: SLF001
-    package.parse, package.open = parse, guarded_open
-    substitution_args._eval_find = find  # noqa: SLF001  # the package has no other way
-    substitution_args._eval_dict["find"] = find  # noqa: SLF001
+    symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
+    bounded = {"range": expressions.bounded_range}
+    with contextlib.ExitStack() as stack:
+        for names, values in (
+            (vars(engine), {"parse": parse, "open": guarded_open}),
+            (vars(engine), {"safe_eval": expressions.evaluate}),
+            (vars(substitution_args), {"_eval_find": find, "eval": expressions.evaluate_plain}),
+            (substitution_args._eval_dict, {"find": find}),  # noqa: SLF001
+            (symbols, bounded),
+            (symbols["python"], bounded),
+        ):
+            stack.enter_context(_replaced(names, values))
+        stack.enter_context(contextlib.redirect_stderr(said))
+        yield said
+
+
+_MISSING = object()
+
+
+@contextlib.contextmanager
+def _replaced(names: dict[str, Any], values: dict[str, Any]) -> Iterator[None]:
+    """Other values in a namespace for a while."""
+    before = {name: names.get(name, _MISSING) for name in values}
+    names.update(values)
     try:
-        with contextlib.redirect_stderr(said):
-            yield said
+        yield
     finally:
-        package.parse, substitution_args._eval_find = old[:2]  # noqa: SLF001
-        substitution_args._eval_dict["find"] = old[2]  # noqa: SLF001
-        del package.open
+        for name, value in before.items():
+            if value is _MISSING:
+                del names[name]
+            else:
+                names[name] = value
 
 
 def _explain(error: Exception, name: str) -> FormatError:

@@ -1,0 +1,198 @@
+"""Python expressions in xacro files, kept from running away and from the machine.
+
+xacro evaluates what stands in ``${}`` as Python. Here names that lead out of the values of
+the file are refused, and an expression that would take long or much memory is stopped.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+from gazelle.errors import FormatError
+
+MAX_LENGTH = 100_000
+MAX_BITS = 10_000
+MAX_STEPS = 200_000
+MAX_WIDTH = 1_000
+
+_LEADS_OUT = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "func_")
+_RUNS_AWAY = {"comb", "factorial", "lcm", "perm"}
+_PADS = {"center", "expandtabs", "ljust", "rjust", "zfill"}
+_LOOPS = (ast.GeneratorExp, ast.ListComp, ast.SetComp, ast.DictComp, ast.Lambda)
+
+
+def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None = None) -> Any:
+    """The value of an expression.
+
+    Args:
+        text: Python.
+        symbols: Values by name.
+        local: Values that go before those.
+
+    Raises:
+        FormatError: It names what it may not, or takes too long or too much memory.
+    """
+    try:
+        tree = ast.parse(text.strip(), "<expression>", "eval")
+    except (MemoryError, RecursionError):
+        raise FormatError("the expression is nested too deep") from None
+    loops = any(isinstance(node, _LOOPS) for node in ast.walk(tree))
+    code = compile(ast.fix_missing_locations(_Guard().visit(tree)), "<expression>", "eval")
+    symbols.update(__builtins__=_OPERATIONS)
+    if not loops:
+        return eval(code, symbols, local)  # noqa: S307  # what a file may say is checked above
+    with _counted():
+        return eval(code, symbols, local)  # noqa: S307
+
+
+def evaluate_plain(text: str, _: dict[str, Any], local: Mapping[str, Any]) -> Any:
+    """The value of a ``$(eval)``, which may use some of Python's own functions.
+
+    Raises:
+        FormatError: As ``evaluate``.
+    """
+    return evaluate(text, dict(_BUILTINS), local)
+
+
+class _Guard(ast.NodeTransformer):
+    """Refuses names, and puts checked functions in the place of dear operations."""
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """Check a name."""
+        _check_name(node.id)
+        return node
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        """Check an attribute."""
+        _check_name(node.attr)
+        return self.generic_visit(node)
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """Check powers, products and shifts when they are computed."""
+        self.generic_visit(node)
+        name = _CHECKED.get(type(node.op))
+        return node if name is None else _call(name, node.left, node.right)
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Check how wide text is padded."""
+        self.generic_visit(node)
+        pads = isinstance(node.func, ast.Attribute) and node.func.attr in _PADS
+        if pads:
+            node.args = [_call("_width", argument) for argument in node.args]
+        return node
+
+
+def _check_name(name: str) -> None:
+    if name.startswith(_LEADS_OUT) or name in _RUNS_AWAY:
+        raise FormatError(f"the name '{name}' may not be used in an expression")
+
+
+def _call(name: str, *arguments: ast.expr) -> ast.Call:
+    return ast.Call(ast.Name(name, ast.Load()), list(arguments), [])
+
+
+def _bits(value: object) -> int:
+    return value.bit_length() if isinstance(value, int) else 0
+
+
+def _power(base: Any, exponent: Any) -> Any:
+    if isinstance(exponent, int) and _bits(base) * abs(exponent) > MAX_BITS:
+        raise FormatError("the expression makes a number of too many digits")
+    return base**exponent
+
+
+def _product(left: Any, right: Any) -> Any:
+    for one, other in ((left, right), (right, left)):
+        if isinstance(one, str | list | tuple | bytes) and isinstance(other, int):
+            _check_length(len(one) * other)
+    if _bits(left) + _bits(right) > MAX_BITS:
+        raise FormatError("the expression makes a number of too many digits")
+    return left * right
+
+
+def _shift(value: Any, places: Any) -> Any:
+    if isinstance(places, int) and _bits(value) + places > MAX_BITS:
+        raise FormatError("the expression makes a number of too many digits")
+    return value << places
+
+
+def _width(value: Any) -> Any:
+    if isinstance(value, int) and value > MAX_WIDTH:
+        raise FormatError(f"text may be padded to {MAX_WIDTH} characters at most")
+    return value
+
+
+def _check_length(length: int) -> None:
+    if length > MAX_LENGTH:
+        raise FormatError(f"the expression makes more than {MAX_LENGTH} items")
+
+
+def bounded_range(*arguments: int) -> range:
+    """``range`` of at most ``MAX_LENGTH`` numbers.
+
+    Raises:
+        FormatError: It is longer.
+    """
+    found = range(*arguments)
+    _check_length(MAX_LENGTH + 1 if found[MAX_LENGTH:] else 0)
+    return found
+
+
+@contextmanager
+def _counted() -> Iterator[None]:
+    """Stop after ``MAX_STEPS`` lines and calls of Python."""
+    left = MAX_STEPS
+
+    def step(_: FrameType, __: str, ___: Any) -> Callable[..., Any]:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise FormatError("the expression takes too long")
+        return step
+
+    before = sys.gettrace()
+    sys.settrace(step)
+    try:
+        yield
+    finally:
+        sys.settrace(before)
+
+
+_CHECKED: dict[type[ast.operator], str] = {
+    ast.LShift: "_shift",
+    ast.Mult: "_product",
+    ast.Pow: "_power",
+}
+_OPERATIONS = {"_power": _power, "_product": _product, "_shift": _shift, "_width": _width}
+
+_BUILTINS: dict[str, Any] = {
+    function.__name__: function
+    for function in (
+        abs,
+        all,
+        any,
+        bool,
+        dict,
+        divmod,
+        enumerate,
+        float,
+        int,
+        len,
+        list,
+        map,
+        max,
+        min,
+        round,
+        set,
+        sorted,
+        str,
+        sum,
+        tuple,
+        zip,
+    )
+} | {"range": bounded_range}
