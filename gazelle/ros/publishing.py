@@ -31,6 +31,8 @@ class LocalLink:
         self.peer = subscription.node.name
         self.header = publication.reply_header()
         self.messages = 0
+        self.latched: Any = None
+        """The last message, if the topic is latched."""
         self.number = 0
         """Identity in bus info."""
         self.waits = publication.queue_size is None

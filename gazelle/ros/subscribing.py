@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -108,6 +109,11 @@ class Subscription:
         self.subscribers = (*self.subscribers, subscriber)
         self.tcp_nodelay |= tcp_nodelay
         self._measure_queue()
+        links: list[InboundLink | LocalLink] = [*self.links.values(), *self.local.values()]
+        for link in links:
+            if link.latched is not None:
+                call = functools.partial(self._call, subscriber, link.latched)
+                self._loop.submit(call)
 
     def remove(self, subscriber: Subscriber) -> None:
         """One callback less."""
@@ -215,11 +221,16 @@ class Subscription:
             message._connection_header = link.header  # noqa: SLF001  # genpy's name
         if self._statistics is not None:
             self._statistics.take(self.topic, link, message, 0 if data is None else len(data))
+        if link.header.get("latching") == "1":
+            link.latched = message  # for subscribers that are added later
         for subscriber in self.subscribers:
-            try:
-                subscriber.callback(message)
-            except Exception as error:  # noqa: BLE001  # a callback must not end its thread
-                report(f"bad callback of {self.topic}", error)
+            self._call(subscriber, message)
+
+    def _call(self, subscriber: Subscriber, message: Any) -> None:
+        try:
+            subscriber.callback(message)
+        except Exception as error:  # noqa: BLE001  # a callback must not end its thread
+            report(f"bad callback of {self.topic}", error)
 
     def _pause(self) -> None:
         self._paused = True

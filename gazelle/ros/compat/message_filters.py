@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.ros.compat.rospy.logs import logwarn_throttle
-from gazelle.ros.compat.rospy.rostime import get_rostime
+from gazelle.ros.compat.rospy.rostime import get_rostime, is_wallclock
 from gazelle.ros.compat.rospy.topics import Subscriber as TopicSubscriber
 from gazelle.ros.time import Duration, Time
 
@@ -162,14 +162,13 @@ class TimeSynchronizer(SimpleFilter):
         super().__init__()
         self.queue_size = queue_size
         self.enable_reset = reset
-        self.latest_stamps: list[Time] = []
+        self._last_time = Time(0)
         self.lock = threading.Lock()
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802
         """Match the messages of other filters."""
         self.queues: list[Queue] = [{} for _ in fs]
-        self.latest_stamps = [Time(0)] * len(fs)
         self.input_connections = [
             f.registerCallback(self.add, queue, place)
             for place, (f, queue) in enumerate(zip(fs, self.queues, strict=True))
@@ -177,18 +176,28 @@ class TimeSynchronizer(SimpleFilter):
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Take a message of a filter."""
+        del my_queue_index
         with self.lock:
-            self._keep(msg, msg.header.stamp, my_queue, my_queue_index)
+            if self.enable_reset:
+                self._forget_after_jump()
+            self._keep(msg, msg.header.stamp, my_queue)
             common = set(self.queues[0]).intersection(*self.queues[1:])
             for stamp in sorted(common):
                 self.signalMessage(*(queue.pop(stamp) for queue in self.queues))
 
-    def _keep(self, msg: Any, stamp: Time, queue: Queue, place: int | None) -> None:
-        if self.enable_reset and place is not None:
-            if stamp < self.latest_stamps[place]:
-                for each in self.queues:
-                    each.clear()
-            self.latest_stamps[place] = stamp
+    def _forget_after_jump(self) -> bool:
+        """Forget what waits if simulated time jumped back; whether it did."""
+        if is_wallclock():
+            return False
+        now = get_rostime()
+        jumped = now < self._last_time
+        self._last_time = now
+        if jumped:
+            for queue in self.queues:
+                queue.clear()
+        return jumped
+
+    def _keep(self, msg: Any, stamp: Time, queue: Queue) -> None:
         queue[stamp] = msg
         while len(queue) > self.queue_size:
             del queue[min(queue)]
@@ -218,12 +227,15 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of a filter."""
+        """Take a message of a filter; the first after time jumped back is left out."""
+        del my_queue_index
         stamp = _stamp(msg, headerless=self.allow_headerless)
         if stamp is None:
             return
         with self.lock:
-            self._keep(msg, stamp, my_queue, my_queue_index)
+            if self._forget_after_jump():
+                return
+            self._keep(msg, stamp, my_queue)
             choices = []
             for queue in self.queues:
                 near = [stamp] if queue is my_queue else self._near(queue, stamp)

@@ -62,6 +62,8 @@ class InboundLink:
         self.closed = False
         self.up = False
         self.messages = 0
+        self.latched: Any = None
+        """The last message, if the topic is latched."""
         self.bytes = 0
         self.dropped = 0
         self.number = 0
@@ -231,6 +233,7 @@ class InboundLink:
             self._loop.watch(self._sock, 0, self._ready)
             self._sock.close()
             self._sock = None
+        self.latched = None
         if self.up:
             self.up = False
             self._receiver.disconnected(self)

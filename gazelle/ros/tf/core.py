@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import math
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -40,6 +41,7 @@ _LOG = logging.getLogger("gazelle.ros.tf")
 _NORM_TOLERANCE = 10e-3
 _MAX_DEPTH = 1000
 _FOREVER = 1 << 62
+_QUIET_S = 10.0
 DEFAULT_CACHE_NS = 10_000_000_000
 """How long placements are kept, unless told otherwise [ns]."""
 
@@ -71,6 +73,7 @@ class FrameTree:
         self._caches: dict[str, Cache | None] = {}
         self._authorities: dict[str, str] = {}
         self._lock = threading.RLock()
+        self._quiet_until: dict[tuple[str, str], float] = {}
         self._changed: list[Callable[[], None]] = []
 
     # Filling -----------------------------------------------------------------------------
@@ -116,18 +119,21 @@ class FrameTree:
             if not refusal:
                 self._authorities[child] = authority
         if refusal:
-            when = stamp * 1e-9
-            _LOG.warning(
-                "%s for frame %s at time %f according to authority %s",
-                refusal,
-                child,
-                when,
-                authority,
-            )
+            self._complain(refusal, child, stamp, authority)
             return False
         for callback in self._changed:
             callback()
         return True
+
+    def _complain(self, refusal: str, child: str, stamp: int, authority: str) -> None:
+        """Log a refusal, but not the same again and again."""
+        now = time.monotonic()
+        key = child, refusal
+        if now < self._quiet_until.get(key, 0.0):
+            return
+        self._quiet_until[key] = now + _QUIET_S
+        text = "%s for frame %s at time %f according to authority %s"
+        _LOG.warning(text, refusal, child, stamp * 1e-9, authority)
 
     def clear(self) -> None:
         """Forget all placements but static ones; the frames stay known."""

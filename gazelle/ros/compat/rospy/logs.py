@@ -11,7 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.ros.compat.rospy import names
-from gazelle.ros.compat.rospy.rostime import Time, get_rostime, get_time, is_wallclock
+from gazelle.ros.compat.rospy.rostime import (
+    Time,
+    get_rostime,
+    get_time,
+    is_rostime_initialized,
+    is_wallclock,
+)
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.messages import load_message
 
@@ -37,11 +43,21 @@ def level_of(record: logging.LogRecord) -> int:
 
 
 class ScreenHandler(logging.Handler):
-    """Writes to the screen in the form of ROSCONSOLE_FORMAT; warnings and worse to stderr."""
+    """Writes to the screen in the form of ROSCONSOLE_FORMAT; warnings and worse to stderr.
+
+    Args:
+        file: Gets all records, too.
+    """
+
+    def __init__(self, file: logging.Handler | None = None) -> None:
+        super().__init__()
+        self._file = file
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a record."""
         try:
+            if self._file is not None:
+                self._file.emit(record)
             severity = _NAMES.get(record.levelno, record.levelname)
             stream = sys.stderr if record.levelno >= logging.WARNING else sys.stdout
             if stream is None:
@@ -118,18 +134,23 @@ def start_screen(level: int | None) -> None:
     logger.setLevel(LEVELS.get(level or INFO, logging.INFO))
     logger.propagate = False
     if not any(isinstance(handler, ScreenHandler) for handler in logger.handlers):
-        logger.addHandler(ScreenHandler())
-        logging.getLogger("gazelle.ros").addHandler(ScreenHandler())
-    file = _log_file()
-    if file is not None:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        handler = logging.FileHandler(file, encoding="utf-8", delay=True)
-        line = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
-        handler.setFormatter(logging.Formatter(line))
-        logger.addHandler(handler)
+        screen = ScreenHandler(_file_handler())
+        logger.addHandler(screen)
+        logging.getLogger("gazelle.ros").addHandler(screen)
 
 
-def _log_file() -> Path | None:
+def _file_handler() -> logging.Handler | None:
+    path = _log_path()
+    if path is None:
+        return None
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handler = logging.FileHandler(path, encoding="utf-8", delay=True)
+    line = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
+    handler.setFormatter(logging.Formatter(line))
+    return handler
+
+
+def _log_path() -> Path | None:
     named = names.get_mappings().get("__log")
     if named:
         return Path(named)
@@ -178,7 +199,7 @@ def _caller() -> Any:
 
 def _due(site: Any, period: float) -> bool:
     """Whether the period since the last time at this place is over."""
-    now = get_rostime()
+    now = get_rostime() if is_rostime_initialized() else Time.from_sec(time.time())
     before = _when.get(site)
     # After a jump back of simulated time, the count begins anew.
     if before is not None and before <= now and (now - before).to_sec() < period:
@@ -215,9 +236,10 @@ def _family(level: int) -> tuple[Log, Log, Log, Log]:
 
     def identical(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
         site, text = _caller(), str(msg)
-        if _last.get(site) != text or _due(site, period):
-            if _last.get(site) != text:
-                _when[site] = get_rostime()
+        changed = _last.get(site) != text
+        if changed:
+            _when.pop(site, None)
+        if _due(site, period) or changed:
             _last[site] = text
             _write(level, msg, args, kwargs)
 

@@ -7,7 +7,7 @@ import time
 from typing import Self
 
 from gazelle.ros import time as values
-from gazelle.ros.clock import SECOND, SimulatedClock
+from gazelle.ros.clock import SECOND, Clock, SimulatedClock, WallClock
 from gazelle.ros.compat.rospy.state import process
 
 
@@ -64,19 +64,24 @@ def get_time() -> float:
 
 def is_wallclock() -> bool:
     """Whether the node goes by the time of the machine."""
-    return process.node is None or not process.node.clock.simulated
+    if process.node is None and process.own_clock is None:
+        return True
+    return not process.clock.simulated
 
 
 def is_rostime_initialized() -> bool:
     """Whether there is a time."""
-    return process.node is not None
+    return process.node is not None or process.own_clock is not None
+
+
+def set_rostime_initialized(val: bool) -> None:  # noqa: FBT001  # rospy's interface
+    """Say whether there is a time without a node; if so, it is the machine's."""
+    process.own_clock = WallClock() if val else None
 
 
 def switch_to_wallclock() -> None:
     """Go by the time of the machine from now on."""
-    from gazelle.ros.clock import WallClock
-
-    process.require().clock = WallClock()
+    _set_clock(WallClock())
 
 
 def wallsleep(duration: float) -> None:
@@ -86,10 +91,17 @@ def wallsleep(duration: float) -> None:
 
 def _set_rostime(moment: values.Time) -> None:
     """Set simulated time by hand."""
-    node = process.require()
-    if not isinstance(node.clock, SimulatedClock):
-        node.clock = SimulatedClock()
-    node.clock.set(moment.to_nsec())
+    known = process.own_clock if process.node is None else process.node.clock
+    clock = known if isinstance(known, SimulatedClock) else SimulatedClock()
+    clock.set(moment.to_nsec())
+    _set_clock(clock)
+
+
+def _set_clock(clock: Clock) -> None:
+    if process.node is None:
+        process.own_clock = clock
+    else:
+        process.node.clock = clock
 
 
 def get_rostime_cond() -> threading.Condition:

@@ -26,12 +26,14 @@ class Process:
 
     Attributes:
         node: The node; None before `init_node`.
+        own_clock: What time it is without a node; None if that is not known.
         shutdown: Set as soon as the node is to end.
         ready: Set while the node runs.
     """
 
     def __init__(self) -> None:
         self.node: Node | None = None
+        self.own_clock: Clock | None = None
         self.shutdown = threading.Event()
         self.ready = threading.Event()
         self.waiting: list[Callable[[], None]] = []
@@ -60,6 +62,8 @@ class Process:
         Raises:
             ROSInitException: There is no node yet.
         """
+        if self.node is None and self.own_clock is not None:
+            return self.own_clock
         if self.node is None:
             raise ROSInitException("time is not initialized. Have you called init_node()?")
         return self.node.clock

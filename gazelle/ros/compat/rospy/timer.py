@@ -14,7 +14,7 @@ from gazelle.ros.compat.rospy.exceptions import (
     ROSInterruptException,
     ROSTimeMovedBackwardsException,
 )
-from gazelle.ros.compat.rospy.rostime import Duration, Time, get_rostime
+from gazelle.ros.compat.rospy.rostime import Duration, Time, get_rostime, is_rostime_initialized
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.errors import TimeMovedBackwardsError
 
@@ -30,7 +30,7 @@ def sleep(duration: values.Duration | float) -> None:
         ROSTimeMovedBackwardsException: Simulated time jumped back.
     """
     length = duration if isinstance(duration, values.Duration) else Duration.from_sec(duration)
-    clock = WallClock() if process.node is None else process.node.clock
+    clock = process.clock if is_rostime_initialized() else WallClock()
     try:
         awake = clock.sleep(length.to_nsec(), process.shutdown.is_set)
     except TimeMovedBackwardsError as error:

@@ -97,6 +97,7 @@ class Transformer:
             TransformException: It does not come in time.
         """
         del polling_sleep_duration
+        self._check_thread()
         target, source = strip_leading_slash(target_frame), strip_leading_slash(source_frame)
         _demand(self._buffer.can_transform(target, source, time, timeout, True), target, source)
 
@@ -116,11 +117,19 @@ class Transformer:
             TransformException: It does not come in time.
         """
         del polling_sleep_duration
+        self._check_thread()
         names = [strip_leading_slash(name) for name in (target_frame, source_frame, fixed_frame)]
         answer = self._buffer.can_transform_full(
             names[0], target_time, names[1], source_time, names[2], timeout, True
         )
         _demand(answer, names[0], names[1])
+
+    def _check_thread(self) -> None:
+        if not self._using_dedicated_thread:
+            raise TransformException(
+                "cannot wait for transform without a dedicated thread that listens to incoming TF "
+                "messages"
+            )
 
     def chain(
         self,
@@ -140,12 +149,12 @@ class Transformer:
         self._buffer.clear()
 
     def frameExists(self, frame_id: str) -> bool:
-        """Whether anything was ever said of a frame."""
-        return self._buffer.tree.has(strip_leading_slash(frame_id))
+        """Whether a frame has a parent."""
+        return strip_leading_slash(frame_id) in self.getFrameStrings()
 
     def getFrameStrings(self) -> list[str]:
-        """All frames."""
-        return self._buffer.tree.names()
+        """All frames that have a parent."""
+        return [name for name, _, cache in self._buffer.tree.known() if cache.latest()]
 
     def getLatestCommonTime(self, source_frame: str, dest_frame: str) -> Time:
         """The latest time at which both frames are known.
@@ -238,7 +247,7 @@ class Transformer:
         )
 
     def setUsingDedicatedThread(self, value: bool) -> None:
-        """Accepted, and not needed."""
+        """Say that transforms come while one waits for them."""
         self._using_dedicated_thread = value
 
     def getTFPrefix(self) -> str:
