@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 import scenes
 
+from gazelle import assets
+from gazelle.engines import make_engine
+from gazelle.formats import load
 from gazelle.simulation import Simulation
 
 
@@ -43,3 +46,21 @@ def test_ten_turns_on_the_spot(step, error):
     moved, turned = drive(step, 0.0, rate, (20 * np.pi + ramp) / rate)
     assert turned == pytest.approx(20 * np.pi, rel=error)
     assert np.linalg.norm(moved[:2]) < 0.05
+
+
+@pytest.mark.parametrize(("name", "separation"), [("burger", 0.16), ("waffle", 0.287)])
+@pytest.mark.parametrize("step", [0.0005, 0.001, 0.004])
+def test_a_robot_from_its_files_turns_as_its_wheels_say_at_every_step(name, separation, step):
+    # The files give the wheels a stiffness, which is felt by the waffle from 1 ms down.
+    robot = load(assets.robot(f"turtlebot3_{name}")).models[0]
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), robot, step=step))
+    for side, speed in (("left", 6.0), ("right", 4.0)):
+        joint = f"{robot.name}::wheel_{side}_joint"
+        engine.add_motor(joint, 10.0)
+        engine.set_motor_velocity(joint, speed)
+    engine.step(round(1.0 / step))
+    before = engine.model_placement(robot.name).quaternion[0]
+    engine.step(round(2.0 / step))
+    after = engine.model_placement(robot.name).quaternion[0]
+    turned = 2.0 * (np.arctan2(after[2], after[3]) - np.arctan2(before[2], before[3]))
+    assert turned == pytest.approx(2.0 * (4.0 - 6.0) * 0.033 / separation, rel=0.02)

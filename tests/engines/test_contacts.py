@@ -102,6 +102,25 @@ def test_a_springy_body_swings_at_its_frequency():
     assert period == pytest.approx(2 * math.pi * math.sqrt(mass / kp), rel=0.05)
 
 
+@pytest.mark.parametrize("mu", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize(("kp", "kd", "step"), [(2000.0, 90.0, 0.001), (5e5, 10.0, 0.00025)])
+def test_friction_on_a_spring_is_as_rigid_as_elsewhere(kp, kd, step, mu):
+    soft = Surface(Friction(mu, mu), Contact(kp=kp, kd=kd))
+    block = with_surface(scenes.box(size=(0.4, 0.4, 0.1), pose=Pose(z=0.05)), soft)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), block, step=step))
+    engine.step(round(0.5 / step))
+    start = engine.model_placement("box").position[0, 0]
+    engine.set_link_wrench("box::link", (0.8 * mu * G, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.step(round(0.5 / step))
+    held = engine.model_placement("box").position[0, 0]
+    assert held - start < 0.002
+    engine.set_link_wrench("box::link", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.set_model_motion("box", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.step(round(1.5 / step))
+    slid = engine.model_placement("box").position[0, 0] - held
+    assert slid == pytest.approx(1.0 / (2.0 * mu * G), rel=0.03)
+
+
 def test_stiffness_of_files_like_turtlebot3_is_as_good_as_rigid():
     stiff = Surface(Friction(0.1, 0.1), Contact(kp=500000.0, kd=10.0))
     ball = with_surface(scenes.ball(pose=Pose(z=0.1)), stiff)

@@ -33,6 +33,10 @@ VISUAL_GROUP = 1
 # How many times the inertia that a motor moves is added to its axle; see ``Motor``.
 _ARMATURE_FACTOR = 10.0
 
+# How many times stiffer friction is than the springs across it, where there are springs. In
+# ODE they do not soften it at all; with ten, what it holds creeps by some mm/s at most.
+_SPRING_IMPEDANCE_RATIO = 10.0
+
 
 @dataclass(frozen=True, slots=True)
 class Motor:
@@ -155,6 +159,10 @@ def draft_world(recipe: Recipe) -> Draft:
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     springs = add_pairs(spec, builder.solids, recipe.time_step)
+    if springs:
+        # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more.
+        spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     return Draft(spec, builder.shapes, bodies, builder.geoms, springs)
 
 

@@ -1,0 +1,234 @@
+"""The ten scenes: what moves, what is compared, how close the engines are and why not closer."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import scenes
+from second_engine import mechanisms
+from second_engine.comparing import Measure, Scene
+
+from gazelle import assets
+from gazelle.description import Pose
+from gazelle.formats import load
+
+STILL = (0.0, 0.0, 0.0)
+
+SAME = "the same integrator; what is left is rounding"
+DAMPING = "damping is implicit here and explicit in Bullet: an error of first order in the step"
+PIVOT = "both are 2 mrad off the limit of small steps at 1 ms, not in quite the same way"
+LOOP = "how far the loop opens, with the square of the step: 0.15 mm here, 0.12 mm in Bullet"
+HOP = "what is thrown into a slide hops here, and stays down in Bullet (see below)"
+IMPACT = "when in a step an impact falls, and how soft it is"
+CREEP = "friction that holds creeps a little, in both"
+RIM = "sliding contacts: the wheels slip for the first 0.2 s, the caster all the way"
+LIMIT = "the stop of a joint is a spring of five steps here, rigid in Bullet"
+
+
+def joints(*names: str):
+    """Reads joint positions."""
+    return lambda engine: [float(engine.joint_position(f"m::{n}")[0, 0]) for n in names]
+
+
+def places(link: str, *axes: int):
+    """Reads coordinates of a link's origin."""
+    return lambda engine: [float(engine.link_placement(link).position[0, a]) for a in axes]
+
+
+def tilt(link: str):
+    """Reads the angle between a link's z axis and up."""
+
+    def read(engine: Any) -> list[float]:
+        pose = Pose.from_quaternion((0, 0, 0), engine.link_placement(link).quaternion[0])
+        x, y, z = pose.rotate((0.0, 0.0, 1.0))
+        return [math.atan2(math.hypot(x, y), z)]
+
+    return read
+
+
+def heading(link: str):
+    """Reads the direction of a link's x axis as a point on a circle, which has no jumps."""
+
+    def read(engine: Any) -> list[float]:
+        pose = Pose.from_quaternion((0, 0, 0), engine.link_placement(link).quaternion[0])
+        x, y, _ = pose.rotate((1.0, 0.0, 0.0))
+        return [x, y]
+
+    return read
+
+
+def spin(link: str):
+    """Reads the angular velocity about y."""
+    return lambda engine: [float(engine.link_motion(link).angular[0, 1])]
+
+
+def set_joints(**angles: float):
+    """Starts at joint positions."""
+
+    def start(engine: Any) -> None:
+        for name, angle in angles.items():
+            engine.set_joint_position(f"m::{name}", angle)
+
+    return start
+
+
+def nothing(_: Any) -> None:
+    """Starts as described."""
+
+
+def thrown(model: str, speed: float):
+    """Starts with a speed along x."""
+    return lambda engine: engine.set_model_motion(model, (speed, 0.0, 0.0), STILL)
+
+
+def squeezed(engine: Any) -> None:
+    """Starts with a push on the leading finger."""
+    engine.set_joint_effort("m::left", 1.0)
+
+
+def driven(engine: Any) -> None:
+    """Starts with the wheels told to turn unequally."""
+    for side, speed in (("left", 6.0), ("right", 4.0)):
+        joint = f"turtlebot3_burger::wheel_{side}_joint"
+        engine.add_motor(joint, 10.0)
+        engine.set_motor_velocity(joint, speed)
+
+
+def sliding():
+    block = mechanisms.tall_box("block", (0.4, 0.4, 0.1), 1.0, 0.3, Pose(z=0.05))
+    return scenes.world(scenes.ground(1.0), block)
+
+
+def tilting():
+    """On its lower edge, leaning a tenth of a radian further than it could stand."""
+    width, height = 0.1, 0.4
+    reach, corner = math.hypot(width, height) / 2.0, math.atan2(width, height)
+    lean = corner + 0.1
+    pose = Pose(x=reach * math.sin(0.1), z=reach * math.cos(0.1), pitch=lean)
+    block = mechanisms.tall_box("block", (width, 0.2, height), 1.0, 0.8, pose)
+    return scenes.world(scenes.ground(1.0), block)
+
+
+def rolling():
+    return scenes.world(scenes.ground(1.0), mechanisms.wheel(0.5))
+
+
+def stacked():
+    """Five boxes, each smaller and a little aside, 2 mm of air under each."""
+    boxes = (
+        mechanisms.tall_box(
+            f"box_{i}",
+            (0.2 - 0.02 * i, 0.2 - 0.02 * i, 0.1),
+            1.0,
+            0.5,
+            Pose(x=0.01 * (-1) ** i, z=0.05 + 0.1 * i + 0.002 * (i + 1)),
+        )
+        for i in range(5)
+    )
+    return scenes.world(scenes.ground(0.5), *boxes)
+
+
+def stack(engine: Any) -> list[float]:
+    positions = [engine.link_placement(f"box_{i}::link").position[0] for i in range(5)]
+    return [float(value) for value in np.concatenate(positions)]
+
+
+def burger():
+    robot = load(assets.robot("turtlebot3_burger")).models[0]
+    return scenes.world(scenes.ground(1.0), robot)
+
+
+ARM = [f"joint_{i}" for i in range(1, 7)]
+BASE = "turtlebot3_burger::base_footprint"
+
+SCENES = (
+    Scene(
+        "pendulum",
+        lambda: scenes.world(mechanisms.pendulum()),
+        set_joints(swing=1.0),
+        5.0,
+        (Measure("angle", "mrad", joints("swing"), 1e-6, SAME),),
+    ),
+    Scene(
+        "double pendulum",
+        lambda: scenes.world(mechanisms.double_pendulum()),
+        set_joints(shoulder=2.0, elbow=-1.0),
+        3.0,
+        (Measure("both angles", "mrad", joints("shoulder", "elbow"), 1e-6, SAME),),
+    ),
+    Scene(
+        "sliding block",
+        sliding,
+        thrown("block", 1.5),
+        0.9,
+        (
+            Measure("distance", "mm", places("block::link", 0), 2.5, HOP),
+            Measure("height", "mm", places("block::link", 2), 8.0, HOP),
+            Measure("where it stops", "mm", places("block::link", 0, 1, 2), 0.05, CREEP, 0.6),
+        ),
+    ),
+    Scene(
+        "tilting block",
+        tilting,
+        nothing,
+        0.5,
+        (Measure("angle until it strikes", "mrad", tilt("block::link"), 0.8, PIVOT),),
+    ),
+    Scene(
+        "rolling wheel",
+        rolling,
+        thrown("wheel", 1.5),
+        2.0,
+        (
+            Measure("distance", "mm", places("wheel::link", 0), 4.0, HOP),
+            Measure("height", "mm", places("wheel::link", 2), 7.0, HOP),
+            Measure("spin when it rolls", "rad/s", spin("wheel::link"), 0.006, CREEP, 0.3),
+        ),
+    ),
+    Scene(
+        "four-bar",
+        lambda: scenes.world(mechanisms.four_bar()),
+        nothing,
+        3.0,
+        (Measure("three angles", "mrad", joints("drive", "knee", "foot"), 110.0, LOOP),),
+    ),
+    Scene(
+        "stacked boxes",
+        stacked,
+        nothing,
+        2.0,
+        (
+            Measure("positions while they land", "mm", stack, 0.6, IMPACT),
+            Measure("where they rest", "mm", stack, 0.2, CREEP, 1.0),
+        ),
+    ),
+    Scene(
+        "burger",
+        burger,
+        driven,
+        5.0,
+        (
+            Measure("position", "mm", places(BASE, 0, 1, 2), 2.0, RIM),
+            Measure("heading", "mrad", heading(BASE), 4.0, RIM),
+        ),
+    ),
+    Scene(
+        "arm of six axes",
+        lambda: scenes.world(mechanisms.arm()),
+        set_joints(joint_1=0.5, joint_2=-0.7, joint_3=0.4, joint_4=0.8, joint_5=0.5),
+        3.0,
+        (Measure("six angles", "mrad", joints(*ARM), 4.0, DAMPING),),
+    ),
+    Scene(
+        "mimic gripper",
+        lambda: scenes.world(mechanisms.gripper()),
+        squeezed,
+        1.0,
+        (
+            Measure("both fingers", "mm", joints("left", "right"), 0.8, LIMIT),
+            Measure("where they stop", "mm", joints("left", "right"), 0.05, LIMIT, 0.7),
+        ),
+    ),
+)
