@@ -2,6 +2,7 @@
 # Everything is installed into .venv; nothing else is touched.
 
 PYTHON ?= python3
+EXTRAS ?= test,lint
 VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
 STAMP := $(VENV)/.installed
@@ -26,7 +27,7 @@ $(STAMP).demo: $(VENV)/bin/python pyproject.toml constraints.txt
 	@touch $@
 
 $(STAMP).all: $(VENV)/bin/python pyproject.toml constraints.txt
-	$(PIP) install --quiet --constraint constraints.txt --editable '.[test,lint]'
+	$(PIP) install --quiet --constraint constraints.txt --editable '.[$(EXTRAS)]'
 	@touch $@
 
 setup: $(STAMP).all
