@@ -10,7 +10,8 @@ import ast
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from types import FrameType
+from functools import lru_cache
+from types import CodeType, FrameType
 from typing import Any
 
 from gazelle.errors import FormatError
@@ -37,17 +38,24 @@ def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None
     Raises:
         FormatError: It names what it may not, or takes too long or too much memory.
     """
+    code, loops = _compiled(text.strip())
+    symbols.update(__builtins__=_OPERATIONS)
+    if not loops:
+        return eval(code, symbols, local)  # noqa: S307  # what a file may say is checked
+    with _counted():
+        return eval(code, symbols, local)  # noqa: S307
+
+
+@lru_cache(maxsize=4096)
+def _compiled(text: str) -> tuple[CodeType, bool]:
+    """The guarded code of an expression, and whether it may run in circles."""
     try:
-        tree = ast.parse(text.strip(), "<expression>", "eval")
+        tree = ast.parse(text, "<expression>", "eval")
     except (MemoryError, RecursionError):
         raise FormatError("the expression is nested too deep") from None
     loops = any(isinstance(node, _LOOPS) for node in ast.walk(tree))
-    code = compile(ast.fix_missing_locations(_Guard().visit(tree)), "<expression>", "eval")
-    symbols.update(__builtins__=_OPERATIONS)
-    if not loops:
-        return eval(code, symbols, local)  # noqa: S307  # what a file may say is checked above
-    with _counted():
-        return eval(code, symbols, local)  # noqa: S307
+    guarded = ast.fix_missing_locations(_Guard().visit(tree))
+    return compile(guarded, "<expression>", "eval"), loops
 
 
 def evaluate_plain(text: str, _: dict[str, Any], local: Mapping[str, Any]) -> Any:

@@ -31,7 +31,7 @@ _PREFIX = "xacro:"
 _NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "xacro")
 
 
-MAX_MADE = 40_000
+MAX_MADE = 60_000
 
 
 class _Made(threading.local):
