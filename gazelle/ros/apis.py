@@ -163,3 +163,8 @@ def api_uri(label: str, value: Any, _caller: str) -> str:
     if not value.startswith(("http://", "rosrpc://")):
         raise BadArgumentError(f"ERROR: parameter [{label}] is not an RPC URI")
     return value
+
+
+def api_uris(label: str, value: Any, caller: str) -> Sequence[str]:
+    """A list of URIs of nodes."""
+    return [api_uri(label, each, caller) for each in listing(label, value, caller)]

@@ -27,11 +27,11 @@ GRACE = 0.001
 LINGER = 5.0
 """Seconds an idle thread waits for work before it ends."""
 MOST_THREADS = 1000
-QUICK = 0.001
+QUICK = 0.003
 """A task that took no longer, in seconds, is expected to be quick again."""
 PATROL = 0.01
 """Seconds between two looks of the sentry."""
-STALL = 0.004
+STALL = 0.008
 """Seconds after which a task that was expected to be quick loses the lead."""
 FIRST_DOUBT = 0.05
 """Seconds for which a task that was slow is not expected to be quick; doubled each time."""

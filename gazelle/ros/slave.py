@@ -29,6 +29,7 @@ class SlaveApi:
                 "getPid": Method(self.get_pid, -1),
                 "getName": Method(self.get_name, 0),
                 "getMasterUri": Method(self.get_master_uri, 0),
+                "getUri": Method(self.get_uri, ""),
                 "getPublications": Method(self.get_publications, 0),
                 "getSubscriptions": Method(self.get_subscriptions, 0),
                 "getBusInfo": Method(self.get_bus_info, []),
@@ -36,7 +37,7 @@ class SlaveApi:
                 "shutdown": Method(self.shutdown, False, (("msg", apis.text),)),
                 "paramUpdate": Method(self.param_update, -1, (key, ("value", apis.given))),
                 "publisherUpdate": Method(
-                    self.publisher_update, -1, (topic, ("publishers", apis.listing))
+                    self.publisher_update, -1, (topic, ("publishers", apis.api_uris))
                 ),
                 "requestTopic": Method(
                     self.request_topic, [], (topic, ("protocols", apis.listing))
@@ -55,6 +56,10 @@ class SlaveApi:
     def get_name(self, _caller: str) -> Triple:
         """The node's name."""
         return 1, "", self._node.name
+
+    def get_uri(self, _caller: str) -> Triple:
+        """Where the node is asked."""
+        return 1, "", self._node.uri
 
     def get_master_uri(self, _caller: str) -> Triple:
         """The master this node is registered with."""
