@@ -12,7 +12,8 @@ import sys
 from typing import Any
 
 from gazelle.cli.parsing import positive_int
-from gazelle.cli.tools import SubCommands, answer, stopping
+from gazelle.cli.tools import SubCommands, answer
+from gazelle.ros.signals import stopping
 
 _CLEANUP = (
     "Warning: these might include alive and functioning nodes, e.g. in unstable networks.\n"

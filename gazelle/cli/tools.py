@@ -1,13 +1,10 @@
-"""What the commands of ROS 1 tools share: sub-commands, Ctrl-C, standard input."""
+"""What the commands of ROS 1 tools share: sub-commands and questions."""
 
 from __future__ import annotations
 
 import argparse
-import contextlib
-import signal
 import sys
-import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 from gazelle.cli.parsing import Parser
@@ -34,19 +31,6 @@ class SubCommands:
         )
         made.set_defaults(action=action, parser=made)
         return made
-
-
-@contextlib.contextmanager
-def stopping() -> Iterator[threading.Event]:
-    """An event that Ctrl-C and SIGTERM set."""
-    stop = threading.Event()
-    numbers = (signal.SIGINT, signal.SIGTERM)
-    old = [signal.signal(number, lambda *_: stop.set()) for number in numbers]
-    try:
-        yield stop
-    finally:
-        for number, handler in zip(numbers, old, strict=True):
-            signal.signal(number, handler)
 
 
 def answer(question: str, choices: set[str]) -> str | None:

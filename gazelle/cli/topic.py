@@ -14,7 +14,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from gazelle.cli.parsing import positive_float, positive_int
-from gazelle.cli.tools import SubCommands, stopping
+from gazelle.cli.tools import SubCommands
+from gazelle.ros.signals import stopping
 
 _TOOL = "rostopic"
 

@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.errors import Error
 from gazelle.ros.errors import RosError
 from gazelle.ros.messages import class_from_text, load_message
+from gazelle.ros.raw import RawMessage
 
 
 def class_for(header: Mapping[str, str]) -> Any:
@@ -35,3 +36,13 @@ def _class_for(kind: str, checksum: str, text: str) -> Any:
     if not text:
         raise RosError(f"the type {kind} is not known here, nor did its definition come along")
     return class_from_text(kind, text)
+
+
+def decode(raw: RawMessage) -> Any:
+    """The message that came as bytes.
+
+    Raises:
+        RosError: Its type is not known here, and its definition did not come along.
+    """
+    kind = class_for(raw._connection_header)  # noqa: SLF001  # rospy's names
+    return kind().deserialize(raw._buff)  # noqa: SLF001

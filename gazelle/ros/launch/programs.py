@@ -169,8 +169,13 @@ def command_line(words: Sequence[str], packages: Packages) -> list[str]:
         LaunchError: There is no such program.
     """
     program, *rest = words
-    if program == "rosrun" and len(rest) >= 2 and shutil.which("rosrun") is None:
-        found = program_of(rest[0], rest[1], packages)
+    if program == "rosrun" and len(rest) >= 2:
+        try:
+            found = program_of(rest[0], rest[1], packages)
+        except LaunchError:
+            if shutil.which(program) is None:
+                raise
+            return [program, *rest]
         if isinstance(found, Skipped):
             raise LaunchError(f"'{found.package}' is left out: {found.reason}")
         return [*found.command, *rest[2:]]

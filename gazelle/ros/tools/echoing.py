@@ -16,7 +16,8 @@ from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import Step, parse_path, type_at, value_at
 from gazelle.ros.tools.formatting import Plot, as_yaml, leave_out
 from gazelle.ros.tools.graph import Graph
-from gazelle.ros.tools.watching import Decoder, tool_node, wait_for_topic
+from gazelle.ros.tools.watching import tool_node, wait_for_topic
+from gazelle.ros.typed import decode
 
 _CLEAR = "\033[2J\033[;H"
 _SILENCE_S = 2.0
@@ -114,7 +115,6 @@ def echo(graph: Graph, name: str, out: TextIO, options: EchoOptions, stop: threa
     topic, kind, path = found
     steps = parse_path(path)
     writer = Echo(out, options, steps, _leaf_type(kind, steps))
-    decoder = Decoder()
     failed: list[RosError] = []
     with tool_node(graph) as node:
 
@@ -123,7 +123,7 @@ def echo(graph: Graph, name: str, out: TextIO, options: EchoOptions, stop: threa
                 return
             try:
                 nanoseconds = node.clock.now()
-                writer.write(decoder.decode(raw), Time(nsecs=nanoseconds))
+                writer.write(decode(raw), Time(nsecs=nanoseconds))
             except RosError as error:
                 failed.append(error)
             except BrokenPipeError:

@@ -110,14 +110,14 @@ def _detail(text: str) -> str:
 
 
 def _peer(graph: Graph, peer: str, topic: str) -> str:
-    """The name of a peer, which may be given by its address."""
+    """A peer, with its name where it is given by its address."""
     if not peer.startswith("http://"):
         return peer
     for part in graph.master.system_state()[:2]:
         for node in part.get(topic, ()):
             uri = graph.node_uri(node)
             if uri is not None and uri.rstrip("/") == peer.rstrip("/"):
-                return node
+                return f"{node} ({peer})"
     return peer
 
 

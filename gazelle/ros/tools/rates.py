@@ -14,7 +14,8 @@ from typing import Any, TextIO
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.graph import Graph
-from gazelle.ros.tools.watching import Decoder, Pacer, tool_node, wait_for_topic
+from gazelle.ros.tools.watching import Pacer, tool_node, wait_for_topic
+from gazelle.ros.typed import decode
 
 _MOST = 50_000
 _NOTHING = "no new messages"
@@ -89,11 +90,10 @@ def measure_rates(
         tcp_nodelay: Ask for it.
     """
     meters: dict[str, RateMeter] = {}
-    decoder = Decoder()
     with tool_node(graph) as node:
 
         def count(meter: RateMeter, raw: RawMessage) -> None:
-            if keep is not None and not keep(decoder.decode(raw)):
+            if keep is not None and not keep(decode(raw)):
                 return
             now = time.time() if wall_time else node.clock.now() / 1e9
             if now and not meter.add(now):
@@ -227,11 +227,10 @@ def measure_delay(
     delays: deque[float] = deque(maxlen=_MOST if window < 0 else max(1, window - 1))
     fresh = threading.Event()
     failed: list[ToolError] = []
-    decoder = Decoder()
     with tool_node(graph) as node:
 
         def count(raw: RawMessage) -> None:
-            message = decoder.decode(raw)
+            message = decode(raw)
             if not message._has_header:  # noqa: SLF001  # genpy's name
                 failed.append(ToolError(f"messages of {found[0]} have no header"))
                 stop.set()

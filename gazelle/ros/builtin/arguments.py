@@ -1,0 +1,72 @@
+"""The command line of a node: its own arguments, remappings, special keys, private parameters."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from gazelle.ros import names
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+
+
+@dataclass(slots=True)
+class NodeArguments:
+    """A node's command line, taken apart (http://wiki.ros.org/Remapping%20Arguments)."""
+
+    plain: list[str]
+    """Without remappings."""
+    options: dict[str, Any]
+    """What `Node` takes: ``name``, ``namespace``, ``remappings`` and so on."""
+    parameters: dict[str, str] = field(default_factory=dict)
+    """Private parameters, as YAML."""
+
+    def start(self, **keywords: Any) -> Node:
+        """The node, with its private parameters set."""
+        from gazelle.ros.launch.values import load_yaml
+
+        node = Node(**self.options, **keywords)
+        for name, text in self.parameters.items():
+            node.set_param(f"~{name}", load_yaml(text))
+        return node
+
+
+def parse_arguments(
+    arguments: Sequence[str], name: str, *, anonymous: bool = False
+) -> NodeArguments:
+    """Take a command line apart.
+
+    Args:
+        arguments: Without the program.
+        name: The node's name if the command line has none.
+        anonymous: Make that name one that nobody else has.
+    """
+    plain, mappings = names.split_arguments(arguments)
+    special = {key: value for key, value in mappings.items() if key.startswith("__")}
+    options: dict[str, Any] = {
+        "name": special.get("__name") or (names.anonymous(name) if anonymous else name),
+        "namespace": special.get("__ns") or os.environ.get("ROS_NAMESPACE", "/"),
+        "remappings": {key: value for key, value in mappings.items() if not key.startswith("_")},
+    }
+    if "__master" in special:
+        options["master_uri"] = special["__master"]
+    host = special.get("__hostname") or special.get("__ip")
+    if host:
+        options["host"] = host
+    parameters = {
+        key[1:]: value
+        for key, value in mappings.items()
+        if key.startswith("_") and not key.startswith("__")
+    }
+    return NodeArguments(plain, options, parameters)
+
+
+def spin(node: Node) -> int:
+    """Wait until Ctrl-C, SIGTERM, or until the node is asked to end; returns 0."""
+    with stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        stop.wait()
+    node.close()
+    return 0

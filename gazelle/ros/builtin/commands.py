@@ -1,0 +1,39 @@
+"""Command-line tools as nodes of a launch file, such as ``rostopic pub``."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+
+from gazelle.ros import names
+from gazelle.ros.tools.watching import NODE_NAME
+
+
+def topic(arguments: Sequence[str]) -> int:
+    """Do what rostopic does; returns the exit code."""
+    return _run("topic", arguments)
+
+
+def service(arguments: Sequence[str]) -> int:
+    """Do what rosservice does; returns the exit code."""
+    return _run("service", arguments)
+
+
+def param(arguments: Sequence[str]) -> int:
+    """Do what rosparam does; returns the exit code."""
+    return _run("param", arguments)
+
+
+def _run(tool: str, arguments: Sequence[str]) -> int:
+    """Run a tool without what roslaunch adds to a node's command line."""
+    plain, mappings = names.split_arguments(arguments)
+    command = [sys.executable, "-m", "gazelle.cli.main", tool, *plain]
+    environment = {**os.environ, NODE_NAME: mappings.get("__name", "")}
+    process = subprocess.Popen(command, env=environment)  # noqa: S603  # our own program
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:
+            continue  # the tool gets the signal too, and ends in its own time
