@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from gazelle.ros.compat.rospy import client, core, exceptions, msg, names, rostime, timer, topics
+from gazelle.ros.compat.rospy import (
+    client,
+    core,
+    exceptions,
+    impl,
+    msg,
+    names,
+    rostime,
+    service,
+    timer,
+    topics,
+)
 from gazelle.ros.compat.rospy.client import (
     get_master,
     get_param,
@@ -130,6 +141,7 @@ __all__ = [
     "get_rostime",
     "get_time",
     "has_param",
+    "impl",
     "init_node",
     "is_shutdown",
     "logdebug",
@@ -162,6 +174,7 @@ __all__ = [
     "resolve_name",
     "rostime",
     "search_param",
+    "service",
     "set_param",
     "signal_shutdown",
     "sleep",

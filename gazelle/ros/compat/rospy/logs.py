@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from gazelle.ros.compat.rosgraph.roslogging import LEVEL_NAMES, RosStreamHandler
 from gazelle.ros.compat.rospy import names
 from gazelle.ros.compat.rospy.rostime import (
     Time,
@@ -25,10 +26,6 @@ DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
 LEVELS = {DEBUG: logging.DEBUG, INFO: logging.INFO, WARN: logging.WARNING}
 LEVELS |= {ERROR: logging.ERROR, FATAL: logging.CRITICAL}
 """Levels of ROS, and those of Python's logging."""
-_NAMES = {logging.DEBUG: "DEBUG", logging.INFO: "INFO", logging.WARNING: "WARN"}
-_NAMES |= {logging.ERROR: "ERROR", logging.CRITICAL: "FATAL"}
-_COLORS = {"WARN": "\033[33m", "ERROR": "\033[31m", "FATAL": "\033[31m", "DEBUG": "\033[32m"}
-_FORMAT = "[${severity}] [${time}]: ${message}"
 _HERE = os.path.dirname(__file__)  # noqa: PTH120  # compared with code objects' names
 
 logger = logging.getLogger("rosout")
@@ -42,57 +39,12 @@ def level_of(record: logging.LogRecord) -> int:
     return DEBUG
 
 
-class ScreenHandler(logging.Handler):
-    """Writes to the screen in the form of ROSCONSOLE_FORMAT; warnings and worse to stderr.
-
-    Args:
-        file: Gets all records, too.
-    """
-
-    def __init__(self, file: logging.Handler | None = None) -> None:
-        super().__init__()
-        self._file = file
-
-    def emit(self, record: logging.LogRecord) -> None:
-        """Write a record."""
-        try:
-            if self._file is not None:
-                self._file.emit(record)
-            severity = _NAMES.get(record.levelno, record.levelname)
-            stream = sys.stderr if record.levelno >= logging.WARNING else sys.stdout
-            if stream is None:
-                return
-            text = self._text(record, severity)
-            color = _COLORS.get(severity, "")
-            if color and stream.isatty():
-                text = f"{color}{text}\033[0m"
-            stream.write(text + "\n")
-            stream.flush()
-        except Exception:  # noqa: BLE001  # logging's own way to report a broken stream
-            self.handleError(record)
-
-    @staticmethod
-    def _text(record: logging.LogRecord, severity: str) -> str:
-        moment = f"{time.time():f}"
-        if process.node is not None and not is_wallclock():
-            moment += f", {get_time():f}"
-        parts = {
-            "severity": severity,
-            "message": record.getMessage(),
-            "walltime": f"{time.time():f}",
-            "time": moment,
-            "thread": str(record.thread),
-            "logger": record.name,
-            "file": record.pathname,
-            "line": str(record.lineno),
-            "function": record.funcName or "?",
-            "node": names.get_caller_id(),
-        }
-        text = os.environ.get("ROSCONSOLE_FORMAT", _FORMAT)
-        message = parts.pop("message")
-        for key, value in parts.items():
-            text = text.replace("${" + key + "}", value)
-        return text.replace("${message}", message)
+def _context() -> dict[str, str]:
+    """What a line on the screen may say of this process."""
+    moment = f"{time.time():f}"
+    if is_rostime_initialized() and not is_wallclock():
+        moment += f", {get_time():f}"
+    return {"time": moment, "node": names.get_caller_id()}
 
 
 class RosOutHandler(logging.Handler):
@@ -115,7 +67,7 @@ class RosOutHandler(logging.Handler):
                 msg=record.getMessage(),
                 file=record.filename,
                 line=record.lineno,
-                function=record.funcName or "?",
+                function=getattr(record, "place", None) or record.funcName or "?",
                 topics=[publication.topic for publication in node.publications()],
             )
             log.header.stamp = get_rostime()  # type: ignore[attr-defined]
@@ -133,8 +85,8 @@ def start_screen(level: int | None) -> None:
     """Log to the screen, and to a file if the command line or ROS_LOG_DIR names one."""
     logger.setLevel(LEVELS.get(level or INFO, logging.INFO))
     logger.propagate = False
-    if not any(isinstance(handler, ScreenHandler) for handler in logger.handlers):
-        screen = ScreenHandler(_file_handler())
+    if not any(isinstance(handler, RosStreamHandler) for handler in logger.handlers):
+        screen = RosStreamHandler(file=_file_handler(), context=_context)
         logger.addHandler(screen)
         logging.getLogger("gazelle.ros").addHandler(screen)
 
@@ -177,7 +129,7 @@ def stop() -> None:
         handler.close()
     system = logging.getLogger("gazelle.ros")
     for handler in list(system.handlers):
-        if isinstance(handler, ScreenHandler):
+        if isinstance(handler, RosStreamHandler):
             system.removeHandler(handler)
 
 
@@ -212,8 +164,11 @@ def _write(level: int, msg: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) 
     name = kwargs.pop("logger_name", None)
     target = logging.getLogger(f"rosout.{name}") if name else logger
     kwargs.setdefault("stacklevel", 3)
+    code = sys._getframe(2).f_code  # noqa: SLF001  # the line that logs
+    if "<" not in code.co_qualname:
+        kwargs["extra"] = {"place": code.co_qualname, **kwargs.get("extra", {})}
     if not logger.handlers and process.node is None:
-        sys.stderr.write(f"[{_NAMES[level]}] {msg % args if args else msg}\n")
+        sys.stderr.write(f"[{LEVEL_NAMES[level]}] {msg % args if args else msg}\n")
         return
     target.log(level, msg, *args, **kwargs)
 
@@ -243,7 +198,7 @@ def _family(level: int) -> tuple[Log, Log, Log, Log]:
             _last[site] = text
             _write(level, msg, args, kwargs)
 
-    word = {"WARN": "warn", "ERROR": "err"}.get(_NAMES[level], _NAMES[level].lower())
+    word = {"WARN": "warn", "ERROR": "err"}.get(LEVEL_NAMES[level], LEVEL_NAMES[level].lower())
     for function, suffix in (
         (plain, ""),
         (once, "_once"),
@@ -251,7 +206,7 @@ def _family(level: int) -> tuple[Log, Log, Log, Log]:
         (identical, "_throttle_identical"),
     ):
         function.__name__ = function.__qualname__ = f"log{word}{suffix}"
-        function.__doc__ = f"Log at level {_NAMES[level]}; `msg` may have % places for `args`."
+        function.__doc__ = f"Log at level {LEVEL_NAMES[level]}; `msg` may have % places for `args`."
     return plain, once, throttle, identical
 
 

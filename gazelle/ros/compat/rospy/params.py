@@ -6,8 +6,9 @@ from typing import Any
 
 from gazelle.ros.compat.rospy.exceptions import ROSException
 from gazelle.ros.compat.rospy.guest import user
-from gazelle.ros.compat.rospy.names import resolve_name
+from gazelle.ros.compat.rospy.names import get_caller_id, resolve_name
 from gazelle.ros.errors import MarshalError, ParameterNotFoundError, RosError
+from gazelle.ros.master.proxy import MasterProxy
 
 
 class _Unspecified:
@@ -73,7 +74,12 @@ def set_param(param_name: str, param_value: Any) -> None:
 
 def search_param(param_name: str) -> str | None:
     """Name of the nearest parameter of this name, from the node's namespace upwards."""
-    return user().parameters.search(param_name)
+    proxy = MasterProxy(user().master_uri, get_caller_id())
+    try:
+        code, _, found = proxy.call_raw("searchParam", param_name)
+    finally:
+        proxy.close()
+    return str(found) if code == 1 and found else None
 
 
 def delete_param(param_name: str) -> None:
