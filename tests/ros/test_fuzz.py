@@ -211,3 +211,14 @@ def test_too_many_connections_are_turned_away(make_node):
     publisher = node.advertise("chatter", Text, latch=True)
     publisher.publish(Text("alive"))
     assert node.wait_for_message("chatter", Text, timeout=5).data == "alive"
+
+
+def test_a_request_of_impossible_length_right_after_the_header_ends_the_connection(make_node):
+    node = make_node("node")
+    node.serve("flip", Flag, lambda request: (True, ""))
+    for _ in range(3):
+        with socket.create_connection(("127.0.0.1", node.tcpros_port), timeout=5) as sock:
+            sock.sendall(headers.encode(SERVICE_HEADER) + b"\xff\xff\xff\xff")
+            while sock.recv(4096):
+                pass
+    assert node.client("flip", Flag).call(Flag._request_class()).success

@@ -66,7 +66,10 @@ class ServiceConnection:
             self._sock.send(reply)
         self._loop.watch(self._sock, READ, self._ready)
         if rest:
-            self._take(self._reader.cut(rest))
+            try:
+                self._take(self._reader.cut(rest))
+            except ProtocolError:
+                self.close()
 
     def close(self) -> None:
         """Close the connection. Only for the leader."""
