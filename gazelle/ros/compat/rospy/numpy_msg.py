@@ -15,14 +15,10 @@ def numpy_msg(msg_type: Any) -> Any:
     def deserialize(self: Any, data: bytes) -> Any:
         return self.deserialize_numpy(data, np)
 
-    def serialize(self: Any, buff: Any) -> None:
-        self.serialize_numpy(buff, np)
-
     body = {
         "__slots__": (),
         "__doc__": msg_type.__doc__,
         "deserialize": deserialize,
-        "serialize": serialize,
     }
     # A message lists its own fields in __slots__; the subclass adds none.
     made = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), body)  # noqa: SLF001  # genpy's name

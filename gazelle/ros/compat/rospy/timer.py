@@ -142,10 +142,10 @@ class Timer(threading.Thread):
         while not self._stopped():
             try:
                 rate.sleep()
-            except ROSInterruptException:
-                if process.shutdown.is_set():
-                    return
+            except ROSTimeMovedBackwardsException:
                 raise
+            except ROSInterruptException:
+                return
             if self._stopped():
                 return
             real: Time = get_rostime()

@@ -205,6 +205,8 @@ class Publisher(Topic):
             )
         if impl is None or impl.publisher is None:
             raise ROSException("publish() to an unregistered() handle")
+        if process.node.closed:
+            raise ROSException("publish() to a closed topic")
         message = args_kwds_to_message(self.data_class, args, kwds)
         try:
             impl.publisher.publish(message)

@@ -1,0 +1,28 @@
+"""rospy in this process, on a master of its own, anew for each test."""
+
+import sys
+
+import pytest
+
+import gazelle.ros as ros
+
+
+@pytest.fixture
+def rospy(master, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    monkeypatch.setattr(sys, "argv", ["test"])
+    with ros.install():
+        import rospy
+
+        from gazelle.ros.compat.rospy import client
+
+        client.reset()
+        yield rospy
+        client.reset()
+
+
+@pytest.fixture
+def node(rospy):
+    """rospy, with its node begun."""
+    rospy.init_node("probe", disable_signals=True)
+    return rospy

@@ -1,0 +1,110 @@
+"""`gazelle exec`: a script for ROS 1 as a process of its own."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+COMMAND = [sys.executable, "-c", "import sys; from gazelle.cli.main import main; sys.exit(main())"]
+TALKER = """
+import sys, rospy
+from std_msgs.msg import String
+rospy.init_node("talker")
+pub = rospy.Publisher("chatter", String, queue_size=10, latch=True)
+rospy.on_shutdown(lambda: print("last words", flush=True))
+pub.publish(rospy.get_param("~text", "none"))
+print("ready", rospy.myargv(sys.argv)[1:], __name__, flush=True)
+rospy.spin()
+print("after spin", flush=True)
+"""
+
+
+@pytest.fixture
+def execute(tmp_path, master):
+    running = []
+
+    def start(text, *arguments, options=()):
+        script = tmp_path / "script.py"
+        script.write_text(text)
+        env = {**os.environ, "ROS_MASTER_URI": master.uri, "PYTHONUNBUFFERED": "1"}
+        process = subprocess.Popen(
+            [*COMMAND, "exec", *options, str(script), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=env,
+        )
+        running.append(process)
+        return process
+
+    yield start
+    for process in running:
+        process.kill()
+        process.communicate()
+
+
+def test_a_node_runs_talks_and_ends_at_ctrl_c(execute, make_node):
+    from gazelle.ros.messages import load_message
+
+    process = execute(TALKER, "chatter:=/told", "_text:=hello", "--flag", "__name:=other")
+    assert process.stdout.readline() == "ready ['--flag'] __main__\n"
+    listener = make_node("listener")
+    assert listener.wait_for_message("/told", load_message("std_msgs/String"), 5.0).data == "hello"
+    assert listener.get_param("/other/text") == "hello"
+    begin = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=10)
+    assert time.monotonic() - begin < 5.0
+    assert out == "last words\nafter spin\n"
+    assert err == ""
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        ("import sys; sys.exit(3)", 3, ""),
+        ("import sys; sys.exit('no')", 1, "no\n"),
+        ("1 / 0", 1, "ZeroDivisionError: division by zero\n"),
+        ("x = (", 1, "SyntaxError: '(' was never closed\n"),
+    ],
+)
+def test_a_script_ends_as_python_would_end_it(execute, text, code, said):
+    process = execute(text)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == code
+    assert err.endswith(said)
+    assert "compat/script.py" not in err
+
+
+def test_a_missing_script_is_one_line(execute):
+    process = subprocess.run(
+        [*COMMAND, "exec", "/nowhere/x.py"], capture_output=True, text=True, check=False
+    )
+    assert process.returncode == 1
+    assert process.stderr.count("\n") == 1
+    assert "cannot read the script" in process.stderr
+
+
+def test_sleep_can_mean_simulated_time(execute, make_node):
+    from gazelle.ros.messages import load_message
+    from gazelle.ros.time import Time
+
+    driver = make_node("driver")
+    driver.set_param("/use_sim_time", True)
+    clock = load_message("rosgraph_msgs/Clock")
+    publisher = driver.advertise("/clock", clock, queue_size=10)
+    text = (
+        "import rospy, time\nrospy.init_node('s')\nprint('go', flush=True)\n"
+        "time.sleep(60)\nprint('slept', flush=True)\n"
+    )
+    process = execute(text, options=["--sim-sleep"])
+    assert process.stdout.readline() == "go\n"
+    for second in range(1, 200):
+        publisher.publish(clock(Time(second)))
+        time.sleep(0.005)
+    out, _ = process.communicate(timeout=10)
+    assert out == "slept\n"

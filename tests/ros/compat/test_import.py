@@ -1,0 +1,132 @@
+"""What `install` makes importable, and that it leaves no trace."""
+
+import importlib
+import sys
+import types
+
+import pytest
+
+import gazelle.ros as ros
+from gazelle.ros.compat.finder import own_modules
+
+MODULES = [
+    "actionlib",
+    "dynamic_reconfigure.client",
+    "dynamic_reconfigure.server",
+    "genpy.message",
+    "message_filters",
+    "rosbag",
+    "rosgraph.names",
+    "roslib.packages",
+    "rosnode",
+    "rosparam",
+    "rospkg",
+    "rosservice",
+    "rospy.rostime",
+    "rostopic",
+    "tf.transformations",
+    "tf2_geometry_msgs",
+    "tf2_ros.buffer",
+    "std_msgs.msg",
+    "std_msgs.msg._String",
+    "std_srvs.srv",
+    "tf2_msgs.msg",
+    "geometry_msgs",
+]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_modules_of_ros_can_be_imported(name):
+    with ros.install():
+        module = importlib.import_module(name)
+        assert sys.modules[name] is module
+
+
+def test_nothing_is_left_behind(monkeypatch):
+    foreign = types.ModuleType("rospy")
+    monkeypatch.setitem(sys.modules, "rospy", foreign)
+    before = list(sys.meta_path)
+    with ros.install():
+        import rospy
+
+        assert rospy is not foreign
+        assert rospy.Time(1).secs == 1
+    assert sys.modules["rospy"] is foreign
+    assert sys.meta_path == before
+    assert "std_msgs.msg" not in sys.modules
+    for name in own_modules() - {"rospy"}:
+        assert name not in sys.modules
+
+
+def test_installing_twice_takes_uninstalling_twice():
+    ros.install()
+    ros.install()
+    ros.uninstall()
+    import rospy
+
+    assert rospy.__name__ == "gazelle.ros.compat.rospy"
+    ros.uninstall()
+    with pytest.raises(ImportError):
+        importlib.import_module("rospy.core")
+    ros.uninstall()
+
+
+def test_a_module_is_the_same_by_each_of_its_names():
+    with ros.install():
+        import rospy
+        import rospy.core
+        import rospy.exceptions
+
+        assert rospy.core is sys.modules["rospy.core"]
+        assert rospy.exceptions.ROSException is rospy.ROSException
+        assert rospy.__spec__.name == "gazelle.ros.compat.rospy"
+
+
+def test_star_brings_the_classes_of_a_package():
+    with ros.install():
+        space = {}
+        exec("from std_msgs.msg import *\nfrom std_srvs.srv import *", space)
+        assert space["String"](data="x").data == "x"
+        assert space["SetBool"]._request_class is space["SetBoolRequest"]
+        assert "Int32" in dir(importlib.import_module("std_msgs.msg"))
+
+
+def test_unknown_classes_are_import_errors():
+    with ros.install():
+        with pytest.raises(ImportError, match="Strin"):
+            exec("from std_msgs.msg import Strin", {})
+        with pytest.raises(ModuleNotFoundError):
+            importlib.import_module("std_msgs.msg._Strin")
+        with pytest.raises(ModuleNotFoundError):
+            importlib.import_module("nothing_msgs.msg")
+
+
+def test_packages_of_the_user_bring_messages_and_code(tmp_path, monkeypatch):
+    package = tmp_path / "my_robot"
+    (package / "msg").mkdir(parents=True)
+    (package / "srv").mkdir()
+    (package / "action").mkdir()
+    (package / "src" / "my_robot").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>my_robot</name></package>")
+    (package / "msg" / "Wheel.msg").write_text("float64 speed\n")
+    (package / "srv" / "Stop.srv").write_text("---\nbool done\n")
+    (package / "action" / "Go.action").write_text(
+        "float64 far\n---\nbool there\n---\nfloat64 left\n"
+    )
+    (package / "src" / "my_robot" / "__init__.py").write_text("from my_robot.tools import two\n")
+    (package / "src" / "my_robot" / "tools.py").write_text(
+        "from my_robot.msg import Wheel\ntwo = Wheel(2.0)\n"
+    )
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    with ros.install():
+        import rospkg
+
+        my_robot = importlib.import_module("my_robot")
+        assert my_robot.two.speed == 2.0
+        assert importlib.import_module("my_robot.srv").StopResponse(True).done
+        assert importlib.import_module("my_robot.msg").GoActionGoal().goal.far == 0.0
+        assert rospkg.RosPack().get_path("my_robot") == str(package)
+        with pytest.raises(rospkg.ResourceNotFound):
+            rospkg.RosPack().get_path("no_robot")
+    for name in [name for name in sys.modules if name.startswith("my_robot")]:
+        del sys.modules[name]
