@@ -4,8 +4,9 @@
   gazelle exec talker.py chatter:=/robot/chatter _rate:=5 __name:=robot_talker
   gazelle exec --sim-sleep train.py
 
-rospy, tf, actionlib, std_msgs.msg and the rest are Gazelle's own; an installed ROS is not
-touched. Packages on ROS_PACKAGE_PATH give their messages and their Python code.
+rospy, tf, actionlib, std_msgs.msg and the rest are Gazelle's own; an installed
+ROS is not touched. Packages on ROS_PACKAGE_PATH give their messages and their
+Python code.
 """  # this is the text of --help
 
 from __future__ import annotations

@@ -4,9 +4,9 @@
   gazelle launch ./my.launch gui:=false
   gazelle launch my.launch --ros-args
 
-Packages are looked up on ROS_PACKAGE_PATH. Python nodes run as 'gazelle exec' runs
-them, so that 'import rospy' works with no ROS installed. A master is started if
-there is none.
+Packages are looked up on ROS_PACKAGE_PATH. Python nodes run as 'gazelle exec'
+runs them, so that 'import rospy' works with no ROS installed. A master is
+started if there is none.
 """  # this is the text of --help
 
 from __future__ import annotations

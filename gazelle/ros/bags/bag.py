@@ -17,10 +17,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from io import BytesIO
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, NamedTuple, Self
+from typing import IO, Any, Self
 
 from gazelle.ros.bags import compression as compressions
 from gazelle.ros.bags import records
+from gazelle.ros.bags.answers import (
+    BagMessage,
+    BagMessageWithConnectionHeader,
+    CompressionTuple,
+    TopicTuple,
+    TypesAndTopicsTuple,
+)
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.reader import BagFile, BagReader, Entry, messages_of, select
 from gazelle.ros.bags.records import BagIndex, Connection
@@ -38,51 +45,6 @@ class Compression:
     NONE = compressions.NONE
     BZ2 = compressions.BZ2
     LZ4 = compressions.LZ4
-
-
-class BagMessage(NamedTuple):
-    """A message of a bag."""
-
-    topic: str
-    message: Any
-    """The message; read raw, a tuple of type, bytes, checksum, place and class."""
-    timestamp: Time
-    """When it was received."""
-
-
-class BagMessageWithConnectionHeader(NamedTuple):
-    """A message of a bag, and where it came from."""
-
-    topic: str
-    message: Any
-    timestamp: Time
-    connection_header: dict[str, str]
-
-
-class TopicTuple(NamedTuple):
-    """What a bag holds of a topic."""
-
-    msg_type: str
-    message_count: int
-    connections: int
-    frequency: float | None
-    """Median rate [Hz]."""
-
-
-class TypesAndTopicsTuple(NamedTuple):
-    """What a bag holds."""
-
-    msg_types: dict[str, str]
-    """Checksums by type."""
-    topics: dict[str, TopicTuple]
-
-
-class CompressionTuple(NamedTuple):
-    """How a bag is compressed."""
-
-    compression: str
-    uncompressed: int
-    compressed: int
 
 
 class Bag:

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
+import peers
 import pytest
-import real
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -287,21 +287,21 @@ def call_ours(name, args):
 
 @pytest.mark.ros
 def test_every_function_gives_the_real_modules_numbers():
-    real.need("tf.transformations")
+    peers.need("tf.transformations")
     asked = [question for seed in range(5) for question in questions(np.random.default_rng(seed))]
-    for (name, args), answer in zip(asked, real.ask(PEER, asked), strict=True):
+    for (name, args), answer in zip(asked, peers.ask(PEER, asked), strict=True):
         mine = call_ours(name, args)
         assert flat(mine) == pytest.approx(flat(answer), abs=1e-9), (name, args)
 
 
 @pytest.mark.ros
 def test_every_public_name_is_there():
-    real.need("tf.transformations")
+    peers.need("tf.transformations")
     listing = (
         "import json, tf.transformations as t; print(json.dumps([n for n in dir(t) "
         "if getattr(getattr(t, n), '__module__', '') == t.__name__ and n[0] != '_']))"
     )
-    assert set(real.ask(listing, None)) <= set(tr.__all__)
+    assert set(peers.ask(listing, None)) <= set(tr.__all__)
 
 
 def test_the_half_turn_has_a_quaternion():

@@ -2,8 +2,8 @@
 
 import random
 
+import peers
 import pytest
-import real
 
 from gazelle.ros.tf import FrameTree, TransformException
 
@@ -81,7 +81,7 @@ def scene(rng):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_answers_equal_tf2s(seed):
-    real.need("tf2_py")
+    peers.need("tf2_py")
     rng = random.Random(seed)
     placements = scene(rng)
     names = [f"f{index}" for index in range(12)] + ["u", "nobody", "", "/f1"]
@@ -99,7 +99,7 @@ def test_answers_equal_tf2s(seed):
     tree = FrameTree()
     for parent, child, stamp, translation, rotation, static in placements:
         tree.place(parent, child, stamp, tuple(translation), tuple(rotation), static=static)
-    answers = real.ask(PEER, {"placements": placements, "questions": questions})
+    answers = peers.ask(PEER, {"placements": placements, "questions": questions})
     assert sum(isinstance(answer[0], int) for answer in answers) > 50
     for question, answer in zip(questions, answers, strict=True):
         mine = ours(tree, question)
