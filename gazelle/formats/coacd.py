@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from functools import cache
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ def _package() -> Any | None:
 def method() -> str:
     """What cuts closed meshes here, for the cache: the pieces of two methods differ."""
     package = _package()
-    return "patches" if package is None else f"coacd {package.__version__}"
+    return "patches" if package is None else f"coacd {version('coacd')}"
 
 
 def decompose(surface: Surface) -> list[Solid] | None:

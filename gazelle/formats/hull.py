@@ -7,6 +7,7 @@ monotone chain (1979).
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -142,13 +143,9 @@ class _Builder:
 
     def _add(self, corners: tuple[int, int, int], free: Indices) -> Indices:
         """Add a face, which takes the free points outside of it; what is left of them."""
-        a, b, c = self._points[list(corners)]
-        normal = np.cross(b - a, c - a)
-        size = float(np.linalg.norm(normal))
-        if size == 0.0:
-            raise _SpoiledError
-        normal = normal / size
-        offset = float(normal @ a)
+        a, b, c = self._points[list(corners)].tolist()
+        normal = _unit_normal(a, b, c)
+        offset = float(normal @ self._points[corners[0]])
         above = self._points[free] @ normal - offset > self._tolerance
         number = self._count
         self._count += 1
@@ -182,6 +179,21 @@ class _Builder:
             raise _SpoiledError
         for tail, head in rim:
             free = self._add((tail, head, top), free)
+
+
+def _unit_normal(a: list[float], b: list[float], c: list[float]) -> Points:
+    """Across a triangle; in plain numbers, which for three are ten times as fast as NumPy.
+
+    Raises:
+        _SpoiledError: The triangle has no area.
+    """
+    ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    size = math.sqrt(x * x + y * y + z * z)
+    if size == 0.0:
+        raise _SpoiledError
+    return np.array((x / size, y / size, z / size))
 
 
 def planar_hull(points: Points) -> Indices:

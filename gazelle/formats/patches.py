@@ -25,7 +25,8 @@ _DEEPEST = 0.05
 """Thickness up to which a solid is filled behind its surface [m]."""
 _COSINE = 0.8
 """Of the angle that a face may make with the one its patch began with."""
-_MAX_RAYS = 40_000_000
+_MAX_RAYS = 10_000_000
+"""Pairs of ray and triangle for the thickness of all patches together."""
 
 Solid = tuple[Floats, NDArray[np.int32]]
 
@@ -129,8 +130,10 @@ def _convex_parts(surface: Surface, region: _Region, tolerance: float) -> list[_
     """A region cut into parts that fill their hulls in the plane."""
     flat = surface.vertices @ _plane(region.normal).T
     areas = surface.areas * np.abs(surface.normals @ region.normal)
-    whole = _try(surface, region, flat, areas, region.rows, tolerance)
-    if whole is not None:
+    used = np.unique(surface.faces[region.rows])
+    corners = used[planar_hull(flat[used])]
+    whole = _Patch(region.rows, region.normal, float(areas[region.rows].sum()), corners)
+    if _fills(whole, flat, tolerance):
         return [whole]
     left = dict.fromkeys(region.rows)
     parts = []
@@ -150,38 +153,29 @@ def _grown(
     """The first face left, with neighbours as long as the part stays convex."""
     seed = next(iter(left))
     del left[seed]
-    patch = _fit(surface, region, flat, areas, [seed])
+    patch = _Patch([seed], region.normal, float(areas[seed]), _rim(surface.faces[seed], flat))
     grew = True
     while grew:
         grew = False
-        rim = dict.fromkeys(n for row in patch.rows for n in region.links[row] if n in left)
-        for other in rim:
-            larger = _try(surface, region, flat, areas, [*patch.rows, other], tolerance)
-            if larger is not None:
+        near = dict.fromkeys(n for row in patch.rows for n in region.links[row] if n in left)
+        for other in near:
+            points = np.union1d(patch.corners, surface.faces[other])
+            area = patch.area + float(areas[other])
+            larger = _Patch([*patch.rows, other], patch.normal, area, _rim(points, flat))
+            if _fills(larger, flat, tolerance):
                 patch, grew = larger, True
                 del left[other]
     return patch
 
 
-def _try(
-    surface: Surface,
-    region: _Region,
-    flat: Floats,
-    areas: Floats,
-    rows: list[int],
-    tolerance: float,
-) -> _Patch | None:
-    """The faces as one patch, unless their hull covers much that they do not."""
-    patch = _fit(surface, region, flat, areas, rows)
+def _rim(rows: Indices, flat: Floats) -> Indices:
+    return rows[planar_hull(flat[rows])]
+
+
+def _fills(patch: _Patch, flat: Floats, tolerance: float) -> bool:
+    """Whether the patch's hull in the plane covers little that its faces do not."""
     covered = planar_area(flat[patch.corners])
-    fits = covered - patch.area <= 0.01 * covered + 4.0 * tolerance * tolerance
-    return patch if fits else None
-
-
-def _fit(surface: Surface, region: _Region, flat: Floats, areas: Floats, rows: list[int]) -> _Patch:
-    used = np.unique(surface.faces[rows])
-    corners = used[planar_hull(flat[used])]
-    return _Patch(rows, region.normal, float(areas[rows].sum()), corners)
+    return covered - patch.area <= 0.01 * covered + 4.0 * tolerance * tolerance
 
 
 def _plane(normal: Floats) -> Floats:
@@ -196,9 +190,12 @@ def _plane(normal: Floats) -> Floats:
 def _depths(surface: Surface, patches: list[_Patch]) -> Floats:
     """How thick each solid may be [m]: half the way to what is behind, sheets a skin."""
     skin = float(np.clip(0.01 * surface.size, *_SKIN))
+    rays = _MAX_RAYS // max(1, len(surface.faces) * len(patches))
+    if rays < 4:
+        return np.full(len(patches), skin)
     origins, directions, owners = [], [], []
     for number, patch in enumerate(patches):
-        rows = patch.rows[:: max(1, len(patch.rows) // 8)]
+        rows = patch.rows[:: max(1, -(-4 * len(patch.rows) // min(rays, 32)))]
         triangles = surface.vertices[surface.faces[rows]]
         centres = triangles.mean(axis=1)
         samples = np.concatenate(
@@ -207,8 +204,6 @@ def _depths(surface: Surface, patches: list[_Patch]) -> Floats:
         origins.append(samples)
         directions.append(np.broadcast_to(-patch.normal, samples.shape))
         owners.append(np.full(len(samples), number))
-    if not origins or sum(map(len, origins)) * len(surface.faces) > _MAX_RAYS:
-        return np.full(len(patches), skin)
     hits = first_hits(surface, np.concatenate(origins), np.concatenate(directions))
     nearest = np.full(len(patches), np.inf)
     np.minimum.at(nearest, np.concatenate(owners), hits)

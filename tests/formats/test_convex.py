@@ -258,6 +258,25 @@ def test_surfaces_are_welded_and_cleaned():
     assert hits.tolist() == [0.5, np.inf]
 
 
+def test_coacd_makes_fewer_solid_pieces_where_it_is_installed(monkeypatch):
+    package = pytest.importorskip("coacd")
+    monkeypatch.setattr(coacd, "_package", lambda: package)
+    pieces = convex_pieces(data(l_shape()))
+    assert len(pieces) == 2
+    assert sum(map(volume, pieces)) == pytest.approx(3.0, rel=0.02)
+    assert not inside(pieces, [[1.5, 1.5, 0.5]]).any()
+
+
+def test_meshes_that_coacd_cannot_cut_are_cut_along_their_surface(monkeypatch):
+    class Broken:
+        def Mesh(self, *_):
+            raise RuntimeError("no")
+
+    monkeypatch.setattr(coacd, "_package", Broken)
+    monkeypatch.setattr(coacd, "version", lambda _: "0")
+    assert len(convex_pieces(data(l_shape()))) > 2
+
+
 @pytest.mark.corpus
 def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
     walls = corpus / "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models/turtlebot3_world"
