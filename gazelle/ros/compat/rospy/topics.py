@@ -18,6 +18,7 @@ from gazelle.ros.messages import SerializationError
 from gazelle.ros.tcpros.frames import frame
 
 if TYPE_CHECKING:
+    from gazelle.ros.node import Node
     from gazelle.ros.publishing import Publisher as NodePublisher
     from gazelle.ros.subscribing import Subscriber as NodeSubscriber
 
@@ -108,6 +109,7 @@ class _PublisherImpl:
 
     def __init__(self, publisher: NodePublisher | None, *, latch: bool) -> None:
         self.publisher = publisher
+        self.owner: Node | None = None
         self.is_latch = latch
         self.headers: dict[str, str] = {}
         self.subscriber_listeners: list[SubscribeListener] = []
@@ -165,8 +167,9 @@ class Publisher(Topic):
         impl = self.impl
         if impl is None:  # unregistered before there was a node
             return
+        impl.owner = process.require()
         try:
-            impl.publisher = process.require().advertise(
+            impl.publisher = impl.owner.advertise(
                 self.resolved_name,
                 self.data_class,
                 queue_size=_UNBOUNDED if self.queue_size == 0 else self.queue_size,
@@ -182,10 +185,7 @@ class Publisher(Topic):
     def closed(self) -> bool:
         """Whether it can publish no more."""
         impl = self.impl
-        if impl is None:
-            return True
-        node = process.node
-        return node is None or node.closed if impl.publisher is not None else False
+        return impl is None or (impl.owner is not None and impl.owner.closed)
 
     def publish(self, *args: Any, **kwds: Any) -> None:
         """Publish a message.

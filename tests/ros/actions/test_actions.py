@@ -1,0 +1,249 @@
+"""Goals: sent, worked on, given up, preempted, and what each side sees of them."""
+
+import threading
+import time
+
+import pytest
+
+from gazelle.ros.actions import (
+    ActionClient,
+    ActionException,
+    ActionServer,
+    CommState,
+    GoalStatus,
+    SimpleActionClient,
+    SimpleActionServer,
+)
+from gazelle.ros.actions.states import TRANSITIONS, name_of
+from gazelle.ros.messages import load_message
+
+TEST = load_message("actionlib/TestAction")
+GOAL = load_message("actionlib/TestGoal")
+RESULT = load_message("actionlib/TestResult")
+FEEDBACK = load_message("actionlib/TestFeedback")
+
+
+def until(condition, seconds=5.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "it did not come true in time"
+        time.sleep(0.005)
+
+
+@pytest.fixture
+def simple(make_node):
+    """A simple client and server; goals above 0 succeed, others abort, all can be preempted."""
+    states = []
+
+    def execute(goal):
+        server.publish_feedback(FEEDBACK(goal.goal))
+        for _ in range(20):
+            if server.is_preempt_requested():
+                states.append("preempted")
+                server.set_preempted(RESULT(-1), "pre")
+                return
+            time.sleep(0.01)
+        done = server.set_succeeded if goal.goal > 0 else server.set_aborted
+        done(RESULT(goal.goal), "text")
+
+    server = SimpleActionServer(make_node("server"), "/act", TEST, execute)
+    client = SimpleActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    yield client, server, states
+    server.stop()
+
+
+def test_a_goal_succeeds_and_brings_its_result(simple):
+    client, _, _ = simple
+    seen = []
+    client.send_goal(
+        GOAL(3),
+        done_cb=lambda state, result: seen.append((state, result.result)),
+        active_cb=lambda: seen.append("active"),
+        feedback_cb=lambda feedback: seen.append(feedback.feedback),
+    )
+    assert client.wait_for_result(5.0)
+    assert client.get_state() == GoalStatus.SUCCEEDED
+    assert client.get_result().result == 3
+    assert client.get_goal_status_text() == "text"
+    until(lambda: len(seen) == 3)
+    assert seen[-1] == (GoalStatus.SUCCEEDED, 3)
+    assert set(seen[:2]) == {"active", 3}
+
+
+def test_a_goal_is_aborted(simple):
+    client, _, _ = simple
+    assert client.send_goal_and_wait(GOAL(-3), 5.0) == GoalStatus.ABORTED
+
+
+def test_a_goal_is_given_up_on_request(simple):
+    client, _, _ = simple
+    client.send_goal(GOAL(5))
+    until(lambda: client.get_state() == GoalStatus.ACTIVE)
+    client.cancel_goal()
+    assert client.wait_for_result(5.0)
+    assert client.get_state() == GoalStatus.PREEMPTED
+
+
+def test_a_goal_that_takes_too_long_is_given_up(simple):
+    client, _, _ = simple
+    assert client.send_goal_and_wait(GOAL(5), 0.05, 2.0) == GoalStatus.PREEMPTED
+
+
+def test_a_new_goal_takes_the_place_of_the_old(simple):
+    client, _, states = simple
+    client.send_goal(GOAL(5))
+    until(lambda: client.get_state() == GoalStatus.ACTIVE)
+    client.send_goal(GOAL(6))
+    assert client.wait_for_result(5.0)
+    assert client.get_result().result == 6
+    assert states == ["preempted"]
+
+
+def test_a_callback_that_fails_aborts_the_goal(make_node, caplog):
+    def broken(goal):
+        raise ValueError("a bug of mine")
+
+    server = SimpleActionServer(make_node("server"), "/act", TEST, broken)
+    client = SimpleActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    assert client.send_goal_and_wait(GOAL(1), 5.0) == GoalStatus.ABORTED
+    assert "a bug of mine" in client.get_goal_status_text()
+    server.stop()
+
+
+def test_a_callback_that_forgets_the_goal_aborts_it(make_node):
+    server = SimpleActionServer(make_node("server"), "/act", TEST, lambda goal: None)
+    client = SimpleActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    assert client.send_goal_and_wait(GOAL(1), 5.0) == GoalStatus.ABORTED
+    assert client.get_goal_status_text() == "No terminal state was set."
+    server.stop()
+
+
+def test_goals_can_be_taken_by_hand(make_node):
+    came = threading.Event()
+    server = SimpleActionServer(make_node("server"), "/act", TEST, auto_start=False)
+    server.register_goal_callback(came.set)
+    server.start()
+    client = SimpleActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    client.send_goal(GOAL(4))
+    assert came.wait(5.0)
+    assert server.is_new_goal_available()
+    assert server.accept_new_goal().goal == 4
+    assert server.is_active()
+    server.set_succeeded(RESULT(4))
+    assert client.wait_for_result(5.0)
+    assert not server.is_active()
+
+
+@pytest.fixture
+def full(make_node):
+    """A client and a server whose goals wait to be judged."""
+    goals, cancels = [], []
+    server = ActionServer(make_node("server"), "/act", TEST, goals.append, cancels.append)
+    client = ActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    return client, server, goals, cancels
+
+
+def test_the_states_of_a_goal_are_seen_in_order(full):
+    client, _, goals, _ = full
+    seen = []
+    handle = client.send_goal(GOAL(1), lambda h: seen.append(h.get_comm_state()))
+    until(lambda: goals)
+    goals[0].set_accepted()
+    until(lambda: handle.get_comm_state() == CommState.ACTIVE)
+    goals[0].set_succeeded(RESULT(1), "well")
+    until(lambda: handle.get_comm_state() == CommState.DONE)
+    assert seen[-3:] == [CommState.ACTIVE, CommState.WAITING_FOR_RESULT, CommState.DONE]
+    assert handle.get_terminal_state() == GoalStatus.SUCCEEDED
+    assert handle.get_result().result == 1
+
+
+def test_a_rejected_and_a_recalled_goal(full):
+    client, _, goals, cancels = full
+    handle = client.send_goal(GOAL(1))
+    until(lambda: goals)
+    assert goals[0].set_rejected(None, "no")
+    until(lambda: handle.get_comm_state() == CommState.DONE)
+    assert handle.get_terminal_state() == GoalStatus.REJECTED
+    other = client.send_goal(GOAL(2))
+    until(lambda: len(goals) == 2)
+    other.cancel()
+    until(lambda: cancels)
+    assert cancels == [goals[1]]
+    assert goals[1].set_canceled()
+    until(lambda: other.get_comm_state() == CommState.DONE)
+    assert other.get_terminal_state() == GoalStatus.RECALLED
+
+
+def test_impossible_changes_of_state_are_refused_and_logged(full, caplog):
+    client, _, goals, _ = full
+    client.send_goal(GOAL(1))
+    until(lambda: goals)
+    assert not goals[0].set_succeeded()
+    assert "must be in a preempting or active state" in caplog.text
+    assert goals[0].set_accepted()
+    assert not goals[0].set_rejected()
+
+
+def test_all_goals_and_those_before_a_time_are_given_up(full):
+    client, _, goals, cancels = full
+    handles = [client.send_goal(GOAL(number)) for number in range(3)]
+    until(lambda: len(goals) == 3)
+    stamps = sorted(goal.get_goal_id().stamp for goal in goals)
+    client.cancel_goals_at_and_before_time(stamps[1])
+    until(lambda: len(cancels) == 2)
+    client.cancel_all_goals()
+    until(lambda: len(cancels) == 3)
+    assert len(handles) == 3
+
+
+def test_a_cancel_request_may_come_before_its_goal(full, make_node):
+    client, _, goals, _ = full
+    goal_id = load_message("actionlib_msgs/GoalID")(id="later")
+    client._cancel.publish(goal_id)
+    time.sleep(0.1)
+    client._goal.publish(client.types.action_goal(goal_id=goal_id, goal=GOAL(1)))
+    time.sleep(0.2)
+    assert goals == []
+
+
+def test_finished_goals_leave_the_list(make_node):
+    node = make_node("server")
+    node.set_param("/act/status_list_timeout", 0.2)
+    node.set_param("/act/status_frequency", 50.0)
+    goals, lists = [], []
+    ActionServer(node, "/act", TEST, goals.append)
+    watcher = make_node("watcher")
+    statuses = load_message("actionlib_msgs/GoalStatusArray")
+    watcher.subscribe("/act/status", statuses, lambda m: lists.append(len(m.status_list)))
+    client = ActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    client.send_goal(GOAL(1))
+    until(lambda: goals)
+    goals[0].set_accepted()
+    goals[0].set_succeeded()
+    until(lambda: 1 in lists)
+    until(lambda: lists[-1] == 0)
+
+
+def test_a_server_that_is_not_there_is_not_waited_for_long(make_node):
+    client = SimpleActionClient(make_node("client"), "/nobody", TEST)
+    assert not client.wait_for_server(0.2)
+    assert client.get_state() == GoalStatus.LOST
+
+
+def test_a_class_that_is_no_action_is_refused(make_node):
+    with pytest.raises(ActionException, match="not an action spec"):
+        SimpleActionClient(make_node("client"), "/act", GOAL)
+
+
+def test_every_way_through_the_states_ends():
+    for state, answers in TRANSITIONS.items():
+        assert name_of(CommState, state) != "No such state"
+        for steps in answers.values():
+            assert set(steps) <= set(TRANSITIONS)
+            assert state not in steps
