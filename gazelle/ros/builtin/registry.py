@@ -49,6 +49,13 @@ _OWN = {
                 "map_saver": "gazelle.ros.builtin.map_saver:main",
             },
         ),
+        BuiltinPackage("robot_state_publisher", {
+            "robot_state_publisher": "gazelle.ros.builtin.robot:state_main",
+            "state_publisher": "gazelle.ros.builtin.robot:state_main",
+        }),
+        BuiltinPackage("joint_state_publisher", {
+            "joint_state_publisher": "gazelle.ros.builtin.robot:joint_main",
+        }),
         BuiltinPackage("rosbag", {
             "record": "gazelle.ros.builtin.bags:record",
             "play": "gazelle.ros.builtin.bags:play",

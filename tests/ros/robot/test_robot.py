@@ -1,0 +1,129 @@
+"""From joints to transforms."""
+
+import math
+import time
+
+import pytest
+
+from gazelle.errors import RosError
+from gazelle.ros.builtin.registry import main_of
+from gazelle.ros.messages import load_message
+from gazelle.ros.robot import JointStatePublisher, RobotStatePublisher, read_joints
+from gazelle.ros.tf.rotations import rotate
+from gazelle.ros.time import Time
+
+ROBOT = """
+<robot name="r">
+  <link name="base"/><link name="arm"/><link name="slide"/><link name="finger"/><link name="tool"/>
+  <joint name="lift" type="prismatic">
+    <parent link="base"/><child link="slide"/><axis xyz="0 0 2"/>
+    <origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/>
+    <limit lower="0.2" upper="0.6" effort="1" velocity="1"/>
+  </joint>
+  <joint name="turn" type="continuous">
+    <parent link="slide"/><child link="arm"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="copy" type="revolute">
+    <parent link="arm"/><child link="finger"/><axis xyz="0 1 0"/>
+    <limit lower="-9" upper="9" effort="1" velocity="1"/>
+    <mimic joint="turn" multiplier="-2" offset="0.1"/>
+  </joint>
+  <joint name="bolt" type="fixed">
+    <parent link="arm"/><child link="tool"/><origin xyz="0 0 3"/>
+  </joint>
+</robot>
+"""
+
+
+def until(condition, seconds=5.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "it did not come true in time"
+        time.sleep(0.005)
+
+
+def test_joints_place_their_links():
+    joints = read_joints(ROBOT)
+    assert list(joints) == ["lift", "turn", "copy", "bolt"]
+    place, turn = joints["lift"].placed(0.5)
+    assert place == pytest.approx((1.5, 0.0, 0.0))
+    assert rotate(turn, (0.0, 0.0, 1.0)) == pytest.approx((1.0, 0.0, 0.0))
+    _, turn = joints["turn"].placed(math.pi / 2)
+    assert rotate(turn, (1.0, 0.0, 0.0)) == pytest.approx((0.0, 1.0, 0.0))
+    assert joints["bolt"].placed(9.0)[0] == (0.0, 0.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("<robot", "not XML"),
+        ("<sdf/>", "not a <robot>"),
+        ("<robot><joint name='j' type='odd'/></robot>", "unknown type"),
+        (ROBOT.replace('xyz="0 0 3"', 'xyz="0 three"'), "not three numbers"),
+        (ROBOT.replace('multiplier="-2"', 'multiplier="x"'), "not a number"),
+        (ROBOT.replace('joint="turn"', 'joint="nobody"'), "which is not there"),
+        (ROBOT.replace('"turn" type', '"lift" type'), "two joints"),
+    ],
+)
+def test_a_bad_description_is_named(text, words):
+    with pytest.raises(RosError, match=words):
+        read_joints(text)
+
+
+def test_states_become_transforms(make_node):
+    node, watcher = make_node("rsp"), make_node("watcher")
+    moving, fixed = [], []
+    many = load_message("tf2_msgs/TFMessage")
+    RobotStatePublisher(node, read_joints(ROBOT))
+    watcher.subscribe("/tf", many, moving.append)
+    watcher.subscribe("/tf_static", many, fixed.append)
+    state = load_message("sensor_msgs/JointState")
+    sender = watcher.advertise("/joint_states", state, queue_size=10)
+    until(lambda: sender.num_connections and fixed)
+    assert [t.child_frame_id for t in fixed[0].transforms] == ["tool"]
+    until(lambda: node.publication("/tf").num_connections)
+    for stamp in (100.0, 100.001, 100.5):
+        message = state(name=["turn", "other"], position=[0.3, 1.0])
+        message.header.stamp = Time.from_sec(stamp)
+        sender.publish(message)
+        time.sleep(0.05)
+    until(lambda: len(moving) == 2)
+    found = {t.child_frame_id: t.transform.rotation for t in moving[0].transforms}
+    assert set(found) == {"arm", "finger"}
+    assert found["arm"].z == pytest.approx(math.sin(0.15))
+    assert found["finger"].y == pytest.approx(math.sin(-0.25))
+    assert [m.transforms[0].header.stamp.to_sec() for m in moving] == [100.0, 100.5]
+
+
+def test_fixed_joints_can_be_sent_again_and_again(make_node):
+    node, watcher = make_node("rsp"), make_node("watcher")
+    node.set_param("~use_tf_static", False)
+    moving = []
+    RobotStatePublisher(node, read_joints(ROBOT))
+    watcher.subscribe("/tf", load_message("tf2_msgs/TFMessage"), moving.append)
+    until(lambda: len(moving) > 3)
+    assert moving[0].transforms[0].child_frame_id == "tool"
+
+
+def test_joints_nobody_measures_are_zero(make_node):
+    node, watcher = make_node("jsp"), make_node("watcher")
+    node.set_param("~source_list", ["/measured"])
+    node.set_param("~rate", 50)
+    got = []
+    state = load_message("sensor_msgs/JointState")
+    watcher.subscribe("/joint_states", state, got.append)
+    JointStatePublisher(node, read_joints(ROBOT))
+    until(lambda: got)
+    assert got[0].name == ["lift", "turn", "copy"]
+    assert got[0].position == pytest.approx((0.4, 0.0, 0.1))
+    sender = watcher.advertise("/measured", state, queue_size=1)
+    until(lambda: sender.num_connections)
+    sender.publish(state(name=["turn"], position=[1.0], velocity=[0.5]))
+    until(lambda: got[-1].position[1] == 1.0)
+    assert got[-1].position[2] == pytest.approx(-1.9)
+    assert got[-1].velocity == pytest.approx((0.0, 0.5, 0.0))
+
+
+def test_launch_files_find_both_nodes():
+    assert callable(main_of("robot_state_publisher", "robot_state_publisher"))
+    assert callable(main_of("joint_state_publisher", "joint_state_publisher"))
