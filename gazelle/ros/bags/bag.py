@@ -103,15 +103,16 @@ class Bag:
             self._reader = BagReader(path, allow_unindexed=allow_unindexed)
             self._file = self._reader.file
             return
-        index: BagIndex | None = None
+        options: dict[str, Any] = {
+            "compression": self._compression,
+            "chunk_bytes": self._chunk_threshold,
+        }
         if self.mode == "a" and path.exists() and path.stat().st_size:
-            self._stream, index = open_for_appending(path)
+            self._stream, self._writer = open_for_appending(path, **options)
         else:
             self._stream = path.open("w+b")
+            self._writer = BagWriter(self._stream, **options)
         self._file = BagFile(self._stream, self.filename)
-        self._writer = BagWriter(
-            self._stream, index, compression=self._compression, chunk_bytes=self._chunk_threshold
-        )
 
     def close(self) -> None:
         """Write what is not written yet, and the index; close the file."""

@@ -243,6 +243,8 @@ def select(
         if (start is not None and chunk.end < start) or (end is not None and chunk.start > end):
             continue
         for connection, rows in file.entries(chunk).items():
+            if connection not in index.connections:
+                raise BagFormatError(f"there is no connection {connection}", file=file.name)
             if connections is not None and connection not in connections:
                 continue
             times = rows[:, 0].astype(np.int64) * records.SECOND + rows[:, 1]

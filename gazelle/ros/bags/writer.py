@@ -23,6 +23,7 @@ class BagWriter:
         index: What is in the file already; empty for a new one.
         compression: ``none``, ``bz2`` or ``lz4``.
         chunk_bytes: Uncompressed bytes after which a chunk is complete.
+        header_bytes: Length of the header that is in the file already.
 
     Attributes:
         index: What was written, without the chunk that is not complete.
@@ -38,11 +39,13 @@ class BagWriter:
         *,
         compression: str = "none",
         chunk_bytes: int = CHUNK_BYTES,
+        header_bytes: int = records.HEADER_BYTES,
     ) -> None:
         self.compression = check_compression(compression)
         self.chunk_bytes = chunk_bytes
         self.index = index or BagIndex()
         self._file = file
+        self._header_bytes = header_bytes
         self._parts: list[Buffer] = []
         self._size = 0
         self._rows: dict[int, list[bytes]] = {}
@@ -135,7 +138,7 @@ class BagWriter:
             "chunk_count": U32.pack(len(self.index.chunks)),
         }
         head = records.pack_header(fields)
-        padding = records.HEADER_BYTES - len(head) - 4
+        padding = self._header_bytes - len(head) - 4
         self._file.seek(len(records.MAGIC))
         self._file.write(head + U32.pack(padding) + b" " * padding)
 
@@ -145,8 +148,10 @@ def check_compression(kind: str) -> str:
     return compression.check(kind)
 
 
-def open_for_appending(path: Path) -> tuple[IO[bytes], BagIndex]:
-    """A bag's file, cut off where its index begins, and what is in it.
+def open_for_appending(
+    path: Path, *, compression: str, chunk_bytes: int
+) -> tuple[IO[bytes], BagWriter]:
+    """A bag's file, cut off where its index began, and a writer that goes on there.
 
     Raises:
         BagError: It is no bag, or has no index.
@@ -155,15 +160,25 @@ def open_for_appending(path: Path) -> tuple[IO[bytes], BagIndex]:
 
     reader = BagReader(path)
     try:
-        index = reader.index
+        index, begin = reader.index, reader.begin
         for chunk in index.chunks:
             reader.file.describe(chunk)
-        view = reader.file.view()
-        fields, _, _ = records.read_record(view, len(records.MAGIC))
+        fields, _, _ = records.read_record(reader.file.view(), len(records.MAGIC))
         position = fields.u64("index_pos")
-        del view
     finally:
         reader.close()
     file = path.open("r+b")
     file.truncate(position)
-    return file, index
+    header_bytes = begin - len(records.MAGIC)
+    try:
+        writer = BagWriter(
+            file,
+            index,
+            compression=compression,
+            chunk_bytes=chunk_bytes,
+            header_bytes=header_bytes,
+        )
+    except BaseException:
+        file.close()
+        raise
+    return file, writer
