@@ -1,0 +1,61 @@
+"""What tf2 refuses, in its own words."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.ros.tf.rotations import Quaternion, Vector
+
+_NORM_TOLERANCE = 10e-3
+
+
+def name_fault(name: str, what: str) -> str:
+    """What is wrong with a frame's name in a question, empty if nothing is."""
+    if not name:
+        return f"Invalid argument passed to {what} in tf2 frame_ids cannot be empty"
+    if name.startswith("/"):
+        return (
+            f'Invalid argument "{name}" passed to {what} in tf2 frame_ids cannot start with a '
+            "'/' like: "
+        )
+    return ""
+
+
+def placement_fault(
+    parent: str, child: str, translation: Vector, rotation: Quaternion, authority: str
+) -> str:
+    """What is wrong with a placement, empty if nothing is."""
+    if child == parent and child:
+        return (
+            f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and '
+            f'child_frame_id  "{child}" because they are the same'
+        )
+    if not child:
+        return (
+            f'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "{authority}" because '
+            "child_frame_id not set "
+        )
+    if not parent:
+        return (
+            f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority '
+            f'"{authority}" because frame_id not set'
+        )
+    x, y, z, w = rotation
+    norm = x * x + y * y + z * z + w * w
+    if math.isnan(norm) or math.isnan(sum(translation)):
+        return (
+            f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
+            f'"{authority}" because of a nan value in the transform '
+            f"({_numbers(translation)}) ({_numbers(rotation)})"
+        )
+    if abs(norm - 1.0) >= _NORM_TOLERANCE:
+        return (
+            f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from '
+            f'authority "{authority}" because of an invalid quaternion in the transform '
+            f"({_numbers(rotation)})"
+        )
+    return ""
+
+
+def _numbers(values: tuple[float, ...]) -> str:
+    return " ".join(f"{value:f}" for value in values)
