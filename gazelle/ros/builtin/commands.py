@@ -31,9 +31,7 @@ def _run(tool: str, arguments: Sequence[str]) -> int:
     plain, mappings = names.split_arguments(arguments)
     command = [sys.executable, "-m", "gazelle.cli.main", tool, *plain]
     environment = {**os.environ, NODE_NAME: mappings.get("__name", "")}
-    process = subprocess.Popen(command, env=environment)  # noqa: S603  # our own program
-    while True:
-        try:
-            return process.wait()
-        except KeyboardInterrupt:
-            continue  # the tool gets the signal too, and ends in its own time
+    if os.name == "posix":
+        # In place of this process, so that signals reach the tool itself.
+        os.execve(sys.executable, command, environment)  # noqa: S606  # our own program
+    return subprocess.call(command, env=environment)  # noqa: S603  # our own program

@@ -17,6 +17,8 @@ from gazelle.ros.messages import load_message
 
 _OCCUPIED, _FREE, _UNKNOWN = 0, 254, 205
 """Grey levels of cells."""
+_DARK, _BRIGHT = 0.65, 0.196
+"""Limits for reading: they tell the three levels apart, whatever the limits of the cells were."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -63,6 +65,6 @@ def write_map(message: Any, name: str, *, occupied: float, free: float) -> None:
     Path(f"{name}.yaml").write_text(
         f"image: {picture.name}\nresolution: {info.resolution:f}\n"
         f"origin: [{place.x:f}, {place.y:f}, {yaw:f}]\nnegate: 0\n"
-        f"occupied_thresh: {occupied / 100:g}\nfree_thresh: {free / 100:g}\n",
+        f"occupied_thresh: {_DARK}\nfree_thresh: {_BRIGHT}\n",
         encoding="utf-8",
     )

@@ -1,0 +1,381 @@
+"""Built-in nodes, started as a launch file starts them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gazelle.errors import RosError
+from gazelle.ros import RawMessage, load_message, load_service
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.builtin.map_saver import write_map
+from gazelle.ros.builtin.map_server import grid_message, read_map
+from gazelle.ros.builtin.registry import main_of
+from gazelle.ros.builtin.static_transform import from_angles
+
+STRING = load_message("std_msgs/String")
+
+
+def until(condition, seconds=15.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "it does not happen"
+        time.sleep(0.02)
+
+
+@pytest.fixture
+def start(master, tmp_path):
+    """Starts a built-in node as a process."""
+    made = []
+
+    def run(package, kind, *arguments):
+        command = [sys.executable, "-m", "gazelle.ros.builtin.start", package, kind, *arguments]
+        env = os.environ | {"ROS_MASTER_URI": master.uri}
+        made.append(
+            subprocess.Popen(command, env=env, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+        )
+        return made[-1]
+
+    yield run
+    for process in made:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        try:
+            assert process.wait(10) == 0
+        finally:
+            process.kill()
+            process.stderr.close()
+
+
+@pytest.fixture
+def listen(make_node):
+    node = make_node("listener")
+
+    def run(topic, kind=STRING):
+        found = []
+        node.subscribe(topic, kind, found.append)
+        return found
+
+    return run
+
+
+@pytest.fixture
+def talk(make_node):
+    """Publishes numbers on ``/in`` at 50 Hz."""
+    publisher = make_node("talker").advertise("/in", STRING)
+    stop = threading.Event()
+
+    def run():
+        number = 0
+        while not stop.wait(0.02):
+            publisher.publish(STRING(data=str(number)))
+            number += 1
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    yield publisher
+    stop.set()
+    thread.join()
+
+
+# Static transforms -----------------------------------------------------------------------
+
+
+def test_tf2_sends_a_static_transform_once(start, listen):
+    start("tf2_ros", "static_transform_publisher", "1", "2", "3", "0", "0", "0", "1", "a", "b")
+    got = listen("/tf_static", load_message("tf2_msgs/TFMessage"))
+    until(lambda: got)
+    (transform,) = got[0].transforms
+    assert (transform.header.frame_id, transform.child_frame_id) == ("a", "b")
+    place = transform.transform.translation
+    assert (place.x, place.y, place.z, transform.transform.rotation.w) == (1, 2, 3, 1)
+
+
+def test_tf_sends_again_and_again(start, listen, master):
+    start("tf", "static_transform_publisher", "0", "0", "1", "0.5", "0", "0", "a", "b", "50")
+    got = listen("/tf", load_message("tf2_msgs/TFMessage"))
+    until(lambda: len(got) >= 5)
+    first, last = (each.transforms[0].header.stamp.to_sec() for each in (got[0], got[4]))
+    assert 0.15 < last - first < 0.5
+    assert got[0].transforms[0].transform.rotation.z == pytest.approx(math.sin(0.25))
+
+
+@given(st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(-3, 3))
+def test_angles_are_turns_about_fixed_axes(yaw, pitch, roll):
+    def times(a, b):
+        (x1, y1, z1, w1), (x2, y2, z2, w2) = a, b
+        return (
+            w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+            w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
+            w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
+            w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
+        )
+
+    about_x = (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2))
+    about_y = (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2))
+    about_z = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+    assert from_angles(yaw, pitch, roll) == pytest.approx(
+        times(times(about_z, about_y), about_x), abs=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("tf2_ros", "1 2 3 a b"),
+        ("tf2_ros", "1 2 3 0 0 0 a a"),
+        ("tf2_ros", "1 2 x 0 0 0 a b"),
+        ("tf2_ros", "0 0 0 0 0 0 0 a b"),
+        ("tf", "1 2 3 0 0 0 a b"),
+        ("tf", "1 2 3 0 0 0 a b 0"),
+        ("tf", ""),
+    ],
+)
+def test_wrong_transforms_are_refused(kind, words):
+    with pytest.raises(RosError):
+        main_of(kind, "static_transform_publisher")(words.split())
+
+
+# Topic tools -----------------------------------------------------------------------------
+
+
+def test_relay_passes_all_on(start, listen, talk):
+    start("topic_tools", "relay", "/in", "/out")
+    got = listen("/out")
+    until(lambda: len(got) >= 20)
+    numbers = [int(each.data) for each in got]
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+def test_relay_keeps_type_and_latching(start, make_node, master):
+    kind = load_message("geometry_msgs/Twist")
+    make_node("talker").advertise("/in", kind, latch=True).publish(kind())
+    start("topic_tools", "relay", "/in")
+    got = []
+    make_node("late").subscribe("/in_relay", RawMessage, got.append)
+    until(lambda: got)
+    header = got[0]._connection_header
+    assert (header["type"], header["md5sum"], header["latching"]) == (kind._type, kind._md5sum, "1")
+    assert header["message_definition"] == kind._full_text
+
+
+def test_throttle_passes_some_on(start, listen, talk):
+    start("topic_tools", "throttle", "messages", "/in", "10")
+    got = listen("/in_throttle")
+    until(lambda: len(got) >= 2)
+    begin, count = time.monotonic(), len(got)
+    time.sleep(1.5)
+    assert 5.0 <= (len(got) - count) / (time.monotonic() - begin) <= 11.0
+
+
+def test_throttle_counts_bytes(start, listen, talk):
+    start("topic_tools", "throttle", "bytes", "/in", "60", "0.5", "/out")
+    got = listen("/out")
+    until(lambda: len(got) >= 2)
+    count = len(got)
+    time.sleep(1.5)
+    assert 4 <= len(got) - count <= 30
+
+
+def test_drop_leaves_some_out(start, listen, talk):
+    start("topic_tools", "drop", "/in", "2", "3", "/out")
+    got = listen("/out")
+    until(lambda: len(got) >= 10)
+    numbers = [int(each.data) for each in got]
+    assert {b - a for a, b in itertools.pairwise(numbers)} == {3}
+
+
+def test_mux_switches(start, listen, make_node, talk):
+    other = make_node("other").advertise("/other", STRING, latch=True)
+    other.publish(STRING(data="x"))
+    start("topic_tools", "mux", "/out", "/in", "/other", "__name:=mux")
+    got, selected = listen("/out"), listen("/mux/selected")
+    until(lambda: len(got) > 5)
+    assert "x" not in {each.data for each in got}
+    node = make_node("caller")
+
+    def call(name, **fields):
+        service = load_service(f"topic_tools/Mux{name}")
+        node.wait_for_service(f"/mux/{name.lower()}", 5)
+        client = node.client(f"/mux/{name.lower()}", service)
+        return client.call(service._request_class(**fields))
+
+    assert call("List").topics == ["/in", "/other"]
+    assert call("Select", topic="/other").prev_topic == "/in"
+    time.sleep(0.3)
+    got.clear()
+    time.sleep(0.3)
+    assert got == []
+    assert call("Select", topic="__none").prev_topic == "/other"
+    call("Add", topic="/third")
+    call("Delete", topic="/in")
+    assert call("List").topics == ["/other", "/third"]
+    with pytest.raises(RosError):
+        call("Select", topic="/nope")
+    assert [each.data for each in selected][:3] == ["/in", "/other", "__none"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("relay", ""),
+        ("relay", "/a /b /c"),
+        ("throttle", "messages /a"),
+        ("throttle", "messages /a 0"),
+        ("throttle", "bytes /a 5"),
+        ("throttle", "words /a 5"),
+        ("drop", "/a 1"),
+        ("drop", "/a 3 2"),
+        ("drop", "/a x 2"),
+        ("mux", "/a"),
+    ],
+)
+def test_wrong_arguments_are_refused(kind, words):
+    with pytest.raises(RosError):
+        main_of("topic_tools", kind)(words.split())
+
+
+def test_a_wrong_command_line_is_one_line_without_traceback(start):
+    process = start("topic_tools", "relay")
+    process.wait(20)
+    said = process.stderr.read()
+    assert said.startswith("[topic_tools/relay] give one topic or two")
+    assert "Traceback" not in said
+    process.returncode = 0
+
+
+# Maps ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def write_yaml(tmp_path):
+    def run(levels, **settings):
+        height, width = len(levels), len(levels[0])
+        head = f"P5\n{width} {height}\n255\n".encode()
+        (tmp_path / "m.pgm").write_bytes(head + bytes(itertools.chain(*levels)))
+        known = {
+            "image": "m.pgm",
+            "resolution": 0.05,
+            "origin": "[-1, -2, 0.5]",
+            "negate": 0,
+            "occupied_thresh": 0.65,
+            "free_thresh": 0.196,
+        } | settings
+        path = tmp_path / "m.yaml"
+        text = "\n".join(f"{key}: {value}" for key, value in known.items() if value is not None)
+        path.write_text(text)
+        return str(path)
+
+    return run
+
+
+LEVELS = [[0, 254, 205], [254, 254, 100]]
+
+
+def test_maps_are_read_from_the_lowest_row(write_yaml):
+    grid = read_map(write_yaml(LEVELS))
+    assert grid.cells.tolist() == [[0, 0, -1], [100, 0, -1]]
+    assert (grid.resolution, grid.origin) == (0.05, (-1.0, -2.0, 0.5))
+
+
+def test_maps_have_modes(write_yaml):
+    assert read_map(write_yaml(LEVELS, negate=1)).cells.tolist() == [[100, 100, -1], [0, 100, 100]]
+    scaled = read_map(write_yaml(LEVELS, mode="scale")).cells.tolist()
+    assert scaled[0] == [0, 0, int(1 + 98 * ((155 / 255 - 0.196) / (0.65 - 0.196)))]
+    assert read_map(write_yaml(LEVELS, mode="raw")).cells.tolist() == [[-1, -1, 100], [0, -1, -1]]
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"resolution": None},
+        {"mode": "odd"},
+        {"image": "no.pgm"},
+        {"origin": "[1]"},
+        {"negate": "x"},
+    ],
+)
+def test_wrong_maps_are_refused(write_yaml, settings):
+    path = write_yaml(LEVELS, **settings)
+    with pytest.raises(RosError):
+        read_map(path)
+
+
+def test_maps_are_served(start, make_node, listen, write_yaml):
+    path = write_yaml(LEVELS)
+    start("map_server", "map_server", path, "_frame_id:=world", "map:=/plan")
+    got = listen("/plan", load_message("nav_msgs/OccupancyGrid"))
+    info = listen("/map_metadata", load_message("nav_msgs/MapMetaData"))
+    until(lambda: got and info)
+    assert got[0].header.frame_id == "world"
+    assert list(got[0].data) == [0, 0, -1, 100, 0, -1]
+    assert (info[0].width, info[0].height) == (3, 2)
+    node, service = make_node("caller"), load_service("nav_msgs/GetMap")
+    node.wait_for_service("/static_map", 5)
+    answer = node.client("/static_map", service).call(service._request_class())
+    assert answer.map.data == got[0].data
+    assert answer.map.info.origin.orientation.z == pytest.approx(math.sin(0.25))
+
+
+def test_maps_that_are_saved_read_the_same(write_yaml, tmp_path):
+    grid = read_map(write_yaml(LEVELS))
+    write_map(grid_message(grid, "map", 0), str(tmp_path / "saved"), occupied=65, free=25)
+    again = read_map(str(tmp_path / "saved.yaml"))
+    assert again.cells.tolist() == grid.cells.tolist()
+    assert again.origin == pytest.approx(grid.origin)
+    assert (tmp_path / "saved.pgm").read_bytes().startswith(b"P5\n# CREATOR")
+
+
+def test_maps_are_saved_from_a_topic(start, make_node, write_yaml, tmp_path):
+    message = grid_message(read_map(write_yaml(LEVELS)), "map", 0)
+    make_node("slam").advertise("/map", type(message), latch=True).publish(message)
+    start("map_server", "map_saver", "-f", "here").wait(20)
+    assert (tmp_path / "here.yaml").exists()
+
+
+# Command lines ---------------------------------------------------------------------------
+
+
+def test_command_lines_are_taken_apart(monkeypatch):
+    monkeypatch.setenv("ROS_NAMESPACE", "/env")
+    words = ["a", "x:=/y", "_p:=[1, 2]", "__name:=n", "__log:=f", "__master:=http://h:1", "b"]
+    found = parse_arguments(words, "default")
+    assert found.plain == ["a", "b"]
+    assert found.parameters == {"p": "[1, 2]"}
+    assert found.options == {
+        "name": "n",
+        "namespace": "/env",
+        "remappings": {"x": "/y"},
+        "master_uri": "http://h:1",
+    }
+    assert parse_arguments(["__ns:=/arg"], "default").options["namespace"] == "/arg"
+
+
+def test_tools_are_nodes_too(start, listen, master):
+    process = start(
+        "rostopic",
+        "rostopic",
+        "pub",
+        "-r",
+        "20",
+        "/out",
+        "std_msgs/String",
+        "data: hi",
+        "__name:=me",
+    )
+    got = listen("/out")
+    until(lambda: len(got) > 3)
+    assert got[0].data == "hi"
+    assert "/me" in master.api.registrations.nodes
+    process.send_signal(signal.SIGINT)
+    until(lambda: process.poll() is not None)
