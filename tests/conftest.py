@@ -6,11 +6,16 @@ everything, it fails instead (``tests/missing.py``).
 """
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 from missing import skip_or_fail
+
+# Shells start background jobs with Ctrl-C ignored, and programs hand that on to theirs.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # A machine busy with other things must not fail a test by its speed.
 settings.register_profile("gazelle", deadline=None)
