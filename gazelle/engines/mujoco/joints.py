@@ -22,7 +22,7 @@ _SLIDE = mujoco.mjtJoint.mjJNT_SLIDE
 _BALL = mujoco.mjtJoint.mjJNT_BALL
 
 # Limit stops must not ring: MuJoCo's time constant of a limit, in physics steps.
-_LIMIT_STEPS = 5.0
+LIMIT_STEPS = 5.0
 
 
 def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
@@ -125,7 +125,7 @@ def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, 
     if joint.type != "continuous" and (math.isfinite(axis.lower) or math.isfinite(axis.upper)):
         options["limited"] = mujoco.mjtLimited.mjLIMITED_TRUE
         options["range"] = [max(axis.lower, -1e10), min(axis.upper, 1e10)]
-        options["solref_limit"] = [_LIMIT_STEPS * time_step, 1.0]
+        options["solref_limit"] = [LIMIT_STEPS * time_step, 1.0]
     return options
 
 

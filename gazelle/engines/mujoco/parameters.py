@@ -14,8 +14,10 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.inertia import matrices, principal, tensor
+from gazelle.engines.mujoco.joints import LIMIT_STEPS
 from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
+from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
 from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
@@ -23,12 +25,6 @@ Key = tuple[str, str]
 
 # MuJoCo has no infinite limits.
 _FAR = 1e10
-
-# Friction above it is taken as it, as of every surface.
-_LARGEST_FRICTION = 10.0
-
-# A joint that had no limits when compiled gets stops like those that had.
-_LIMIT_STEPS = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +154,7 @@ def _write_limit(target: _Target, name: str, values: Floats, side: int) -> None:
     fresh = never & ~(batch.expand("jnt_limited")[:, ids] != 0).any(axis=0)
     for joint in np.asarray(ids)[fresh]:
         bounds[:, joint] = (-_FAR, _FAR)
-        batch.expand("jnt_solref")[:, joint] = (_LIMIT_STEPS * batch.model.opt.timestep, 1.0)
+        batch.expand("jnt_solref")[:, joint] = (LIMIT_STEPS * batch.model.opt.timestep, 1.0)
     bounds[:, ids, side] = np.clip(values, -_FAR, _FAR)
     batch.expand("jnt_limited")[:, ids] = (np.abs(bounds[:, ids]) < _FAR).any(axis=2)
 
@@ -170,9 +166,9 @@ def _write_motor(target: _Target, name: str, values: Floats) -> None:
 
 def _write_friction(target: _Target, name: str, values: Floats) -> None:
     friction = target.batch.expand("geom_friction")
-    friction[:, target.geoms(name), 0] = np.minimum(values, _LARGEST_FRICTION)
+    friction[:, target.geoms(name), 0] = np.minimum(values, LARGEST_FRICTION)
     # The slipperier of two surfaces decides: the finer their order, the better.
-    slipperiness = (_LARGEST_FRICTION - friction[:, :, 0]) * 1e6
+    slipperiness = (LARGEST_FRICTION - friction[:, :, 0]) * 1e6
     target.batch.expand("geom_priority")[:] = slipperiness.astype(np.int32)
     model = target.batch.model
     if model.npair:

@@ -13,7 +13,7 @@ from gazelle.description import Collision
 from gazelle.errors import EngineWarning
 
 # Files say "never slip" with 1e5 and more. At 100 nothing slips on slopes of up to 89 degrees.
-_LARGEST_FRICTION = 100.0
+LARGEST_FRICTION = 100.0
 
 # From here on a direction does not matter: nothing slips in either [-].
 _NEVER_SLIPS = 10.0
@@ -45,7 +45,7 @@ def friction_of(collision: Collision) -> float:
             ),
             stacklevel=2,
         )
-    return min(friction.mu, _LARGEST_FRICTION)
+    return min(friction.mu, LARGEST_FRICTION)
 
 
 def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
