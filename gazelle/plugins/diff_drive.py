@@ -10,16 +10,29 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Parameters
+from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
+from gazelle.plugins.frames import transform
 from gazelle.rotations import conjugate, from_yaw, rotate
-from gazelle.simulation import JointStates, ModelPlugin, Odometry, Output, Robot, TwistInput
+from gazelle.simulation import (
+    JointStates,
+    ModelPlugin,
+    Odometry,
+    Output,
+    Robot,
+    Transform,
+    Transforms,
+    TwistInput,
+    absolute,
+    namespace_of,
+)
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 # The ramp acts only while both wheels are farther than this from their target [m/s].
 _RAMP_DEADBAND = 0.01
+_POSE_VARIANCE = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
 
 
 class DiffDrive(ModelPlugin):
@@ -60,15 +73,27 @@ class DiffDrive(ModelPlugin):
         self._open_ports(robot, parameters, nworld)
 
     def _open_ports(self, robot: Robot, parameters: Parameters, nworld: int) -> None:
-        command = parameters.get("commandTopic", "cmd_vel")
+        namespace = namespace_of(robot, parameters, robot.name)
+        command = absolute(namespace, parameters.get("commandTopic", "cmd_vel"))
         self._command = robot.inputs["cmd_vel"] = TwistInput(nworld, command)
-        topic = parameters.get("odometryTopic", "odom")
-        self._odometry = robot.outputs["odom"] = Output(topic, self._measure)
-        self._joint_states: Output[JointStates] | None = None
+        topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
+        robot.outputs["odom"] = Output(topic, Odometry, self._measure)
+        published = []
+        if parameters.get("publishTf", True):
+            published.append(robot.outputs["odom"])
+            if parameters.get("publishOdomTF", True):
+                robot.outputs["odom_tf"] = Output("/tf", Transforms, self._odometry_frame)
+                published.append(robot.outputs["odom_tf"])
+        if parameters.get("publishWheelTF", False):
+            self._wheel_links = tuple(robot.joint_description(n).child for n in self._names)
+            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames)
+            published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
-            self._joint_states = Output("joint_states", self._read_wheels)
-            robot.outputs["joint_states"] = self._joint_states
-        self._publishes_odometry = parameters.get("publishTf", True)
+            robot.outputs["joint_states"] = Output(
+                absolute(namespace, "joint_states"), JointStates, self._read_wheels, queue_size=1000
+            )
+            published.append(robot.outputs["joint_states"])
+        self._published = tuple(published)
 
     def on_update(self, time: float) -> None:
         """Drive the wheels and publish the odometry."""
@@ -77,10 +102,8 @@ class DiffDrive(ModelPlugin):
         if self._from_encoders:
             self._integrate_encoders(interval)
         self._drive(interval)
-        if self._publishes_odometry:
-            self._odometry.publish()
-        if self._joint_states is not None:
-            self._joint_states.publish()
+        for output in self._published:
+            output.publish()
 
     def _drive(self, interval: float) -> None:
         if self._settled == self._command.revision:
@@ -147,7 +170,22 @@ class DiffDrive(ModelPlugin):
             from_yaw(yaw),
             np.stack((speed, zero, zero), axis=1),
             np.stack((zero, zero, turning), axis=1),
+            _POSE_VARIANCE,
         )
+
+    def _odometry_frame(self) -> Transforms:
+        odometry = self._measure()
+        place = Transform(self._frame, self._base, odometry.position, odometry.quaternion)
+        return Transforms(odometry.stamp, (place,))
+
+    def _wheel_frames(self) -> Transforms:
+        robot = self._robot
+        base = robot.frame(self._base)
+        frames = tuple(
+            transform(base, (robot.links[wheel], Pose()), self._base, wheel)
+            for wheel in self._wheel_links
+        )
+        return Transforms(robot.simulation.clock.now_ns, frames)
 
     def _read_wheels(self) -> JointStates:
         nothing = np.zeros((len(self._speeds), 0))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Imu, Noise, Parameters, Pose
 from gazelle.sensors import ImuModel, ImuReading
-from gazelle.simulation import ModelPlugin, Output, Robot
+from gazelle.simulation import ModelPlugin, Output, Robot, Service, absolute, namespace_of
 
 Worlds = NDArray[np.intp]
 
@@ -25,7 +25,6 @@ class ImuPlugin(ModelPlugin):
         """Read the tags, find the body, open the port."""
         body = parameters.require("bodyName", str)
         link, frame = robot.frame(body)
-        self.frame = parameters.get("frameName", body)
         offset = parameters.numbers("xyzOffset", (0.0, 0.0, 0.0))
         turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
         noise = Noise("gaussian", stddev=parameters.get("gaussianNoise", 0.0))
@@ -37,8 +36,20 @@ class ImuPlugin(ModelPlugin):
         )
         self._simulation = simulation
         self.update_rate = parameters.get("updateRate", 0.0)
-        topic = parameters.get("topicName", "/default_imu")
-        self._output = robot.outputs["imu"] = Output(topic, self._measure)
+        namespace = namespace_of(robot, parameters)
+        self._output = robot.outputs["imu"] = Output(
+            absolute(namespace, parameters.get("topicName", "/default_imu")),
+            ImuReading,
+            self._measure,
+            frame=parameters.get("frameName", body),
+        )
+        # The original offers a calibration that does nothing.
+        robot.services["imu"] = Service(
+            absolute(namespace, parameters.get("serviceName", "/default_imu")),
+            None,
+            None,
+            lambda _request, _worlds: None,
+        )
 
     @property
     def active(self) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters
-from gazelle.simulation import Output, SensorPlugin, SensorUnit
+from gazelle.sensors import LaserScan
+from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
 
 
 class Laser(SensorPlugin):
@@ -11,9 +12,14 @@ class Laser(SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read topic and frame, open the port."""
-        self._sensor = sensor
-        self.frame = parameters.get("frameName", "/world")
+        robot = sensor.robot
+        # Absent means the root; there but empty means the model's name.
+        unnamed = robot.name if "robotNamespace" in parameters else ""
         topic = parameters.get("topicName", "/world")
-        sensor.robot.outputs[topic.strip("/") or "scan"] = Output(
-            topic, lambda: sensor.reading(sensor.latest())
+        frame = parameters.get("frameName", "/world")
+        robot.outputs[topic.strip("/")] = SensorOutput(
+            sensor,
+            absolute(namespace_of(robot, parameters, unnamed), topic),
+            LaserScan,
+            frame=frame,
         )

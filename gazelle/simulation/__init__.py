@@ -6,17 +6,20 @@ from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
-from gazelle.simulation.ports import JointStates, Odometry, Output, TwistInput
+from gazelle.simulation.ports import Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
 from gazelle.simulation.replay import Replay
 from gazelle.simulation.robot import Robot
-from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.sensors import SensorOutput, SensorUnit
 from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.topics import absolute, namespace_of
+from gazelle.simulation.values import JointStates, Odometry, Transform, Transforms, WrenchValue
 
 __all__ = [
     "Clock",
     "Fault",
+    "Input",
     "JointHandle",
     "JointStates",
     "LinkHandle",
@@ -25,15 +28,23 @@ __all__ = [
     "Output",
     "PhysicsProperties",
     "Plugin",
+    "Ports",
     "Recorder",
     "Replay",
     "Robot",
     "Schedule",
+    "SensorOutput",
     "SensorPlugin",
     "SensorUnit",
+    "Service",
     "Simulation",
+    "Transform",
+    "Transforms",
     "TwistInput",
     "WorldParameters",
     "WorldPlugin",
+    "WrenchValue",
+    "absolute",
+    "namespace_of",
     "register",
 ]

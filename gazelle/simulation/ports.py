@@ -1,15 +1,15 @@
 """Named inputs and outputs of drives, sensors and controllers.
 
 A port carries plain values and knows of no door: a ROS bridge binds it to a topic, an
-environment reads it as arrays, Python reads it as values. Arrays have a leading axis over
-worlds. An output costs nothing while nobody listens.
+environment reads it as arrays, Python reads it as values. What it carries is a plain
+dataclass (see ``values``, ``gazelle.sensors``) or a bool, an int, a float or a str. An output
+costs nothing while nobody listens.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,46 +19,8 @@ from gazelle.errors import SimulationError
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 T = TypeVar("T")
-
-
-@dataclass(frozen=True, slots=True)
-class Odometry:
-    """Where a robot believes to be, in every world.
-
-    Attributes:
-        stamp: Simulated time [ns].
-        frame: Frame of the pose.
-        child_frame: Frame of the twist.
-        position: [m], shape (nworld, 3).
-        quaternion: (x, y, z, w), shape (nworld, 4).
-        linear: Velocity in the child frame [m/s], shape (nworld, 3).
-        angular: Angular velocity in the child frame [rad/s], shape (nworld, 3).
-    """
-
-    stamp: int
-    frame: str
-    child_frame: str
-    position: Floats
-    quaternion: Floats
-    linear: Floats
-    angular: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class JointStates:
-    """Joints by name, in every world.
-
-    Attributes:
-        stamp: Simulated time [ns].
-        names: Plain joint names.
-        position: [m or rad], shape (nworld, joints).
-        velocity: [m/s or rad/s], shape (nworld, joints); empty when not measured.
-    """
-
-    stamp: int
-    names: tuple[str, ...]
-    position: Floats
-    velocity: Floats
+Q = TypeVar("Q")
+R = TypeVar("R")
 
 
 class TwistInput:
@@ -116,16 +78,103 @@ class TwistInput:
         self.revision += 1
 
 
+class Input(Generic[T]):
+    """A value that a plugin acts on when it comes.
+
+    Args:
+        topic: Topic name that the file asks for.
+        kind: Type of the values.
+        receive: Gets a value and the worlds it is for; None means all.
+        forget: Called at a reset with the worlds; to put back what a value changed.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        kind: type[T],
+        receive: Callable[[T, Worlds | None], None],
+        *,
+        forget: Callable[[Worlds | None], None] | None = None,
+    ) -> None:
+        self.topic = topic
+        self.kind = kind
+        self._receive = receive
+        self._forget = forget
+
+    def send(self, value: T, worlds: Worlds | None = None) -> None:
+        """Hand over a value.
+
+        Args:
+            value: Of the port's kind.
+            worlds: Which worlds; all if None.
+        """
+        self._receive(value, worlds)
+
+    def clear(self, worlds: Worlds | None = None) -> None:
+        """Forget the last value."""
+        if self._forget is not None:
+            self._forget(worlds)
+
+
+class Service(Generic[Q, R]):
+    """A question that a plugin answers.
+
+    Args:
+        topic: Name that the file asks for.
+        request: Type of the question; None for an empty one.
+        response: Type of the answer; None for an empty one.
+        answer: Gets the question and the worlds it is for; None means all.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        request: type[Q] | None,
+        response: type[R] | None,
+        answer: Callable[[Q, Worlds | None], R],
+    ) -> None:
+        self.topic = topic
+        self.request = request
+        self.response = response
+        self._answer = answer
+
+    def call(self, request: Q, worlds: Worlds | None = None) -> R:
+        """Ask.
+
+        Args:
+            request: Of the service's request type, or None.
+            worlds: Which worlds; all if None.
+        """
+        return self._answer(request, worlds)
+
+
 class Output(Generic[T]):
     """A value that is published at a rate.
 
     Args:
         topic: Topic name that the file asks for.
+        kind: Type of the values.
         produce: Computes the value now.
+        frame: Frame of the values, for kinds that carry none themselves.
+        queue_size: Of the topic.
+        latch: Whether who comes late gets the last value.
     """
 
-    def __init__(self, topic: str, produce: Callable[[], T]) -> None:
+    def __init__(
+        self,
+        topic: str,
+        kind: type[T],
+        produce: Callable[[], T],
+        *,
+        frame: str = "",
+        queue_size: int = 1,
+        latch: bool = False,
+    ) -> None:
         self.topic = topic
+        self.kind = kind
+        self.frame = frame
+        self.queue_size = queue_size
+        self.latch = latch
         self._produce = produce
         self._last: T | None = None
         self._listeners: list[Callable[[T], None]] = []
@@ -153,3 +202,22 @@ class Output(Generic[T]):
             self._last = self._produce()
             for listener in tuple(self._listeners):
                 listener(self._last)
+
+    def forget(self) -> None:
+        """Let ``last`` be what is true now: after a reset what was published is not."""
+        self._last = None
+
+
+class Ports:
+    """What somebody offers, by names that do not change with topics.
+
+    Attributes:
+        inputs: Ports that take commands.
+        outputs: Ports that publish.
+        services: Ports that answer.
+    """
+
+    def __init__(self) -> None:
+        self.inputs: dict[str, Any] = {}
+        self.outputs: dict[str, Output[Any]] = {}
+        self.services: dict[str, Service[Any, Any]] = {}

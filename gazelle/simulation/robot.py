@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.description import Model, Pose
+from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.rotations import from_yaw, yaw_of
 from gazelle.simulation.handles import JointHandle, LinkHandle
-from gazelle.simulation.ports import Output, TwistInput
+from gazelle.simulation.ports import Ports
 from gazelle.simulation.sensors import SensorUnit, sensor_model
 
 if TYPE_CHECKING:
@@ -50,8 +50,8 @@ class Named(Mapping[str, T]):
         return len(self._items)
 
 
-class Robot:
-    """A model in a running simulation.
+class Robot(Ports):
+    """A model in a running simulation, with its ports.
 
     Attributes:
         name: Its name in the world.
@@ -60,17 +60,14 @@ class Robot:
         links: By name within the robot (``arm::hand`` for a nested model's).
         joints: Those that move, by name within the robot.
         sensors: By name.
-        inputs: Ports that take commands.
-        outputs: Ports that publish.
     """
 
     def __init__(self, simulation: Simulation, model: Model, namespace: str = "") -> None:
+        super().__init__()
         self.simulation = simulation
         self.name = model.name
         self.namespace = namespace
         self.description = model
-        self.inputs: dict[str, TwistInput] = {}
-        self.outputs: dict[str, Output[Any]] = {}
         self._links = _link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links)
@@ -180,6 +177,19 @@ class Robot:
                 engine.set_joint_velocity(name, np.zeros(1), worlds)
 
         self.simulation.requests.call(work)
+
+    def joint_description(self, name: str) -> Joint:
+        """What the file says about a joint, fixed ones too.
+
+        Raises:
+            SimulationError: There is no joint of that name.
+        """
+        found = {
+            _inner(placed.scope, self.name, joint.name): joint
+            for placed in self.description.walk()
+            for joint in placed.model.joints
+        }
+        return Named(f"joint in '{self.name}'", found)[name]
 
     def frame(self, name: str) -> tuple[LinkHandle, Pose]:
         """The link that a frame moves with, and the frame's pose in it.

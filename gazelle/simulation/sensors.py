@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gazelle.description import Imu, Pose, Sensor
 from gazelle.sensors import ImuModel, LidarModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.ports import Output
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
@@ -124,6 +125,47 @@ class SensorUnit:
         if self.schedule.rate > 0.0:
             return 1.0 / self.schedule.rate
         return self.robot.simulation.clock.step_ns / NANOSECONDS
+
+
+class SensorOutput(Output[Any]):
+    """The readings of a sensor: whoever listens wakes it.
+
+    Args:
+        sensor: Measures, in all worlds.
+        topic: Topic name that the file asks for.
+        kind: Type of its readings.
+        frame: Frame of the readings.
+        read: The reading from the sensor; its own kind of reading if None.
+    """
+
+    def __init__(
+        self,
+        sensor: SensorUnit,
+        topic: str,
+        kind: type[Any],
+        *,
+        frame: str = "",
+        read: Callable[[], Any] | None = None,
+    ) -> None:
+        super().__init__(
+            topic, kind, read or (lambda: sensor.reading(sensor.latest())), frame=frame
+        )
+        self._sensor = sensor
+        self._asleep: Callable[[], None] | None = None
+
+    def subscribe(self, listener: Callable[[Any], None]) -> Callable[[], None]:
+        """Call a function with every reading; returns what ends it."""
+        end = super().subscribe(listener)
+        if self._asleep is None:
+            self._asleep = self._sensor.subscribe(lambda _sensor: self.publish())
+
+        def finish() -> None:
+            end()
+            if not self.wanted and self._asleep is not None:
+                self._asleep()
+                self._asleep = None
+
+        return finish
 
 
 def sensor_model(

@@ -19,6 +19,7 @@ from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.sensors import View
 from gazelle.simulation import pacing, saving
 from gazelle.simulation.clock import Clock
+from gazelle.simulation.events import Events
 from gazelle.simulation.faults import Fault, FaultLog
 from gazelle.simulation.handles import LinkHandle
 from gazelle.simulation.lights import with_light
@@ -26,6 +27,7 @@ from gazelle.simulation.loading import adopt, load_world_plugin
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
+from gazelle.simulation.ports import Ports
 from gazelle.simulation.recording import Recorder, state_hash
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Named, Robot
@@ -63,6 +65,8 @@ class Simulation:
     Attributes:
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
+        ports: Of the plugins of the world; those of models are on their ``Robot``.
+        events: Tell who must follow what is spawned, deleted and reset.
 
     Raises:
         FormatError: The file cannot be read.
@@ -91,6 +95,7 @@ class Simulation:
         self.paused = False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self.loads = Loads(self.engine, self.clock)
+        self.ports, self.events = Ports(), Events()
         self._robots: dict[str, Robot] = {}
         self._sensors: list[SensorUnit] = []
         self._closed = False
@@ -283,10 +288,12 @@ class Simulation:
             )
         self.engine.spawn(model)
         try:
-            return self._adopt(model, namespace)
+            robot = self._adopt(model, namespace)
         except Exception:
             self._delete(model.name)
             raise
+        self.events.spawned.tell(robot)
+        return robot
 
     def _delete(self, name: str) -> None:
         if name not in {model.name for model in self.engine.world.models}:
@@ -299,6 +306,8 @@ class Simulation:
         self.loads.forget(name)
         self.parameters.pose.forget(name)
         self.engine.delete(name)
+        if gone is not None:
+            self.events.deleted.tell(gone)
 
     def _reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
         self.engine.reset(worlds)
@@ -309,15 +318,18 @@ class Simulation:
         rewind = worlds is None and time
         if rewind:
             self.clock.now_ns = 0
-        for robot in self._robots.values():
-            for port in robot.inputs.values():
+        for ports in (self.ports, *self._robots.values()):
+            for port in ports.inputs.values():
                 port.clear(worlds)
-            for unit in robot.sensors.values():
-                unit.reset(worlds)
+            for output in ports.outputs.values():
+                output.forget()
+        for unit in self._sensors:
+            unit.reset(worlds)
         for entry in self.plugins:
             entry.plugin.reset(worlds)
             if rewind and entry.schedule is not None:
                 entry.schedule.restart()
+        self.events.reset.tell(worlds, rewind)
 
     def _reseed(self, seed: int, worlds: Worlds | None) -> None:
         if worlds is None:

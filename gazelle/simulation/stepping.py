@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import traceback
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.errors import SimulationError
+from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.sensors import SensorUnit
@@ -31,11 +33,31 @@ def make_scheduled(plugin: Plugin, name: str, owner: str) -> ScheduledPlugin:
 
 
 def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) -> None:
-    """Run all plugins that are due, in the order they were loaded."""
+    """Run all plugins that are due, in the order they were loaded.
+
+    One that raises is detached with a warning: it is never updated again, and all else goes on.
+    """
     for entry in tuple(plugins):
         if entry.schedule is not None and entry.plugin.active and entry.schedule.is_due(now_ns):
-            entry.plugin.on_update(now)
+            try:
+                entry.plugin.on_update(now)
+            except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+                _detach(entry, error, now)
+                continue
             entry.schedule.done(now_ns)
+
+
+def _detach(entry: ScheduledPlugin, error: Exception, now: float) -> None:
+    entry.schedule = None
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    owner = f" of '{entry.owner}'" if entry.owner else ""
+    warnings.warn(
+        SimulationWarning(
+            f"plugin '{entry.name}'{owner} failed at {now:g} s and is detached: "
+            f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"
+        ),
+        stacklevel=5,
+    )
 
 
 def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:

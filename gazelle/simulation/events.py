@@ -1,0 +1,47 @@
+"""What happens to a simulation as a whole, for doors that must follow it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
+
+Worlds = NDArray[np.intp]
+
+
+class Event:
+    """Something that happens, and who is told."""
+
+    def __init__(self) -> None:
+        self._listeners: list[Callable[..., Any]] = []
+
+    def subscribe(self, listener: Callable[..., Any]) -> Callable[[], None]:
+        """Call a function when it happens; returns what ends it."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def tell(self, *arguments: Robot | Worlds | bool | None) -> None:
+        """It happened."""
+        for listener in tuple(self._listeners):
+            listener(*arguments)
+
+
+class Events:
+    """The events of a simulation; listeners run between two steps and may read everything.
+
+    Attributes:
+        spawned: A model is there: called with its ``Robot``.
+        deleted: A model is gone: called with its ``Robot``.
+        reset: Worlds are back in their initial state: called with their indices, or None for
+            all, and whether time went back too.
+    """
+
+    def __init__(self) -> None:
+        self.spawned = Event()
+        self.deleted = Event()
+        self.reset = Event()

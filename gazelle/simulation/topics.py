@@ -1,0 +1,29 @@
+"""Names of topics: what a plugin's file asks for, in the namespace that it is in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gazelle.description import Parameters
+
+if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
+
+
+def namespace_of(robot: Robot, parameters: Parameters, otherwise: str = "") -> str:
+    """The namespace of a plugin: its ``robotNamespace``, else the one it was spawned in.
+
+    Args:
+        robot: Whose plugin it is.
+        parameters: Of the plugin.
+        otherwise: If neither says anything; many of Gazebo's plugins take the model's name.
+    """
+    return parameters.get("robotNamespace", "") or robot.namespace or otherwise
+
+
+def absolute(namespace: str, name: str) -> str:
+    """A topic's full name; one that begins with a slash is full already."""
+    if name.startswith("/"):
+        return name
+    parts = [*namespace.split("/"), *name.split("/")]
+    return "/" + "/".join(part for part in parts if part)
