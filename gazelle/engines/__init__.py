@@ -13,6 +13,7 @@ from gazelle.engines.engine import (
     Motion,
     Placement,
 )
+from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError, did_you_mean
 
 ENGINES = ("mujoco",)
@@ -22,11 +23,13 @@ __all__ = [
     "ENGINES",
     "PARAMETERS",
     "Call",
+    "Contacts",
     "DivergenceError",
     "Engine",
     "Hits",
     "Motion",
     "Placement",
+    "Wrench",
     "make_engine",
 ]
 

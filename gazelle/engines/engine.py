@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Model, World
+from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
@@ -269,6 +270,36 @@ class Engine(Protocol):
 
     def joint_effort(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """The effort that ``set_joint_effort`` applies now [N or N m], shape (n, axes)."""
+
+    def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
+        """What a joint's child exerts on its parent through it, about the joint's origin.
+
+        In the world frame, all that is carried: weight, contacts and motion of what hangs on
+        the joint, and along its axes its own effort, motor, spring, damping and stops. Taken
+        in the coming physics step, as ``link_acceleration``; nothing moves.
+
+        Args:
+            joint: Scoped name; fixed joints have a wrench too.
+            worlds: Which worlds.
+
+        Raises:
+            EngineError: There is no such joint between links that move: its model is static
+                or kinematic, or it closes a loop.
+        """
+
+    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
+        """The points where some collisions touch others now, in one world.
+
+        A contact between two of them is listed once, for the one that is named first. Forces
+        are those of the coming physics step; nothing moves.
+
+        Args:
+            collisions: Scoped names, ``model::link::collision``.
+            world: Which world.
+
+        Raises:
+            EngineError: There is no such collision.
+        """
 
     def add_motor(self, joint: str, max_effort: float) -> None:
         """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""

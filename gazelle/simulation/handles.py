@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Inertia, Link, Pose
-from gazelle.engines import Motion, Placement
+from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError
 from gazelle.rotations import from_yaw
 
@@ -234,6 +234,10 @@ class JointHandle:
     def velocities(self, worlds: Worlds | None = None) -> Floats:
         """Velocities of all axes, shape (n, axes)."""
         return self._engine.joint_velocity(self.name, worlds)
+
+    def wrench(self, worlds: Worlds | None = None) -> Wrench:
+        """What the child exerts on the parent, about the joint's origin, in the world frame."""
+        return self._engine.joint_wrench(self.name, worlds)
 
     def add_motor(self, max_effort: float) -> None:
         """Put a velocity motor of limited effort [N or N m] on it."""

@@ -16,7 +16,7 @@ from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
-from gazelle.engines.mujoco.options import set_options
+from gazelle.engines.mujoco.options import add_force_probe, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.surfaces import (
     friction_of,
@@ -130,6 +130,7 @@ def compile_world(recipe: Recipe) -> Compiled:
         EngineError: Something in the description cannot be simulated.
     """
     draft = draft_world(recipe)
+    add_force_probe(draft.spec)
     return Compiled(draft.compile(), draft.bodies, draft.geoms)
 
 

@@ -16,12 +16,12 @@ from gazelle.engines.engine import Call, DivergenceError, Floats, Worlds
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.bodies import BodyAccess
 from gazelle.engines.mujoco.compiler import Compiled, Motor, Recipe, compile_world
 from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.parameters import ParameterStore, check
+from gazelle.engines.mujoco.reactions import ForceAccess
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
@@ -40,7 +40,7 @@ def _quiet() -> None:
     config.set()
 
 
-class MujocoEngine(BodyAccess):
+class MujocoEngine(ForceAccess):
     """Many copies of one world in MuJoCo; see ``gazelle.engines.engine.Engine``.
 
     Args:

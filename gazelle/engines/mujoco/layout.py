@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import mujoco
 
-from gazelle.description import Pose
+from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.tree import Body, RootKind
 from gazelle.errors import EngineError, did_you_mean
@@ -53,6 +53,19 @@ class LinkSlot:
 
 
 @dataclass(frozen=True, slots=True)
+class ReactionSlot:
+    """One joint that holds a body, fixed ones too.
+
+    Attributes:
+        body: MuJoCo's index of the child body.
+        anchor: Origin of the joint in the child's frame [m].
+    """
+
+    body: int
+    anchor: Vector3
+
+
+@dataclass(frozen=True, slots=True)
 class ModelSlot:
     """One top-level model.
 
@@ -84,6 +97,7 @@ class Layout:
         motors: Columns in ``ctrl`` by scoped joint name.
         collisions: Indices of MuJoCo's geoms by scoped name, ``model::link::collision``.
         attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
+        reactions: Joints that hold a body, by scoped name.
     """
 
     links: Mapping[str, LinkSlot]
@@ -92,6 +106,7 @@ class Layout:
     motors: Mapping[str, int]
     collisions: Mapping[str, list[int]]
     attachments: Mapping[str, int]
+    reactions: Mapping[str, ReactionSlot]
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -144,17 +159,21 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
     links: dict[str, LinkSlot] = {}
     joints: dict[str, tuple[Slot, ...]] = {}
     models: dict[str, ModelSlot] = {}
+    reactions: dict[str, ReactionSlot] = {}
     for name, bodies in compiled.bodies.items():
         for body in bodies:
             above = None if body.parent is None else links[body.parent]
             links[body.name] = _link_slot(model, body, above)
+            if body.joint is not None:
+                anchor = body.joint.pose.position
+                reactions[body.joint_name] = ReactionSlot(links[body.name].body, anchor)
             if body.joint is not None and body.joint.type != "fixed":
                 joints[body.joint_name] = _joint_slots(model, body.joint_name)
         models[name] = _model_slot(bodies, joints)
     motors = {model.actuator(column).name: column for column in range(model.nu)}
     collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
     held = {name: model.equality(name).id for name in attachments}
-    return Layout(links, joints, models, motors, collisions, held)
+    return Layout(links, joints, models, motors, collisions, held, reactions)
 
 
 def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:

@@ -12,6 +12,8 @@ from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead
 
 _LINE_SEARCH_ITERATIONS = 20
 
+SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
+
 
 def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     """Set what holds for the whole world."""
@@ -35,3 +37,17 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     spec.compiler.degree = False
     spec.compiler.discardvisual = False
     spec.compiler.fusestatic = False
+
+
+def add_force_probe(spec: mujoco.MjSpec) -> None:
+    """Let the forces between bodies be computed on demand.
+
+    MuJoCo does so only for sensors that need them; this one stands for all, and sensors are
+    switched off in every step.
+    """
+    spec.add_sensor(
+        type=mujoco.mjtSensor.mjSENS_FRAMELINACC,
+        objtype=mujoco.mjtObj.mjOBJ_BODY,
+        objname="world",
+    )
+    spec.option.disableflags |= SENSORS_OFF

@@ -1,0 +1,168 @@
+"""What joints carry, and what touches what: forces, measured without moving anything.
+
+MuJoCo has both only after the constraint forces of a state are known. They are computed
+when asked for, so that a step costs nothing more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from gazelle.engines.engine import Floats, Worlds
+from gazelle.engines.mujoco.access import rows_of
+from gazelle.engines.mujoco.bodies import BodyAccess
+from gazelle.engines.mujoco.layout import look_up
+from gazelle.engines.mujoco.options import SENSORS_OFF
+from gazelle.engines.reactions import Contacts, Wrench
+from gazelle.rotations import cross
+
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+_FIELDS = ("cfrc_int", "subtree_com", "xipos", "xpos", "xmat")
+
+
+class ForceAccess(BodyAccess):
+    """The part of ``gazelle.engines.engine.Engine`` that measures forces."""
+
+    _carried: tuple[Batch, Floats] | None = None
+    """The batch and its states for which the forces between bodies were computed last."""
+
+    def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
+        """What the child of a joint exerts on the parent; see the protocol."""
+        slot = look_up("joint between moving links", joint, self._now().reactions)
+        batch = self._compute_forces()
+        rows, body = rows_of(worlds), slot.body
+        force = batch.cfrc_int[rows, body, 3:]
+        turn = batch.xmat[rows, body].reshape(-1, 3, 3)
+        anchor = batch.xpos[rows, body] + turn @ np.asarray(slot.anchor)
+        centre = batch.subtree_com[rows, int(batch.model.body_rootid[body])]
+        torque = batch.cfrc_int[rows, body, :3] + cross(centre - anchor, force)
+        for part in self._weightless(body):
+            weight, arm = self._lifted(part, rows), batch.xipos[rows, part] - anchor
+            force, torque = force + weight, torque + cross(arm, weight)
+        return Wrench(-force, -torque)
+
+    def _compute_forces(self) -> Batch:
+        """Know the forces between bodies of the state as it is now."""
+        batch = self._batch
+        self._refresh()
+        known = self._carried
+        if known is None or known[0] is not batch or not np.array_equal(known[1], batch.state):
+            for field in _FIELDS:
+                batch.bind(field)
+            flags = batch.expand("opt.disableflags")
+            state = batch.state.copy()
+            flags &= ~SENSORS_OFF
+            try:
+                batch.forward()
+            finally:
+                flags |= SENSORS_OFF
+                batch.state[:] = state
+            self._carried = (batch, state)
+        return batch
+
+    def _refresh(self) -> None:
+        if self._stale:
+            self._carried = None
+        super()._refresh()
+
+    def _weightless(self, body: int) -> list[int]:
+        """Bodies on a joint that gravity does not pull in some world.
+
+        MuJoCo takes their weight off at the joints, and forgets it in the forces it reports.
+        """
+        model = self._batch.model
+        shares = self._of_worlds("body_gravcomp")
+        found = []
+        for part in np.flatnonzero(shares.any(axis=0)):
+            above = int(part)
+            while above > body:  # parents come before their children
+                above = int(model.body_parentid[above])
+            if above == body:
+                found.append(int(part))
+        return found
+
+    def _lifted(self, body: int, rows: slice | Worlds) -> Floats:
+        """The part of a body's weight that does not pull it, shape (n, 3)."""
+        nworld = self._nworld
+        share = np.broadcast_to(self._of_worlds("body_gravcomp")[:, body], nworld)
+        mass = np.broadcast_to(self._of_worlds("body_mass")[:, body], nworld)
+        lifted: Floats = (share * mass)[:, None] * self._of_worlds("opt.gravity")
+        return np.broadcast_to(lifted, (nworld, 3))[rows]
+
+    def _of_worlds(self, field: str) -> NDArray[np.float64]:
+        """A field of the model, shape (nworld, ...), or (1, ...) where worlds share it."""
+        own = self._batch.expanded(field)
+        if own is not None:
+            return np.asarray(own)
+        model = self._batch.model
+        shared = model.opt.gravity if field == "opt.gravity" else getattr(model, field)
+        return np.asarray(shared)[None]
+
+    # -- contacts ----------------------------------------------------------------------
+
+    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
+        """The points where some collisions touch others in one world; see the protocol."""
+        layout = self._now()
+        wanted = {
+            geom: (rank, name)
+            for rank, name in enumerate(collisions)
+            for geom in look_up("collision", name, layout.collisions)
+        }
+        names = {geom: name for name, geoms in layout.collisions.items() for geom in geoms}
+        model, data = self._probe(world)
+        rows: list[_Row] = []
+        for index, contact in enumerate(data.contact):
+            ends = [int(contact.geom1), int(contact.geom2)]
+            watched = [geom for geom in ends if geom in wanted]
+            if watched and contact.efc_address >= 0:
+                mine = min(watched, key=lambda geom: wanted[geom])
+                other = ends[1] if mine == ends[0] else ends[0]
+                # MuJoCo's normal and force are those from the first geom on the second.
+                sign = 1.0 if mine == ends[1] else -1.0
+                seen = _seen(model, data, index, sign)
+                rows.append((wanted[mine][1], names[other], *seen))
+        return _gathered(rows)
+
+    def _probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """One world with all its forces computed, apart from the batch."""
+        batch = self._batch
+        model = batch.get_model(world)
+        data = mujoco.MjData(model)
+        mujoco.mj_setState(model, data, batch.state[world], _STATE)
+        mujoco.mj_forward(model, data)
+        return model, data
+
+
+_Row = tuple[str, str, Floats, Floats, float, Floats, Floats]
+
+
+def _seen(
+    model: mujoco.MjModel, data: mujoco.MjData, index: int, sign: float
+) -> tuple[Floats, Floats, float, Floats, Floats]:
+    """Position, normal, depth, force and torque of a contact, the last two with a sign."""
+    contact = data.contact[index]
+    wrench = np.zeros(6)
+    mujoco.mj_contactForce(model, data, index, wrench)
+    frame = contact.frame.reshape(3, 3)
+    force, torque = sign * (frame.T @ wrench[:3]), sign * (frame.T @ wrench[3:])
+    return contact.pos.copy(), sign * frame[0], -float(contact.dist), force, torque
+
+
+def _gathered(rows: list[_Row]) -> Contacts:
+    def vectors(index: int) -> Floats:
+        return np.array([row[index] for row in rows], np.float64).reshape(len(rows), 3)
+
+    return Contacts(
+        collisions=tuple(row[0] for row in rows),
+        others=tuple(row[1] for row in rows),
+        position=vectors(2),
+        normal=vectors(3),
+        depth=np.array([row[4] for row in rows], np.float64),
+        force=vectors(5),
+        torque=vectors(6),
+    )

@@ -1,0 +1,60 @@
+"""What engines tell of forces: what joints carry, and what touches what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.rotations import cross
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Wrench:
+    """A force and a torque in each world.
+
+    Attributes:
+        force: [N], shape (n, 3).
+        torque: [N m], shape (n, 3).
+    """
+
+    force: Floats
+    torque: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """The points where some collisions touch others in one world, in the world frame.
+
+    Attributes:
+        collisions: Scoped names, ``model::link::collision``, of those asked for, length k.
+        others: Scoped names of what touches them, length k.
+        position: Between the two surfaces [m], shape (k, 3).
+        normal: Unit vectors from the other into the collision, shape (k, 3).
+        depth: How deep they sink into each other [m], shape (k,); negative for a contact that
+            acts shortly before they touch.
+        force: On the collision, at ``position`` [N], shape (k, 3).
+        torque: On the collision, of torsional friction [N m], shape (k, 3).
+    """
+
+    collisions: tuple[str, ...]
+    others: tuple[str, ...]
+    position: Floats
+    normal: Floats
+    depth: Floats
+    force: Floats
+    torque: Floats
+
+    def __len__(self) -> int:
+        return len(self.collisions)
+
+    def torque_about(self, point: Floats) -> Floats:
+        """Torque of each contact on the collision about a point [N m], shape (k, 3).
+
+        Args:
+            point: In the world frame [m], shape (3,) or (k, 3).
+        """
+        return self.torque + cross(self.position - point, self.force)

@@ -1,0 +1,212 @@
+"""Forces in joints and contacts against statics and dynamics."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Model, Pose
+from gazelle.engines import make_engine
+from gazelle.errors import EngineError
+
+G = 9.8
+Y = (0.0, 1.0, 0.0)
+
+
+def part(name, mass=2.0, centre=(0.0, 0.0, 0.0), gravity=True, **pose):
+    inertial = Inertial(mass, Pose(*centre), Inertia(0.02, 0.02, 0.02))
+    return Link(name, pose=Pose(**pose), inertial=inertial, gravity=gravity)
+
+
+def chain(*links, joints, gravity=(0.0, 0.0, -G), nworld=1):
+    return make_engine(
+        "mujoco", scenes.world(Model("m", links=links, joints=joints), gravity=gravity), nworld
+    )
+
+
+def fixed(name, parent, child, **pose):
+    return Joint(name, "fixed", parent, child, pose=Pose(**pose))
+
+
+def hinge(name, parent, child, axis=Y, **options):
+    pose = options.pop("pose", Pose())
+    return Joint(name, "revolute", parent, child, pose=pose, axes=(JointAxis(axis, **options),))
+
+
+def test_a_fixed_joint_carries_the_weight_and_the_lever():
+    arm = part("b", mass=3.0, centre=(0.5, 0.0, 0.0), x=1.0)
+    engine = chain(part("a"), arm, joints=(fixed("hold", "world", "a"), fixed("j", "a", "b")))
+    wrench = engine.joint_wrench("m::j")
+    np.testing.assert_allclose(wrench.force, [[0.0, 0.0, -3.0 * G]], rtol=1e-9, atol=1e-9)
+    # the weight half a metre ahead along x turns the parent about +y: r x F
+    np.testing.assert_allclose(wrench.torque, [[0.0, 1.5 * G, 0.0]], rtol=1e-9, atol=1e-9)
+    root = engine.joint_wrench("m::hold")
+    np.testing.assert_allclose(root.force, [[0.0, 0.0, -5.0 * G]], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(root.torque, [[0.0, 4.5 * G, 0.0]], rtol=1e-9, atol=1e-9)
+
+
+def test_the_torque_is_about_the_joint_not_the_link():
+    arm = part("b", mass=3.0, x=1.0)
+    joints = (fixed("hold", "world", "a"), fixed("j", "a", "b", x=-0.4))
+    engine = chain(part("a"), arm, joints=joints)
+    np.testing.assert_allclose(
+        engine.joint_wrench("m::j").torque, [[0.0, 0.4 * 3.0 * G, 0.0]], rtol=1e-9, atol=1e-9
+    )
+
+
+def test_a_hinge_at_rest_by_its_effort_carries_the_effort_too():
+    engine = chain(part("a", mass=2.0, centre=(0.5, 0, 0)), joints=(hinge("j", "world", "a"),))
+    effort = -2.0 * G * 0.5  # holds the weight ahead: a positive turn about y lowers it
+    engine.set_joint_effort("m::j", effort)
+    engine.step(200)
+    assert abs(engine.joint_position("m::j")[0, 0]) < 1e-6
+    wrench = engine.joint_wrench("m::j")
+    np.testing.assert_allclose(wrench.force, [[0.0, 0.0, -2.0 * G]], rtol=1e-4, atol=1e-4)
+    np.testing.assert_allclose(wrench.torque, [[0.0, -effort, 0.0]], rtol=1e-4, atol=1e-4)
+
+
+def test_a_free_hinge_carries_no_torque_about_its_axis_and_what_a_falling_bar_needs():
+    engine = chain(part("a", mass=2.0, centre=(0.5, 0, 0)), joints=(hinge("j", "world", "a"),))
+    moment = 0.02 + 2.0 * 0.25
+    sinking = (2.0 * G * 0.5 / moment) * 0.5
+    wrench = engine.joint_wrench("m::j")
+    np.testing.assert_allclose(wrench.force[0], [0.0, 0.0, -2.0 * (G - sinking)], rtol=1e-6)
+    np.testing.assert_allclose(wrench.torque, 0.0, atol=1e-9)
+
+
+def test_a_pendulum_pulls_with_its_centripetal_force():
+    engine = chain(part("a", mass=2.0, centre=(0, 0, -0.5)), joints=(hinge("j", "world", "a"),))
+    engine.set_joint_velocity("m::j", 3.0)
+    expected = -(2.0 * G + 2.0 * 9.0 * 0.5)
+    assert engine.joint_wrench("m::j").force[0, 2] == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_slider_pushed_from_behind_hands_the_push_on_less_its_inertia():
+    slide = Joint("j", "prismatic", "world", "a", axes=(JointAxis((1.0, 0.0, 0.0)),))
+    joints = (slide, fixed("bolt", "a", "b"))
+    engine = chain(part("a", mass=3.0), part("b", mass=1.0, x=0.2), joints=joints)
+    engine.set_joint_effort("m::j", 8.0)
+    np.testing.assert_allclose(
+        engine.joint_wrench("m::bolt").force[0], [-2.0, 0.0, -G], rtol=1e-6, atol=1e-9
+    )
+
+
+def test_what_gravity_does_not_pull_weighs_nothing_in_any_world():
+    arm = part("b", mass=3.0, centre=(0.5, 0.0, 0.0), gravity=False)
+    joints = (fixed("hold", "world", "a"), hinge("j", "a", "b"))
+    engine = chain(part("a"), arm, joints=joints, nworld=2)
+    np.testing.assert_allclose(engine.joint_wrench("m::j").force, 0.0, atol=1e-9)
+    np.testing.assert_allclose(engine.joint_wrench("m::j").torque, 0.0, atol=1e-9)
+    np.testing.assert_allclose(engine.joint_wrench("m::hold").force[:, 2], -2.0 * G, rtol=1e-9)
+    engine.set_parameter("link_gravity", "m::b", [[0.0], [1.0]])
+    engine.set_parameter("link_mass", "m::b", [[3.0], [4.0]])
+    lifted = engine.joint_wrench("m::hold").force[:, 2]
+    assert lifted[0] == pytest.approx(-2.0 * G, rel=1e-9)
+    assert -6.0 * G < lifted[1] < -2.0 * G - 0.1
+
+
+def test_worlds_have_their_own_and_subsets_agree():
+    engine = chain(part("a", mass=2.0), joints=(fixed("j", "world", "a"),), nworld=3)
+    engine.set_parameter("link_mass", "m::a", [[1.0], [2.0], [3.0]])
+    all_of_them = engine.joint_wrench("m::j").force
+    np.testing.assert_allclose(all_of_them[:, 2], [-G, -2 * G, -3 * G], rtol=1e-9)
+    chosen = engine.joint_wrench("m::j", np.array([2])).force
+    np.testing.assert_array_equal(chosen, all_of_them[2:])
+
+
+def test_a_push_on_a_link_is_felt_at_once_and_measuring_changes_nothing():
+    engine = chain(part("a"), joints=(fixed("j", "world", "a"),))
+    other = chain(part("a"), joints=(fixed("j", "world", "a"),))
+    engine.joint_wrench("m::j")
+    for each in (engine, other):
+        each.set_link_wrench("m::a", (7.0, 0.0, 0.0), (0.0, 0.0, 2.0))
+    wrench = engine.joint_wrench("m::j")
+    np.testing.assert_allclose(wrench.force[0], [7.0, 0.0, -2.0 * G], rtol=1e-9)
+    np.testing.assert_allclose(wrench.torque[0], [0.0, 0.0, 2.0], atol=1e-9)
+    engine.step(10)
+    other.step(10)
+    np.testing.assert_array_equal(engine.snapshot(), other.snapshot())
+
+
+def test_measuring_in_a_run_of_contacts_changes_no_bit():
+    def run(measure):
+        world = scenes.world(scenes.ground(), scenes.burger(pose=Pose(z=0.01)))
+        engine = make_engine("mujoco", world)
+        for _ in range(30):
+            engine.step(5)
+            if measure:
+                engine.joint_wrench("burger::wheel_left_joint")
+                engine.contacts(["burger::base_footprint::caster"])
+        return engine.snapshot()
+
+    np.testing.assert_array_equal(run(measure=True), run(measure=False))
+
+
+def test_wheels_and_caster_carry_the_robot():
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.burger()))
+    engine.step(2000)
+    wheels = [f"burger::wheel_{side}_link::c" for side in ("left", "right")]
+    caster = "burger::base_footprint::caster"
+    touching = engine.contacts([*wheels, caster])
+    weight = (0.944735 + 2 * 0.02849894) * G
+    assert touching.force[:, 2].sum() == pytest.approx(weight, rel=0.01)
+    assert set(touching.collisions) == {*wheels, caster}
+    assert set(touching.others) == {"ground_plane::link::c"}
+    np.testing.assert_allclose(touching.normal[:, 2], 1.0, atol=1e-6)
+    # the joints carry what the wheels do, less the wheels' own weight
+    for side, wheel in zip(("left", "right"), wheels, strict=True):
+        own = [i for i, name in enumerate(touching.collisions) if name == wheel]
+        carried = touching.force[own, 2].sum() - 0.02849894 * G
+        up = engine.joint_wrench(f"burger::wheel_{side}_joint").force[0, 2]
+        assert up == pytest.approx(carried, rel=0.01)
+
+
+def test_contacts_are_seen_from_the_collision_that_is_asked_for():
+    engine = make_engine(
+        "mujoco",
+        scenes.world(scenes.ground(), scenes.ball(pose=Pose(z=0.1)), gravity=(0, 0, -G)),
+        2,
+    )
+    engine.set_model_placement("ball", (0, 0, 30.0), (0, 0, 0, 1), np.array([1]))
+    engine.step(1000)
+    ball, plane = "ball::link::c", "ground_plane::link::c"
+    on_ball, on_plane = engine.contacts([ball]), engine.contacts([plane])
+    assert (on_ball.collisions, on_ball.others) == ((ball,), (plane,))
+    assert (on_plane.collisions, on_plane.others) == ((plane,), (ball,))
+    np.testing.assert_allclose(on_ball.force, [[0, 0, G]], rtol=1e-2, atol=1e-6)
+    np.testing.assert_allclose(on_plane.force, -on_ball.force)
+    np.testing.assert_allclose(on_plane.normal, -on_ball.normal)
+    np.testing.assert_allclose(on_ball.position, [[0, 0, 0]], atol=1e-3)
+    assert 0.0 <= on_ball.depth[0] < 1e-3
+    assert len(engine.contacts([ball, plane])) == 1
+    aside = on_ball.torque_about(np.array([1.0, 0.0, 0.0]))
+    np.testing.assert_allclose(aside, [[0.0, G, 0.0]], rtol=1e-2, atol=1e-3)
+    assert len(engine.contacts([ball], world=1)) == 0
+
+
+def test_a_flying_ball_touches_nothing():
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.ball(pose=Pose(z=3.0))))
+    empty = engine.contacts(["ball::link::c"])
+    assert len(empty) == 0
+    assert empty.force.shape == empty.position.shape == (0, 3)
+
+
+def test_names_that_are_not_there_are_errors():
+    engine = make_engine("mujoco", scenes.world(scenes.box(static=True)))
+    with pytest.raises(EngineError, match="no joint between moving links 'box::j'"):
+        engine.joint_wrench("box::j")
+    with pytest.raises(EngineError, match="no collision 'box::link::x'"):
+        engine.contacts(["box::link::x"])
+
+
+def test_a_resting_stack_presses_with_all_that_is_above():
+    boxes = [scenes.box(f"b{i}", pose=Pose(z=0.1 + 0.2 * i), mass=1.0 + i) for i in range(2)]
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), *boxes))
+    engine.step(1500)
+    between = engine.contacts(["b1::link::c"])
+    assert between.force[:, 2].sum() == pytest.approx(2.0 * G, rel=0.01)
+    lower = engine.contacts(["b0::link::c"])
+    below = [i for i, name in enumerate(lower.others) if name.startswith("ground")]
+    assert lower.force[below, 2].sum() == pytest.approx(3.0 * G, rel=0.01)
+    assert math.isclose(lower.force[:, 2].sum(), 1.0 * G, rel_tol=0.01)
