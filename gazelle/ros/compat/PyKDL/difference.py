@@ -1,0 +1,29 @@
+"""What lies between two values, and the value one step on."""
+# ruff: noqa: N802 - the names are KDL's
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.compat.PyKDL.frame import Frame
+from gazelle.ros.compat.PyKDL.motion import Twist
+from gazelle.ros.compat.PyKDL.rotation import Rotation
+
+
+def diff(a: Any, b: Any, dt: float = 1.0) -> Any:
+    """The velocity that takes a to b in `dt` seconds: a vector for rotations, a twist for frames."""
+    if isinstance(a, Frame):
+        return Twist(diff(a.p, b.p, dt), diff(a.M, b.M, dt))
+    if isinstance(a, Rotation):
+        return a * (a.Inverse(b).GetRot() / dt)
+    return (b - a) / dt
+
+
+def addDelta(a: Any, da: Any, dt: float = 1.0) -> Any:
+    """Where a is after `dt` seconds with a velocity; the counterpart of `diff`."""
+    if isinstance(a, Frame):
+        return Frame(addDelta(a.M, da.rot, dt), addDelta(a.p, da.vel, dt))
+    if isinstance(a, Rotation):
+        step = a.Inverse(da) * dt
+        return a * Rotation.Rot(step, step.Norm())
+    return a + da * dt

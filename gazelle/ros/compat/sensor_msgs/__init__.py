@@ -1,0 +1,1 @@
+"""The Python code of the package sensor_msgs: point clouds as points."""
