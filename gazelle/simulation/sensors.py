@@ -66,8 +66,14 @@ class SensorUnit:
         return self.reading(self.latest()[world])
 
     def latest(self) -> Floats:
-        """The last reading of all worlds, shape (nworld, channels)."""
+        """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
         self._awake = True
+        return self.current()
+
+    def current(self) -> Floats:
+        """The same without waking it: measured now if it sleeps or never measured."""
+        if not self.awake:
+            return self.measure()
         if self._values is None:
             self.update(self.robot.simulation.clock.now_ns)
         values = self._values
@@ -148,7 +154,7 @@ class SensorOutput(Output[Any]):
         read: Callable[[], Any] | None = None,
     ) -> None:
         super().__init__(
-            topic, kind, read or (lambda: sensor.reading(sensor.latest())), frame=frame
+            topic, kind, read or (lambda: sensor.reading(sensor.current())), frame=frame
         )
         self._sensor = sensor
         self._asleep: Callable[[], None] | None = None
