@@ -109,8 +109,8 @@ def _chosen(world: World, name: str | None, target: str) -> World | Model:
         return models[name]
     element = world.source.element if world.source is not None else None
     is_world = (element or "").rpartition("/")[2].startswith("world") or target.endswith(".world")
-    only_models = not (world.lights or world.actors)
-    return world.models[0] if len(world.models) == 1 and only_models and not is_world else world
+    only_model = len(world.models) == 1 and not world.lights
+    return world.models[0] if only_model and not is_world else world
 
 
 def _text(content: World | Model, kind: Format, folder: Path | None) -> str:

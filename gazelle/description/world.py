@@ -53,7 +53,8 @@ class World:
 
     Attributes:
         name: Its name.
-        models: In file order.
+        models: In file order; those of ``<actor>`` and ``<population>`` too, as what they
+            stand for.
         physics: All profiles in file order; ``profile`` gives the one in use.
         gravity: [m/s²].
         magnetic_field: [T].
@@ -66,7 +67,6 @@ class World:
         joints: Between models (SDF 1.10); links are scoped ``model::link``.
         plugins: In file order.
         camera: Pose of the user's camera, or None.
-        actors: ``<actor>`` elements kept whole.
         states: ``<state>`` elements kept whole, already applied to the poses above.
         extras: Other elements kept whole: road, population, audio, gui, ...
     """
@@ -85,7 +85,6 @@ class World:
     joints: tuple[Joint, ...] = ()
     plugins: tuple[Plugin, ...] = ()
     camera: Pose | None = None
-    actors: tuple[Parameters, ...] = ()
     states: tuple[Parameters, ...] = ()
     extras: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)

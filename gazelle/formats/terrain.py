@@ -16,7 +16,8 @@ def load_heights(shape: Heightmap) -> Floats:
     """Heights over the grid of a heightmap [m], shape (rows, columns), its position apart.
 
     Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
-    ``size``. As in Gazebo the brightest pixel has the height ``size[2]`` and black none.
+    ``size``. As in Gazebo Classic the brightest pixel has the height ``size[2]`` and black
+    none; where that is negative, heights h become 1 - h.
 
     Raises:
         FormatError: The picture was not found or cannot be read; it names the place in the
@@ -25,7 +26,8 @@ def load_heights(shape: Heightmap) -> Floats:
     grey = _grey(_pixels(shape))
     brightest = float(grey.max())
     scale = abs(shape.size[2]) / brightest if brightest > 0.0 else 0.0
-    return np.ascontiguousarray(grey[::-1] * scale)
+    heights = grey[::-1] * scale
+    return np.ascontiguousarray(1.0 - heights if shape.size[2] < 0.0 else heights)
 
 
 def load_boxes(shape: Image) -> Floats:

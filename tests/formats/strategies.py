@@ -395,7 +395,6 @@ def worlds(draw):
         (draw(joints("between", "world", ends[0])),) if ends and draw(flags) else (),
         tuple(draw(st.lists(plugins, max_size=1))),
         draw(st.none() | poses()),
-        (),  # actors become models when they are read
         (),
         tuple(draw(st.lists(named_elements("road"), max_size=1))),
     )

@@ -3,6 +3,7 @@
 import math
 import shutil
 import subprocess
+import time
 
 import numpy as np
 import pytest
@@ -68,6 +69,20 @@ def test_sdf_1_3_moves_the_step_out_of_the_solver():
     text = "<physics type='bullet'><bullet><dt>0.01</dt></bullet><update_rate>7</update_rate>"
     found = world(f"{text}</physics>", "1.3").profile
     assert (found.max_step_size, found.real_time_update_rate) == (0.01, 7)
+
+
+def test_names_that_changed_between_old_versions():
+    text = (
+        "<scene><fog rgba='1 0 0 1' type='linear' start='2' end='9'/></scene>"
+        "<model name='m'><link name='l'><damping linear='0.3' angular='0.4'/>"
+        "<collision name='c'><geometry><heightmap filename='none.png' size='4 4 1'"
+        " origin='1 2 3'/></geometry></collision></link></model>"
+    )
+    with pytest.warns(FormatWarning, match=r"none\.png"):
+        body = world(text, "1.2").models[0].links[0]
+    assert (body.velocity_decay_linear, body.velocity_decay_angular) == (0.3, 0.4)
+    ground = body.collisions[0].geometry
+    assert (ground.uri, ground.size, ground.position) == ("none.png", (4, 4, 1), (1, 2, 3))
 
 
 def test_errors_in_old_files_name_the_line():
@@ -186,16 +201,38 @@ def actor(body="", loop="true", start="true"):
     return world(ACTOR.format(body=body, loop=loop, start=start)).models[0]
 
 
+def moments(found):
+    """Time, x and yaw of each waypoint of an actor."""
+    waypoints = found.plugins[0].parameters.find_all("waypoint")
+    poses = [(point.get("time", 0.0), point.numbers("pose", (0.0,) * 6)) for point in waypoints]
+    return [(time, pose[0], pose[5]) for time, pose in poses]
+
+
 def test_an_actor_is_a_static_model_that_follows_its_script():
     found = actor("<link name='b'/>")
     assert (found.name, found.static, found.pose) == ("walker", True, Pose(x=5))
     (plugin,) = found.plugins
     assert plugin.filename == "libgazelle_scripted_motion.so"
-    waypoints = list(plugin.parameters.find_all("waypoint"))
-    assert [point.get("time", 0.0) for point in waypoints] == [1.0, 3.0]
-    assert waypoints[1].numbers("pose", (0.0,) * 6) == pytest.approx((1, 0, 0, 0, 0, 1.5))
+    assert moments(found) == [(1.0, 0.0, 0.0), (3.0, 9.0, 0.0)]  # the last one at 2 s holds
     assert plugin.parameters.get("loop", False) is True
     assert actor(loop="false").plugins[0].parameters.get("loop", True) is False
+
+
+def test_trajectories_of_an_actor_follow_each_other_by_their_ids():
+    leg = "<trajectory id='{}' type='t'>{}</trajectory>"
+    point = "<waypoint><time>{}</time><pose>{} 0 0 0 0 0.5</pose></waypoint>"
+    late = leg.format(2, point.format(0.5, 7) + point.format(4, 8))
+    early = leg.format(1, point.format(0, 5) + point.format(3, 6))
+    found = world(f"<actor name='a'><script>{late}{early}</script></actor>").models[0]
+    expected = [(0, 5, 0.5), (3, 6, 0.5), (3.5, 7, 0.5), (7, 8, 0.5)]
+    np.testing.assert_allclose(moments(found), expected)
+
+
+def test_a_waypoint_before_the_start_is_an_error():
+    point = "<waypoint><time>-1</time><pose>0 0 0 0 0 0</pose></waypoint>"
+    script = f"<script><trajectory id='0' type='t'>{point}</trajectory></script>"
+    with pytest.raises(FormatError, match="must not be negative"):
+        world(f"<actor name='a'>{script}</actor>")
 
 
 def test_an_actor_that_does_not_start_stands():
@@ -237,6 +274,7 @@ def test_a_population_stays_in_its_region(kind, region):
         assert (np.abs(places) <= (2, 1, 0.25)).all()
     else:
         assert np.hypot(places[:, 0], places[:, 1]).max() <= 1
+        assert 0 <= places[:, 2].min() < places[:, 2].max() <= 2  # it stands on the pose
     np.testing.assert_array_equal(places, spread(kind, region=region)[1])  # no chance
     gaps = np.linalg.norm(places[:, None] - places[None], axis=2)[~np.eye(12, dtype=bool)]
     assert gaps.min() > (0.2 if kind == "uniform" else 0)
@@ -245,20 +283,46 @@ def test_a_population_stays_in_its_region(kind, region):
 def test_grids_and_rows():
     rest = "<rows>2</rows><cols>3</cols><step>0.5 0.25 0</step>"
     models, places = spread("grid", rest=rest)
-    expected = [(x, y, 0) for y in (0, 0.25) for x in (0, 0.5, 1)]
+    expected = [(x, y, 0) for y in (-0.125, 0.125) for x in (-0.5, 0, 0.5)]
     np.testing.assert_allclose(places, expected)
-    _, places = spread("linear-x", count=4)
-    np.testing.assert_allclose(places, [(x, 0, 0) for x in (-1.5, -0.5, 0.5, 1.5)])
-    turned, places = spread("linear-y", count=2, yaw=math.pi / 2)
-    np.testing.assert_allclose(places, [(0.5, 0, 0), (-0.5, 0, 0)], atol=1e-12)
-    assert turned[0].pose.yaw == pytest.approx(math.pi / 2)
     assert models[0].links[0].name == "l"
+    _, places = spread("linear-x", count=4)
+    np.testing.assert_allclose(places, [(x, 0, 0) for x in (-2, -1, 0, 1)])
+    _, places = spread("linear-z", count=2)
+    np.testing.assert_allclose(places, [(0, 0, -0.25), (0, 0, 0)])
+
+
+def test_a_turned_population_turns_about_its_corner_and_its_models_stand_upright():
+    turned, places = spread("linear-y", count=2, yaw=math.pi / 2)
+    np.testing.assert_allclose(places, [(-2, 1, 0), (-3, 1, 0)], atol=1e-12)
+    assert turned[0].pose.quaternion == (0, 0, 0, 1)
+    upright, places = spread("random", count=50, yaw=math.pi / 2)
+    low, high = (-2 - 2, -1, -0.25), (-2, -1 + 4, 0.25)
+    assert (places >= low).all()
+    assert (places <= high).all()
+    assert {m.pose.quaternion for m in upright} == {(0, 0, 0, 1)}
+
+
+def test_a_populations_pose_takes_the_place_of_its_models():
+    text = POPULATION.format(kind="grid", count=1, region="", yaw=0, rest="")
+    (found,) = world(text.replace("<link", "<pose>7 7 7 1 1 1</pose><link")).models
+    assert found.pose == Pose(1, 2, 3)
+
+
+def test_five_hundred_models_are_spread_in_less_than_a_second():
+    start = time.process_time()
+    spread("uniform", count=500)
+    assert time.process_time() - start < 1.0
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         ({"kind": "rnadom"}, "did you mean 'random'"),
+        ({"kind": "random", "region": ""}, "needs a <box> or a <cylinder>"),
+        ({"kind": "linear-x", "region": TUBE}, "'linear-x' needs a <box>"),
+        ({"kind": "random", "region": "<box><size>1 0 1</size></box>"}, "greater than zero"),
+        ({"kind": "random", "region": TUBE.replace(">1<", ">-1<")}, "<radius> must be greater"),
         ({"kind": "random", "count": -1}, "0 to 10000 models"),
         ({"kind": "random", "count": 10**9}, "0 to 10000 models"),
         ({"kind": "grid", "rest": "<rows>99999</rows><cols>99999</cols>"}, "0 to 10000 models"),

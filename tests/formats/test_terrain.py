@@ -22,6 +22,12 @@ def test_heights_grow_with_brightness_and_rows_with_y(tmp_path):
     np.testing.assert_allclose(heights, [[3.0, 0, 0], [0, 0.75, 1.5]])
 
 
+def test_a_negative_height_turns_the_ground_over(tmp_path):
+    file = saved(tmp_path, [[0, 50], [100, 200]])
+    heights = load_heights(Heightmap("p.png", file, size=(1.0, 1.0, -4.0)))
+    np.testing.assert_allclose(heights, [[-1.0, -3.0], [1.0, 0.0]])
+
+
 def test_black_is_flat(tmp_path):
     assert not load_heights(Heightmap("p", saved(tmp_path, np.zeros((3, 3))))).any()
 

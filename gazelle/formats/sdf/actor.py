@@ -66,12 +66,19 @@ def _script(node: Parameters) -> Parameters | None:
 
 
 def _waypoints(script: Parameters) -> Iterator[Parameters]:
-    """The waypoints of all trajectories by time; of several at one time the first."""
-    delay = values.real(script, "delay_start", 0.0)
+    """The waypoints of all trajectories, which follow each other in the order of their ids.
+
+    Each counts its time from its own start and lasts until its last waypoint; of several
+    waypoints at one time the last holds, as in Gazebo Classic.
+    """
+    start = values.real(script, "delay_start", 0.0)
     found: dict[float, Parameters] = {}
-    for trajectory in script.find_all("trajectory"):
-        for node in trajectory.find_all("waypoint"):
-            found.setdefault(values.real(node, "time", 0.0), node)
+    for trajectory in sorted(script.find_all("trajectory"), key=_number):
+        own = {values.real(node, "time", 0.0): node for node in trajectory.find_all("waypoint")}
+        if own and min(own) < 0.0:
+            raise values.fail(own[min(own)], "the <time> of a <waypoint> must not be negative")
+        found |= {start + time: node for time, node in own.items()}
+        start += max(own, default=0.0)
     for time in sorted(found):
         node = found[time]
         x, y, z = (pose := read_pose(node.find("pose"))).position
@@ -79,7 +86,13 @@ def _waypoints(script: Parameters) -> Iterator[Parameters]:
         yield made(
             "waypoint",
             "",
-            made("time", repr(time + delay), like=node),
+            made("time", repr(time), like=node),
             made("pose", text, like=node),
             like=node,
         )
+
+
+def _number(trajectory: Parameters) -> int:
+    return values.parse_integer(
+        trajectory, trajectory.attributes.get("id", "") or "0", "attribute 'id'"
+    )

@@ -1,4 +1,9 @@
-"""``<population>``: one model many times, spread over a box or a cylinder."""
+"""``<population>``: one model many times, spread over a box or a cylinder.
+
+Where Gazebo Classic puts them: a box is centred at the pose, a cylinder stands on it, a grid
+is centred at it. The pose turns the places about the least corner of the box or grid, and
+not the models, which all stand upright. Only chance is another.
+"""
 
 from __future__ import annotations
 
@@ -17,27 +22,43 @@ from gazelle.formats.sdf.pose import read_pose
 
 MAX_MODELS = 10_000
 
-_SAMPLES = 40
 _ROUNDS = 20
+_CLUSTERS = 500
+"""More models than this are spread at random instead of evenly."""
+_SAMPLES, _FEWEST, _MOST = 40, 10, 8000
+"""Points for each cluster, at least so many of each, and of all together."""
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Where models go: a box, or the cylinder inside of it; lengths along x, y, z [m]."""
+    """Where models go.
+
+    Attributes:
+        size: Lengths along x, y, z of a box, or of the box around a cylinder [m].
+        round: Whether it is a cylinder.
+    """
 
     size: tuple[float, float, float]
-    round: bool
+    round: bool = False
+
+    @property
+    def middle(self) -> Floats:
+        """What the pose stands for, seen from where places are counted from [m]."""
+        return np.zeros(3) if self.round else np.asarray(self.size) / 2.0
 
     def draw(self, chance: np.random.Generator, count: int) -> Floats:
-        """Points in it, evenly spread, shape (count, 3)."""
-        cube = chance.uniform(-0.5, 0.5, (count, 3))
+        """Points in it, shape (count, 3).
+
+        They are counted from the least corner of a box, from the middle of a cylinder's base;
+        in a cylinder they are denser around its axis, as Gazebo's are.
+        """
+        points: Floats = chance.random((count, 3))
         if self.round:
-            radius, angle = np.sqrt(cube[:, 0] + 0.5) / 2.0, 2.0 * np.pi * cube[:, 1]
-            cube[:, 0], cube[:, 1] = radius * np.cos(angle), radius * np.sin(angle)
-        points: Floats = cube * self.size
-        return points
+            radius, angle = points[:, 0] / 2.0, 2.0 * np.pi * points[:, 1]
+            points[:, 0], points[:, 1] = radius * np.cos(angle), radius * np.sin(angle)
+        return points * self.size
 
 
 def expanded(node: Parameters) -> Iterator[Parameters]:
@@ -46,20 +67,23 @@ def expanded(node: Parameters) -> Iterator[Parameters]:
     Chance is seeded with the population's name: the same file gives the same places.
 
     Raises:
-        FormatError: There is no model in it, or its distribution or number makes no sense.
+        FormatError: There is no model in it, or its distribution, region or number makes no
+            sense.
     """
     model = node.find("model")
     if model is None:
         raise values.fail(node, "a <population> needs a <model>")
     name = values.attribute(model, "name")
-    center = read_pose(node.find("pose"))
-    for number, offset in enumerate(_offsets(node).tolist()):
-        placed = center * Pose(*offset)
+    stand = read_pose(node.find("pose"))
+    middle, offsets = _places(node)
+    for number, offset in enumerate(offsets.tolist()):
+        x, y, z = np.add(stand.position, stand.rotate(offset)) - middle
         clone = with_attributes(model, name=f"{name}_clone_{number}")
-        yield with_child(clone, pose_element(placed, node))
+        yield with_child(clone, pose_element(Pose(float(x), float(y), float(z)), node))
 
 
-def _offsets(node: Parameters) -> Floats:
+def _places(node: Parameters) -> tuple[Floats, Floats]:
+    """The middle of the region seen from its least corner, and places seen from there."""
     kind = values.word(node, "distribution/type", "random")
     if kind == "grid":
         return _grid(node)
@@ -71,9 +95,12 @@ def _offsets(node: Parameters) -> Floats:
             f"unknown distribution '{kind}'",
             hint=did_you_mean(kind, known),
         )
+    region = _region(node)
+    if region.round and kind not in _ROUND:
+        raise values.fail(node, f"the distribution '{kind}' needs a <box>")
     chance = np.random.default_rng(zlib.crc32(node.attributes.get("name", "").encode()))
     count = _count(node, values.whole(node, "model_count", 1))
-    return spread(_region(node), count, chance)
+    return region.middle, spread(region, count, chance)
 
 
 def _count(node: Parameters, count: int) -> int:
@@ -83,20 +110,27 @@ def _count(node: Parameters, count: int) -> int:
 
 
 def _region(node: Parameters) -> Region:
-    cylinder = node.find("cylinder")
-    if cylinder is not None:
-        width = 2.0 * values.real(cylinder, "radius", 1.0)
-        return Region((width, width, values.real(cylinder, "length", 1.0)), round=True)
-    return Region(values.vector(node, "box/size", (1.0, 1.0, 1.0)), round=False)
+    box, cylinder = node.find("box"), node.find("cylinder")
+    if box is not None:
+        x, y, z = values.vector(box, "size", (1.0, 1.0, 1.0))
+        for length in (x, y, z):
+            values.positive(box, length, "the size of a box")
+        return Region((x, y, z))
+    if cylinder is None:
+        raise values.fail(node, "a <population> needs a <box> or a <cylinder>")
+    radius = values.positive(cylinder, values.real(cylinder, "radius", 1.0), "<radius>")
+    length = values.positive(cylinder, values.real(cylinder, "length", 1.0), "<length>")
+    return Region((2.0 * radius, 2.0 * radius, length), round=True)
 
 
-def _grid(node: Parameters) -> Floats:
+def _grid(node: Parameters) -> tuple[Floats, Floats]:
     rows = values.whole(node, "distribution/rows", 1)
     columns = values.whole(node, "distribution/cols", 1)
     _count(node, max(rows, 0) * max(columns, 0))
     x, y, _ = values.vector(node, "distribution/step", (0.5, 0.5, 0.0))
     places = [(c * x, r * y, 0.0) for r in range(rows) for c in range(columns)]
-    return np.array(places, np.float64).reshape(-1, 3)
+    middle = np.array([x * (columns - 1) / 2.0, y * (rows - 1) / 2.0, 0.0])
+    return middle, np.array(places, np.float64).reshape(-1, 3)
 
 
 def _random(region: Region, count: int, chance: np.random.Generator) -> Floats:
@@ -106,9 +140,11 @@ def _random(region: Region, count: int, chance: np.random.Generator) -> Floats:
 def _uniform(region: Region, count: int, chance: np.random.Generator) -> Floats:
     """Centres of clusters of random points (Lloyd's k-means), which keep their distance."""
     centres = region.draw(chance, count)
-    for _ in range(_ROUNDS if 1 < count <= 500 else 0):
-        points = region.draw(chance, _SAMPLES * count)
-        nearest = np.linalg.norm(points[:, None] - centres[None], axis=2).argmin(axis=1)
+    points = region.draw(chance, max(_FEWEST * count, min(_MOST, _SAMPLES * count)))
+    for _ in range(_ROUNDS if 1 < count <= _CLUSTERS else 0):
+        # |p - c|² but for |p|², which is the same for all centres c
+        away = (centres * centres).sum(axis=1) - 2.0 * points @ centres.T
+        nearest = away.argmin(axis=1)
         sums = np.zeros_like(centres)
         np.add.at(sums, nearest, points)
         counts = np.bincount(nearest, minlength=count)[:, None]
@@ -117,11 +153,11 @@ def _uniform(region: Region, count: int, chance: np.random.Generator) -> Floats:
 
 
 def _along(axis: int) -> Callable[[Region, int, np.random.Generator], Floats]:
-    """Evenly in a row along an axis."""
+    """In a row along an axis, in the middle of the others; the first at the edge."""
 
     def spread(region: Region, count: int, _: np.random.Generator) -> Floats:
-        places = np.zeros((count, 3))
-        places[:, axis] = ((np.arange(count) + 0.5) / max(count, 1) - 0.5) * region.size[axis]
+        places = np.tile(region.middle, (count, 1))
+        places[:, axis] = region.size[axis] * np.arange(count) / max(count, 1)
         return places
 
     return spread
@@ -134,3 +170,4 @@ _SPREADS: dict[str, Callable[[Region, int, np.random.Generator], Floats]] = {
     "random": _random,
     "uniform": _uniform,
 }
+_ROUND = {"random", "uniform"}

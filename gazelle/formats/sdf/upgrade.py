@@ -20,6 +20,10 @@ SINCE: Version = (1, 4)
 
 _RENAMED = {"origin": "pose"}
 _RENAMED_IN = {
+    ("fog", "rgba"): "color",
+    ("heightmap", "filename"): "uri",
+    ("heightmap", "origin"): "pos",
+    ("link", "damping"): "velocity_decay",
     ("mesh", "filename"): "uri",
     ("physics", "update_rate"): "real_time_update_rate",
 }
@@ -57,7 +61,8 @@ def _without_values(node: Parameters, entry: dict[str, Any]) -> Parameters:
         elif name in _VALUE_ATTRIBUTES and not entry["children"].get(name):
             text = text or value
         elif entry["children"] and ":" not in name:
-            made.append(Parameters(name, value, source=node.source))
+            tag = _RENAMED_IN.get((node.tag, name), name)
+            made.append(Parameters(tag, value, source=node.source))
         else:
             attributes[name] = value
     return replace(node, text=text, attributes=attributes, children=(*made, *node.children))

@@ -40,7 +40,6 @@ def write_world(world: World, writing: Writing) -> Parameters:
             *_extras(world),
             *map(write_light, world.lights),
             *(write_model(model, writing) for model in world.models),
-            *world.actors,
             *map(write_frame, world.frames),
             *(write_joint(joint, writing) for joint in world.joints),
             *map(write_plugin, world.plugins),

@@ -25,7 +25,7 @@ from gazelle.formats.write.urdf.link import (
 from gazelle.formats.write.urdf.tree import WORLD, Tree, tree_of
 from gazelle.formats.write.writing import Writing
 
-_OF_WORLDS = ("actors", "extras", "frames", "joints", "lights", "plugins", "states")
+_OF_WORLDS = ("extras", "frames", "joints", "lights", "plugins", "states")
 
 
 def write_urdf(content: World | Model, writing: Writing) -> Parameters:
