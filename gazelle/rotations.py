@@ -10,9 +10,22 @@ Floats = NDArray[np.float64]
 
 def rotate(q: Floats, v: Floats) -> Floats:
     """Vectors v, shape (..., 3), turned by unit quaternions q (x, y, z, w), shape (..., 4)."""
+    if q.size == 4 and v.size == 3:
+        return _rotate_one(q, v)
     axis, w = q[..., :3], q[..., 3:]
     t = 2.0 * cross(axis, v)
     return v + w * t + cross(axis, t)
+
+
+def _rotate_one(q: Floats, v: Floats) -> Floats:
+    """The same for a single vector, to the bit, without the overhead of arrays."""
+    x, y, z, w = q.ravel().tolist()
+    a, b, c = v.ravel().tolist()
+    i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    turned = np.array(
+        (a + w * i + (y * k - z * j), b + w * j + (z * i - x * k), c + w * k + (x * j - y * i))
+    )
+    return turned.reshape((1,) * (max(q.ndim, v.ndim) - 1) + (3,))
 
 
 def multiply(a: Floats, b: Floats) -> Floats:

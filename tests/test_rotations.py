@@ -1,0 +1,35 @@
+"""Quaternions by the batch."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from gazelle.rotations import rotate
+
+numbers = st.floats(-10.0, 10.0)
+quaternions = arrays(np.float64, 4, elements=numbers).filter(lambda q: np.linalg.norm(q) > 0.1)
+
+
+@given(quaternions, arrays(np.float64, 3, elements=numbers))
+def test_one_vector_is_turned_to_the_bit_as_one_of_many(q, v):
+    q = q / np.linalg.norm(q)
+    many = rotate(np.stack((q, q)), np.stack((v, v)))
+    assert np.array_equal(rotate(q[None], v[None]), many[:1])
+    assert np.array_equal(rotate(q, v), many[0])
+
+
+@given(quaternions, arrays(np.float64, 3, elements=numbers))
+def test_turning_keeps_lengths_and_is_the_sandwich_product(q, v):
+    x, y, z, w = q = q / np.linalg.norm(q)
+    turned = rotate(q, v)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    matrix = np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross
+    np.testing.assert_allclose(turned, matrix @ v, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(turned), np.linalg.norm(v), atol=1e-12)
+
+
+def test_shapes_broadcast_also_for_one_vector():
+    q = np.array([[0.0, 0.0, 0.0, 1.0]])
+    assert rotate(q[:, None, :], np.ones((1, 1, 3))).shape == (1, 1, 3)
+    assert rotate(q[0], np.ones((1, 3))).shape == (1, 3)
