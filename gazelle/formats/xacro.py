@@ -43,38 +43,54 @@ class _Made(threading.local):
 _made = _Made()
 
 
+class _Children(dom.NodeList):
+    """Child nodes that are found at once near the place where the last one was.
+
+    Minidom searches all children for each that it replaces, which takes long in a robot of a
+    thousand links; xacro replaces them one after the other.
+    """
+
+    __slots__ = ("_near",)
+
+    def index(self, value: Any, *between: Any) -> int:
+        """Where a child is."""
+        near: int = getattr(self, "_near", 0)
+        if not between:
+            for at in (near, near + 1):
+                if at < len(self) and self[at] is value:
+                    self._near = at
+                    return at
+        self._near = at = super().index(value, *between)
+        return at
+
+    def remove(self, value: Any) -> None:
+        """Take a child out."""
+        del self[self.index(value)]
+
+
 class PlacedElement(dom.Element):
     """A DOM element that knows where it was written, and tells its copies."""
 
     place: tuple[str, int] | None = None
 
     def cloneNode(self, deep: bool) -> Any:  # noqa: N802, FBT001  # the name is the DOM's
-        """A copy with the same places.
+        """A copy with the same place.
 
         Raises:
             FormatError: Macros have made more than ``MAX_MADE`` elements.
         """
-        if deep:
-            _count_made(self)
-        copy = super().cloneNode(deep)
-        _copy_places(self, copy)
+        _made.count += 1
+        if _made.count > MAX_MADE:
+            raise FormatError(f"the macros make more than {MAX_MADE} elements")
+        copy = PlacedElement(self.tagName, self.namespaceURI, self.prefix)
+        copy.ownerDocument = self.ownerDocument
+        copy.childNodes = _Children()
+        copy.place = self.place
+        for name, value in self.attributes.items():
+            copy.setAttribute(name, value)
+        for child in self.childNodes if deep else ():
+            copy.appendChild(child.cloneNode(deep))
         return copy
-
-
-def _count_made(node: Any) -> None:
-    """Count the elements below a node that is copied, of all copies in this expansion."""
-    _made.count += 1 + len(node.getElementsByTagName("*"))
-    if _made.count > MAX_MADE:
-        raise FormatError(f"the macros make more than {MAX_MADE} elements")
-
-
-def _copy_places(source: Any, target: Any) -> None:
-    if isinstance(source, PlacedElement):
-        target.__class__ = PlacedElement
-        target.place = source.place
-    for one, other in zip(source.childNodes, target.childNodes, strict=False):
-        if one.nodeType == one.ELEMENT_NODE:
-            _copy_places(one, other)
 
 
 def is_xacro(root: Parameters) -> bool:
@@ -128,6 +144,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
         super().start_element_handler(name, attributes)
         element: Any = self.curNode
         element.__class__ = PlacedElement
+        element.childNodes = _Children()
         element.place = (self._file, self.getParser().CurrentLineNumber)
 
 
@@ -166,12 +183,17 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def guarded_open(filename: str) -> Any:
         return builtins.open(_checked(filename), encoding="utf-8")  # noqa: PTH123
 
+    def eval_text(text: str, symbols: Any) -> Any:
+        """Most texts hold no expression, and need not be taken apart to find that out."""
+        return text if text and "$" not in text else evaluate_text(text, symbols)
+
     said = io.StringIO()
+    evaluate_text = engine.eval_text
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
     bounded = {"range": expressions.bounded_range}
     with contextlib.ExitStack() as stack:
         for names, values in (
-            (vars(engine), {"parse": parse, "open": guarded_open}),
+            (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": eval_text}),
             (vars(engine), {"safe_eval": expressions.evaluate}),
             (vars(substitution_args), {"_eval_find": find, "eval": expressions.evaluate_plain}),
             (substitution_args._eval_dict, {"find": find}),  # noqa: SLF001
