@@ -13,6 +13,7 @@ from gazelle.description.physics import Physics
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose, Vector3
 from gazelle.description.source import Source
+from gazelle.description.stage import StageWorld
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,7 @@ class World:
         camera: Pose of the user's camera, or None.
         states: ``<state>`` elements kept whole, already applied to the poses above.
         extras: Other elements kept whole: road, population, audio, gui, ...
+        stage: All that a Stage file says, which ``models`` above are made of; else None.
     """
 
     name: str = "default"
@@ -87,6 +89,7 @@ class World:
     camera: Pose | None = None
     states: tuple[Parameters, ...] = ()
     extras: tuple[Parameters, ...] = ()
+    stage: StageWorld | None = field(default=None, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
     @property

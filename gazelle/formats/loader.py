@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, ResolveError, did_you_mean
-from gazelle.formats import sdf, urdf, xacro, xml
+from gazelle.formats import sdf, stage, urdf, xacro, xml
 from gazelle.formats.model_config import entry_file
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -26,7 +26,7 @@ def load(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> World:
-    """The world in a file: SDF, URDF, xacro, or the folder of a model.
+    """The world in a file: SDF, URDF, xacro, Stage, or the folder of a model.
 
     A file of a robot or model gives a world that holds just that. What kind of file it is
     is decided by its content.
@@ -75,7 +75,7 @@ def load_string(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> World:
-    """The world in SDF, URDF or xacro text; ``name`` stands for the file in errors.
+    """The world in SDF, URDF, xacro or Stage text; ``name`` stands for the file in errors.
 
     Relative names start nowhere: files are found through ``paths`` and URIs.
 
@@ -84,6 +84,11 @@ def load_string(
         ResolveError: A file is not found, and ``strict`` is set.
     """
     reading = _reading(paths, xacro_args)
+    data = text.encode() if isinstance(text, str) else text
+    if stage.is_stage(data):
+        world = stage.read_stage(data, name, reading)
+        reading.report(strict=strict)
+        return world
     root = xml.parse(text, name=name)
     if root.tag == "robot" and xacro.is_xacro(root):
         root = xacro.expand_text(text, name, reading)
@@ -184,7 +189,10 @@ def read_path(file: Path, reading: Reading) -> World:
         FormatError: It cannot be read, or says something that cannot be.
     """
     with reading.inside(file):
-        root = xml.read_file(file)
+        data = xml.read_bytes(file)
+        if stage.is_stage(data, file.suffix):
+            return stage.read_stage(data, str(file), reading)
+        root = xml.parse(data, name=str(file))
         if root.tag == "robot" and xacro.is_xacro(root):
             root = xacro.expand(file, reading)
         return read_root(root, reading)
@@ -205,5 +213,5 @@ def read_root(root: Parameters, reading: Reading) -> World:
     raise FormatError(
         f"expected <sdf> or <robot>, found <{root.tag}>",
         source=root.source,
-        hint="readable are SDF, URDF and xacro files, and folders with a model.config",
+        hint="readable are SDF, URDF, xacro and Stage files, and folders with a model.config",
     )

@@ -1,0 +1,84 @@
+"""World files of Stage (``.world``, ``.inc``) to descriptions."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from gazelle.description import World
+from gazelle.description.stage import StageWorld
+from gazelle.errors import ResolveError
+from gazelle.formats import xml
+from gazelle.formats.reading import Reading
+from gazelle.formats.resolve import Resolver
+from gazelle.formats.stage.lexer import Script
+from gazelle.formats.stage.parser import decode
+from gazelle.formats.stage.scene import scene_of
+from gazelle.formats.stage.world import read_world
+
+SUFFIXES = (".world", ".inc")
+
+_START = re.compile(
+    rb"""(?: \s | \#[^\r\n]* | \xef\xbb\xbf )*
+    (?: include \s* " | define \s+ [A-Za-z][\w.-]* \s+ [A-Za-z] | [A-Za-z][\w.-]* \s* ["(\[\d.+-] )
+    """,
+    re.VERBOSE,
+)
+
+__all__ = ["SUFFIXES", "is_stage", "load_stage", "read_stage", "scene_of"]
+
+
+def is_stage(data: bytes, suffix: str = "") -> bool:
+    """Whether a file reads like one of Stage's: a word and a value, a body or a definition.
+
+    Args:
+        data: What is in it.
+        suffix: Of its name; one of Stage's own decides where the text does not look like XML.
+    """
+    if data.lstrip(b" \t\r\n\xef\xbb\xbf").startswith(b"<"):
+        return False
+    return _START.match(data) is not None or (bool(data.strip()) and suffix in SUFFIXES)
+
+
+def load_stage(
+    path: str | os.PathLike[str], *, paths: Sequence[str | os.PathLike[str]] = ()
+) -> StageWorld:
+    """What a Stage file says, in Stage's vocabulary.
+
+    Args:
+        path: The file. Others that it names are looked for from its folder, from theirs, and
+            in the folders of ``STAGEPATH``.
+        paths: Folders to search before all others.
+
+    Raises:
+        FormatError: The file cannot be read, or says something that cannot be; it names file
+            and line.
+        ResolveError: There is no such file, or one that it names is not there.
+    """
+    file = Path(path).expanduser().absolute()
+    if not file.is_file():
+        raise ResolveError("there is no such file", file=os.fspath(path))
+    reading = Reading(Resolver(paths, file=file))
+    with reading.inside(file):
+        script = Script(str(file), decode(xml.read_bytes(file)))
+        world = read_world(script, reading, file.parent)
+    reading.report(strict=False)
+    return world
+
+
+def read_stage(data: bytes, name: str, reading: Reading) -> World:
+    """The world of a Stage file's text; ``World.stage`` holds all that the file says.
+
+    Args:
+        data: The text.
+        name: Stands for the file in errors.
+        reading: Finds what it names, takes remarks.
+
+    Raises:
+        FormatError: The text says something that cannot be.
+        ResolveError: A file that it names is not there.
+    """
+    stage = read_world(Script(name, decode(data)), reading, reading.folder)
+    return scene_of(stage, reading)

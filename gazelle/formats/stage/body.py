@@ -1,0 +1,216 @@
+"""The body of a model: blocks and the walls of a bitmap, stretched to the model's size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.stage import StageBitmap, StageBlock, StageSize
+from gazelle.errors import FormatError, ResolveError
+from gazelle.formats.picture import read_picture
+from gazelle.formats.stage.entity import Entity, Property
+from gazelle.formats.stage.parser import find_beside, looked
+from gazelle.formats.stage.properties import Properties
+from gazelle.formats.stage.reader import Context
+
+WALL = 127
+"""Greatest value of a pixel's first channel that is a wall."""
+BOUNDARY = 0.01
+"""Thickness of the walls of ``boundary`` [m]."""
+MAX_POINTS = 100_000
+
+UNIT_BLOCK = StageBlock(((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)), (0.0, 1.0))
+"""The body of a model that names none."""
+
+Corner = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """What a model is made of."""
+
+    blocks: tuple[StageBlock, ...] = ()
+    bitmap: StageBitmap | None = None
+
+
+@dataclass(slots=True)
+class Pictures:
+    """Cells of the bitmaps of one file, each read once."""
+
+    cells: dict[Path, NDArray[np.bool_]] = field(default_factory=dict)
+
+    def load(self, path: Path, given: Property) -> NDArray[np.bool_]:
+        """The walls of a picture, the row of least y first, cut to what is drawn.
+
+        Raises:
+            FormatError: It cannot be read, or nothing is drawn in it.
+        """
+        if path not in self.cells:
+            try:
+                dark = read_picture(path)[::-1, :, 0] <= WALL
+            except FormatError as error:
+                raise given.fail(f"'{path}': {error.message}") from error
+            rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
+            if not len(rows):
+                raise given.fail(f"the picture '{path}' shows no walls: it has no dark pixel")
+            self.cells[path] = np.ascontiguousarray(
+                dark[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+            )
+        return self.cells[path]
+
+
+def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> Body:
+    """The blocks, bitmap and boundary of a model, scaled to its size.
+
+    Args:
+        given: The model's properties.
+        size: Its size.
+        context: Finds pictures.
+        solid: Whether a model of its type has a body without being told so.
+
+    Raises:
+        FormatError: A block or bitmap cannot be used.
+    """
+    blocks = [read_block(part, given) for part in given.entity.parts if is_block(part)]
+    blocks += _old_blocks(given)
+    bitmap = _read_bitmap(given, context)
+    bare = given.flag("noblocks", default=False)
+    if not blocks and bitmap is None and solid and not bare:
+        blocks = [UNIT_BLOCK]
+    boundary = given.flag("boundary", default=False)
+    if not blocks and bitmap is None:
+        return Body()
+    body = _scaled(blocks, bitmap, size)
+    if boundary:
+        body = Body((*body.blocks, *_walls(size)), body.bitmap)
+    return body
+
+
+def is_block(entity: Entity) -> bool:
+    """Whether an entity in a model is a part of its body; a macro may be called block too."""
+    return entity.type == "block" or (entity.word == "block" and "points" in entity.properties)
+
+
+def read_block(entity: Entity, outer: Properties) -> StageBlock:
+    """``block ( points N point[0] [ x y ] ... z [ low high ] )``.
+
+    Raises:
+        FormatError: It has too few points, or a wrong one.
+    """
+    given = Properties(entity, outer.reading, outer.units)
+    block = _block(given, "", entity)
+    color = given.color()
+    given.report_unknown()
+    return block if isinstance(color, str | None) else StageBlock(block.points, block.z, color)
+
+
+def _block(given: Properties, prefix: str, entity: Entity) -> StageBlock:
+    wanted = given.whole(f"{prefix}points", 0, least=0)
+    listed = {each.name for each in given.matching(f"{prefix}point[")}
+    points: list[tuple[float, float]] = []
+    if wanted > MAX_POINTS:
+        raise entity.fail(f"a block of more than {MAX_POINTS} points")
+    for index in range(wanted):
+        name = f"{prefix}point[{index}]"
+        if name in listed:
+            x, y = given.numbers(name, "ll", (0.0, 0.0))
+            points.append((x, y))
+    if len(points) < wanted or len(listed) > wanted:
+        given.reading.remark(
+            f"'points' is {wanted}, but {len(listed)} are given; {len(points)} are used",
+            entity.source,
+        )
+    if len(points) < 3:
+        raise entity.fail(f"a block needs 3 points at least, found {len(points)}")
+    low, high = given.numbers(f"{prefix}z", "ll", (0.0, 1.0))
+    if high < low:
+        raise entity.fail(f"the top of a block is below its bottom: z is [{low:g} {high:g}]")
+    return StageBlock(tuple(points), (low, high))
+
+
+def _old_blocks(given: Properties) -> list[StageBlock]:
+    """``blocks N block[0].points ...``, as files of Stage 3 have it."""
+    count = given.whole("blocks", 0, least=0)
+    entity = given.entity
+    found = []
+    for index in range(min(count, MAX_POINTS)):
+        if not given.has(f"block[{index}].points"):
+            raise entity.fail(f"there is no 'block[{index}].points', and 'blocks' is {count}")
+        found.append(_block(given, f"block[{index}].", entity))
+        given.matching(f"block[{index}].")
+    return found
+
+
+def _read_bitmap(given: Properties, context: Context) -> StageBitmap | None:
+    uri = given.text("bitmap")
+    written = given.get("bitmap")
+    if written is None:
+        return None
+    if not uri:
+        raise written.fail("'bitmap' names no picture")
+    path = find_beside(uri, written.script, given.reading, context.folder)
+    if path is None or not path.is_file():
+        raise written.fail(f"there is no picture '{uri}'", looked(uri, given.reading), ResolveError)
+    cells = context.pictures.load(path, written)
+    rows, columns = cells.shape
+    return StageBitmap(uri, path, cells, (0.0, 0.0), (float(columns), float(rows)), (0.0, 1.0))
+
+
+def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: StageSize) -> Body:
+    """All parts, so that the box around them is as large as the model, centred in x and y.
+
+    Heights are scaled too, but not moved: what begins above 0 still does.
+    """
+    corners: list[Corner] = []
+    for block in blocks:
+        for z in block.z:
+            corners += [(x, y, z) for x, y in block.points]
+    if bitmap is not None:
+        corners += [(*bitmap.low, bitmap.z[0]), (*bitmap.high, bitmap.z[1])]
+    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+    extent = np.where(high > low, high - low, 1.0)
+    scale = np.asarray(size, np.float64) / extent
+    middle = np.array([low[0] + high[0], low[1] + high[1], 0.0]) / 2.0
+
+    def moved(x: float, y: float) -> tuple[float, float]:
+        return float((x - middle[0]) * scale[0]), float((y - middle[1]) * scale[1])
+
+    def lifted(z: tuple[float, float]) -> tuple[float, float]:
+        return float(z[0] * scale[2]), float(z[1] * scale[2])
+
+    return Body(
+        tuple(
+            StageBlock(tuple(moved(*point) for point in block.points), lifted(block.z), block.color)
+            for block in blocks
+        ),
+        None
+        if bitmap is None
+        else StageBitmap(
+            bitmap.uri,
+            bitmap.path,
+            bitmap.cells,
+            moved(*bitmap.low),
+            moved(*bitmap.high),
+            lifted(bitmap.z),
+        ),
+    )
+
+
+def _walls(size: StageSize) -> list[StageBlock]:
+    """Four walls inside of the box around the body."""
+    x, y = size.x / 2.0, size.y / 2.0
+    thick = min(BOUNDARY, x, y)
+    sides = (
+        (-x, -y, -x + thick, y),
+        (-x, -y, x, -y + thick),
+        (-x, y - thick, x, y),
+        (x - thick, -y, x, y),
+    )
+    return [
+        StageBlock(((left, low), (right, low), (right, high), (left, high)), (0.0, size.z))
+        for left, low, right, high in sides
+    ]

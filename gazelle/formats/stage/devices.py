@@ -1,0 +1,309 @@
+"""One small reader for each type of model that Stage has, in the table ``KINDS``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gazelle.description.material import Color
+from gazelle.description.stage import StageSize
+from gazelle.description.stage_devices import (
+    Quartet,
+    StageActuator,
+    StageBlinkenlight,
+    StageBlobfinder,
+    StageBumper,
+    StageCamera,
+    StageDevice,
+    StageFiducial,
+    StageGripper,
+    StageLightIndicator,
+    StagePosition,
+    StageRanger,
+    StageSensor,
+)
+from gazelle.formats.stage.colors import color_of
+from gazelle.formats.stage.entity import Entity
+from gazelle.formats.stage.properties import Properties, items_of
+
+MAX_SAMPLES = 1_000_000
+MAX_STRIPS = 10_000
+_ORIGIN: Quartet = (0.0, 0.0, 0.0, 0.0)
+_NO_LENGTH = StageSize(0.0, 0.0, 0.0)
+_USUAL_SIZE = StageSize()
+
+
+def read_position(given: Properties) -> StagePosition:
+    """``position``."""
+    default = StagePosition()
+    given.note("odom", "'odom' is no longer used", "say 'localization_origin'")
+    drive = given.choice("drive", ("diff", "omni", "car"), "diff")
+    localization = given.choice("localization", ("gps", "odom"), "gps")
+    origin = given.get("localization_origin")
+    return StagePosition(
+        drive="omni" if drive == "omni" else "car" if drive == "car" else "diff",
+        velocity=quartet(given, "velocity", _ORIGIN),
+        localization="odom" if localization == "odom" else "gps",
+        localization_origin=(
+            None if origin is None else quartet(given, "localization_origin", _ORIGIN)
+        ),
+        odom_error=quartet(given, "odom_error", default.odom_error),
+        wheelbase=_positive(given, "wheelbase", default.wheelbase),
+        velocity_bounds=_bounds(given, "velocity_bounds", default.velocity_bounds),
+        acceleration_bounds=_bounds(given, "acceleration_bounds", default.acceleration_bounds),
+    )
+
+
+def quartet(given: Properties, name: str, default: Quartet) -> Quartet:
+    """x, y, z and an angle."""
+    x, y, z, yaw = given.numbers(name, "llla", default)
+    return (x, y, z, yaw)
+
+
+def _positive(given: Properties, name: str, default: float) -> float:
+    value = given.length(name, default)
+    written = given.get(name)
+    if written is not None and value <= 0.0:
+        raise written.fail(f"'{name}' must be greater than zero, found {value:g}")
+    return value
+
+
+Bounds = tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
+
+
+def _bounds(given: Properties, name: str, default: Bounds) -> Bounds:
+    flat = tuple(value for pair in default for value in pair)
+    x0, x1, y0, y1, z0, z1, a0, a1 = given.numbers(name, "llllllaa", flat)
+    bounds = ((x0, x1), (y0, y1), (z0, z1), (a0, a1))
+    written = given.get(name)
+    if written is not None and any(low > high for low, high in bounds):
+        raise written.fail(
+            f"in '{name}' a least value is greater than the greatest: {written.token.text}"
+        )
+    return bounds
+
+
+def read_ranger(given: Properties) -> StageRanger:
+    """``ranger`` with its ``sensor`` parts."""
+    parts = [part for part in given.entity.parts if part.type == "sensor"]
+    return StageRanger(tuple(read_sensor(part, given) for part in parts))
+
+
+def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
+    """``sensor``."""
+    given = Properties(entity, outer.reading, outer.units)
+    default = StageSensor()
+    size = given.size("size", StageSize(*default.size))
+    constant, share, angle = given.numbers("noise", "lfa", default.noise)
+    color = given.color()
+    for name in ("range_min", "range_max", "view"):
+        given.note(
+            name,
+            f"'{name}' means nothing to Stage 4, and is ignored",
+            "write range [ min max ] and fov",
+        )
+    sensor = StageSensor(
+        pose=quartet(given, "pose", _ORIGIN),
+        size=size,
+        range=_range(given, "range", default.range),
+        fov=given.angle("fov", default.fov),
+        samples=_samples(given, default.samples),
+        noise=(constant, share, angle),
+        color=None if isinstance(color, str) else color,
+    )
+    given.report_unknown()
+    return sensor
+
+
+def _range(given: Properties, name: str, default: tuple[float, float]) -> tuple[float, float]:
+    low, high = given.numbers(name, "ll", default)
+    written = given.get(name)
+    if written is not None and not 0.0 <= low <= high:
+        raise written.fail(f"'{name}' must be [ nearest farthest ], found {written.token.text}")
+    return low, high
+
+
+def _samples(given: Properties, default: int) -> int:
+    value = given.whole("samples", default, least=1)
+    written = given.get("samples")
+    if written is not None and value > MAX_SAMPLES:
+        raise written.fail(f"more than {MAX_SAMPLES} samples")
+    return value
+
+
+def read_laser(given: Properties) -> StageRanger:
+    """``laser`` of Stage 3, which is a ranger with one sensor now."""
+    low, high = given.length("range_min", 0.0), given.length("range_max", 8.0)
+    fov = given.angle("fov", math.pi)
+    given.reading.remark(
+        "'laser' is a model of Stage 3, and read as a ranger",
+        given.entity.source,
+        "write a ranger with sensor( range [ min max ] fov ... samples ... )",
+    )
+    return StageRanger((StageSensor(range=(low, high), fov=fov, samples=_samples(given, 180)),))
+
+
+def read_camera(given: Properties) -> StageCamera:
+    """``camera``; its angles are in degrees whatever the file's unit."""
+    default = StageCamera()
+    columns, rows = given.numbers("resolution", "ff", default.resolution)
+    fov = given.numbers("fov", "dd", default.fov)
+    pan, tilt = given.numbers("pantilt", "dd", default.pantilt)
+    written = given.get("resolution")
+    if written is not None and not (1 <= columns <= 10_000 and 1 <= rows <= 10_000):
+        raise written.fail(f"'resolution' must be 1 to 10000 pixels, found {written.token.text}")
+    return StageCamera(
+        resolution=(int(columns), int(rows)),
+        range=_range(given, "range", default.range),
+        fov=(fov[0], fov[1]),
+        pantilt=(pan, tilt),
+    )
+
+
+def read_blobfinder(given: Properties) -> StageBlobfinder:
+    """``blobfinder``."""
+    default = StageBlobfinder()
+    columns, rows = given.numbers("image", "ff", default.image)
+    return StageBlobfinder(
+        colors=_blob_colors(given),
+        image=(max(int(columns), 1), max(int(rows), 1)),
+        range=given.length("range", default.range),
+        fov=given.angle("fov", default.fov),
+        pan=given.angle("pan", default.pan),
+    )
+
+
+def _blob_colors(given: Properties) -> tuple[Color, ...]:
+    count, written = given.whole("colors_count", 0, least=0), given.get("colors")
+    if written is None:
+        return ()
+    names = items_of(written, written.value)
+    if len(names) != count:
+        given.reading.remark(
+            f"'colors_count' is {count}, and 'colors' has {len(names)}", written.source
+        )
+    found = [color_of(str(name)) for name in names[:count]]
+    if None in found:
+        given.reading.remark("'colors' names one that X11 has not", written.source)
+    return tuple(color for color in found if color is not None)
+
+
+def read_fiducial(given: Properties) -> StageFiducial:
+    """``fiducial``."""
+    default = StageFiducial()
+    return StageFiducial(
+        range=(
+            given.length("range_min", default.range[0]),
+            given.length("range_max", default.range[1]),
+        ),
+        range_id=given.length("range_max_id", default.range_id),
+        fov=given.angle("fov", default.fov),
+        ignore_height=given.flag("ignore_zloc", default=default.ignore_height),
+    )
+
+
+def read_bumper(given: Properties) -> StageBumper:
+    """``bumper``."""
+    count = given.whole("bcount", 0, least=0)
+    common = given.length("blength", 0.0)
+    given.matching("bpose["), given.matching("blength[")
+    return StageBumper(
+        tuple(
+            (quartet(given, f"bpose[{i}]", _ORIGIN), given.length(f"blength[{i}]", common))
+            for i in range(min(count, MAX_STRIPS))
+        )
+    )
+
+
+def read_gripper(given: Properties) -> StageGripper:
+    """``gripper``."""
+    default = StageGripper()
+    x, y, z = given.numbers("paddle_size", "lll", default.paddle_size)
+    paddles, lift = "open", "down"
+    written = given.get("paddle_state")
+    if written is not None:
+        items = items_of(written, written.value)
+        first = items[0] if items else None
+        second = items[1] if len(items) > 1 else None
+        if first not in {"open", "closed"} or second not in {"up", "down"}:
+            raise written.fail(
+                f'\'paddle_state\' must be like [ "open" "down" ], found {written.token.text}'
+            )
+        paddles, lift = str(first), str(second)
+    return StageGripper(
+        paddle_size=(x, y, z),
+        paddles="closed" if paddles == "closed" else "open",
+        lift="up" if lift == "up" else "down",
+        autosnatch=given.flag("autosnatch", default=default.autosnatch),
+    )
+
+
+def read_actuator(given: Properties) -> StageActuator:
+    """``actuator``; its positions have no unit in Stage, so they are metres or radians."""
+    default = StageActuator()
+    kind = given.choice("type", ("linear", "rotational"), default.type)
+    x, y, z = given.numbers("axis", "fff", default.axis)
+    return StageActuator(
+        type="rotational" if kind == "rotational" else "linear",
+        axis=(x, y, z),
+        range=(
+            given.number("min_position", default.range[0]),
+            given.number("max_position", default.range[1]),
+        ),
+        start=given.number("start_position", default.start),
+        max_speed=given.number("max_speed", default.max_speed),
+    )
+
+
+def read_blinkenlight(given: Properties) -> StageBlinkenlight:
+    """``blinkenlight``."""
+    default = StageBlinkenlight()
+    return StageBlinkenlight(
+        period=given.number("period", default.period * 1000.0) / 1000.0,
+        duty_cycle=given.number("dutycycle", default.duty_cycle),
+        enabled=given.flag("enabled", default=default.enabled),
+    )
+
+
+def read_light_indicator(_: Properties) -> StageLightIndicator:
+    """``lightindicator``, which has no properties of its own."""
+    return StageLightIndicator()
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A type of model.
+
+    Attributes:
+        read: Its own properties; None if it has none.
+        size: Of its body where the file says none.
+        solid: Whether it has a body without being told so.
+        color: Where the file says none.
+    """
+
+    read: Callable[[Properties], StageDevice] | None = None
+    size: StageSize = _USUAL_SIZE
+    solid: bool = True
+    color: Color = (1.0, 0.0, 0.0, 1.0)
+
+
+_RANGER_SIZE = StageSize(0.15, 0.15, 0.2)
+_BLUE = (0.0, 0.0, 0.5, 1.0)
+
+KINDS: dict[str, Kind] = {
+    "actuator": Kind(read_actuator),
+    "blinkenlight": Kind(
+        read_blinkenlight, StageSize(0.02, 0.02, 0.02), color=(0.0, 1.0, 0.0, 1.0)
+    ),
+    "blobfinder": Kind(read_blobfinder, solid=False),
+    "bumper": Kind(read_bumper),
+    "camera": Kind(read_camera, StageSize(0.1, 0.07, 0.05), color=(0.0, 0.0, 0.0, 1.0)),
+    "fiducial": Kind(read_fiducial, _NO_LENGTH, solid=False),
+    "gripper": Kind(read_gripper, StageSize(0.2, 0.3, 0.2), color=(0.3, 0.3, 0.3, 1.0)),
+    "laser": Kind(read_laser, _RANGER_SIZE, solid=False, color=_BLUE),
+    "lightindicator": Kind(read_light_indicator),
+    "model": Kind(),
+    "position": Kind(read_position),
+    "ranger": Kind(read_ranger, _RANGER_SIZE, solid=False, color=_BLUE),
+}

@@ -1,0 +1,239 @@
+"""Models of any type: what all have in common, and the tree of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from gazelle.description.stage import (
+    StageColor,
+    StageController,
+    StageGui,
+    StageModel,
+    StagePose,
+    StagePower,
+    StageReturns,
+    StageSize,
+)
+from gazelle.errors import did_you_mean
+from gazelle.formats.stage.body import is_block, read_body
+from gazelle.formats.stage.devices import KINDS
+from gazelle.formats.stage.entity import Entity, Property
+from gazelle.formats.stage.properties import Properties
+from gazelle.formats.stage.reader import Context
+
+CONTROLLERS = ("lasernoise", "wander")
+"""Controllers that come with Gazelle."""
+
+_GONE = {
+    "charger": "Stage 4 has no chargers; a model with give_watts may stand in",
+    "map": "write a model with a bitmap",
+    "puck": "write a model",
+    "simulation": "that is of Player's files",
+    "wifi": "Stage 4.3 has no wifi models",
+}
+_LIGHT = {"color", "color_rgba", "name", "pose"}
+"""Properties that an instance can change without the rest being read again."""
+_MAX_INTERVAL = 3600.0
+
+
+def read_models(entities: Iterable[Entity], context: Context) -> tuple[StageModel, ...]:
+    """Models that stand beside each other, numbered by their types.
+
+    Raises:
+        FormatError: One has a type that is not known, or says something that cannot be.
+    """
+    counts: dict[str, int] = {}
+    found = []
+    for entity in entities:
+        kind = "ranger" if entity.type == "laser" else entity.type
+        index = counts.get(kind, 0)
+        counts[kind] = index + 1
+        found.append(read_model(entity, f"{kind}:{index}", context))
+    return tuple(found)
+
+
+def read_model(entity: Entity, default_name: str, context: Context) -> StageModel:
+    """One model; ``default_name`` is for one without a name of its own.
+
+    A model that only gives a macro another pose or name shares all else with it.
+
+    Raises:
+        FormatError: Its type is not known, or it says something that cannot be.
+    """
+    macro = entity.macro
+    if macro is None or entity.children or not entity.own.keys() <= _LIGHT:
+        return _read_whole(entity, default_name, context)
+    prototype = context.prototypes.get(macro)
+    if prototype is None:
+        prototype = context.prototypes[macro] = _read_whole(macro, "", context)
+    given = Properties(entity, context.reading, context.units, own=True)
+    return replace(
+        prototype,
+        name=_name(given, prototype.name or default_name),
+        pose=given.pose("pose", prototype.pose),
+        color=_color(given, prototype.color),
+        source=entity.source,
+    )
+
+
+def _read_whole(entity: Entity, default_name: str, context: Context) -> StageModel:
+    kind = KINDS.get(entity.type)
+    if kind is None:
+        raise _unknown(entity)
+    given = Properties(entity, context.reading, context.units)
+    size, origin = _extent(given, kind.size)
+    body = read_body(given, size, context, solid=kind.solid)
+    device = None if kind.read is None else kind.read(given)
+    parts = [part for part in entity.parts if not is_block(part) and part.type != "sensor"]
+    if entity.type != "ranger":
+        _refuse_sensors(entity)
+    model = StageModel(
+        type="ranger" if entity.type == "laser" else entity.type,
+        name=_name(given, default_name),
+        pose=given.pose("pose"),
+        size=size,
+        origin=origin,
+        blocks=body.blocks,
+        bitmap=body.bitmap,
+        boundary=given.flag("boundary", default=False),
+        color=_color(given, kind.color),
+        returns=_returns(given),
+        device=device,
+        controllers=_controllers(given),
+        children=read_models(parts, context),
+        update_interval=_interval(given),
+        always_on=given.flag("alwayson", default=False),
+        stack_children=given.flag("stack_children", default=True),
+        mass=given.number("mass", 0.0),
+        friction=given.number("friction", 0.0),
+        map_resolution=given.length("map_resolution", 0.1),
+        gui=_gui(given),
+        power=_power(given),
+        source=entity.source,
+    )
+    _old_words(given)
+    given.report_unknown()
+    return model
+
+
+def _unknown(entity: Entity) -> Exception:
+    if entity.type in {"sensor", "block", "window"}:
+        return entity.fail(f"'{entity.type}' cannot stand here, it is no model")
+    hint = _GONE.get(entity.type) or did_you_mean(entity.type, KINDS)
+    return entity.fail(f"'{entity.type}' is no type of model and no macro defined above", hint)
+
+
+def _refuse_sensors(entity: Entity) -> None:
+    for part in entity.parts:
+        if part.type == "sensor":
+            raise part.fail(f"a sensor must stand in a ranger, not in a {entity.type}")
+
+
+def _name(given: Properties, default: str) -> str:
+    written = given.get("name")
+    name = given.text("name", default)
+    if written is not None and (not name.strip("/ ") or "::" in name):
+        raise written.fail(f"'{name}' is no name for a model")
+    return name
+
+
+def _extent(given: Properties, size: StageSize) -> tuple[StageSize, StagePose]:
+    """``size`` and ``origin``, or what Stage 2 called them."""
+    old_size, old_origin = given.get("size3"), given.get("origin3")
+    for name, new in (("size3", "size"), ("origin3", "origin")):
+        given.note(name, f"'{name}' is of Stage 2; it is read as '{new}'", f"write {new}")
+    origin = StagePose()
+    if old_size is not None:
+        size = given.size("size3", size)
+    if old_origin is not None:
+        x, y, yaw = given.numbers("origin3", "lla", (0.0, 0.0, 0.0))
+        origin = StagePose(x, y, 0.0, yaw)
+    return given.size("size", size), given.pose("origin", origin)
+
+
+def _color(given: Properties, default: StageColor) -> StageColor:
+    color = given.color()
+    return default if color is None else color
+
+
+def _returns(given: Properties) -> StageReturns:
+    default = StageReturns()
+    return StageReturns(
+        obstacle=given.flag("obstacle_return", default=default.obstacle),
+        ranger=given.number("ranger_return", default.ranger),
+        fiducial=given.whole("fiducial_return", default.fiducial),
+        fiducial_key=given.whole("fiducial_key", default.fiducial_key),
+        blob=given.flag("blob_return", default=default.blob),
+        gripper=given.flag("gripper_return", default=default.gripper),
+    )
+
+
+def _controllers(given: Properties) -> tuple[StageController, ...]:
+    """``ctrl "NAME ARGUMENTS"``, or a tuple of such strings."""
+    written = given.get("ctrl")
+    if written is None:
+        return ()
+    value = written.value
+    texts = value if isinstance(value, tuple) else (value,)
+    found = []
+    for text in texts:
+        words = text.split(maxsplit=1) if isinstance(text, str) else []
+        if not words:
+            raise written.fail(f"'ctrl' must name a controller, found {written.token.text}")
+        found.append(StageController(words[0], words[1] if len(words) > 1 else ""))
+        _note_foreign(words[0], written, given)
+    return tuple(found)
+
+
+def _note_foreign(name: str, written: Property, given: Properties) -> None:
+    if name not in CONTROLLERS:
+        given.reading.remark(
+            f"the controller '{name}' is a program for Stage itself, and not started",
+            written.source,
+            f"there are: {', '.join(CONTROLLERS)}; others drive it from Python or ROS",
+        )
+
+
+def _interval(given: Properties) -> float:
+    milliseconds = given.number("update_interval", 100.0)
+    written = given.get("update_interval")
+    if written is not None and not 0.0 <= milliseconds <= 1000.0 * _MAX_INTERVAL:
+        raise written.fail(f"'update_interval' is out of all bounds: {milliseconds:g} ms")
+    return milliseconds / 1000.0
+
+
+def _gui(given: Properties) -> StageGui:
+    default = StageGui()
+    return StageGui(
+        nose=given.flag("gui_nose", default=default.nose),
+        grid=given.flag("gui_grid", default=default.grid),
+        outline=given.flag("gui_outline", default=default.outline),
+        move=given.flag("gui_move", default=default.move),
+        trail_length=given.whole("trail_length", default.trail_length),
+        trail_interval=given.whole("trail_interval", default.trail_interval),
+        say=given.text("say", default.say),
+    )
+
+
+def _power(given: Properties) -> StagePower:
+    def joules(name: str) -> float | None:
+        if given.has(f"k{name}"):
+            return 1000.0 * given.number(f"k{name}", 0.0)
+        return given.number(name, 0.0) if given.has(name) else None
+
+    stored, capacity = joules("joules"), joules("joules_capacity")
+    return StagePower(
+        watts=given.number("watts", 0.0),
+        give_watts=given.number("give_watts", 0.0),
+        take_watts=given.number("take_watts", 0.0),
+        joules=stored,
+        capacity=capacity,
+    )
+
+
+def _old_words(given: Properties) -> None:
+    """Words that Stage 4 reads over, or that only matter inside of Stage."""
+    for name in ("debug", "event_queue"):
+        given.get(name)
+    given.note("laser_return", "'laser_return' is of Stage 3, and ignored", "say 'ranger_return'")

@@ -1,0 +1,210 @@
+"""The properties of an entity by type, in SI units and radians, and those nobody asks for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from gazelle.description.stage import StageColor, StagePose, StageSize
+from gazelle.errors import did_you_mean
+from gazelle.formats.reading import Reading
+from gazelle.formats.stage.colors import color_of
+from gazelle.formats.stage.entity import Entity, Property
+from gazelle.formats.stage.lexer import Value
+
+LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+ANGLES = {"degrees": math.pi / 180.0, "radians": 1.0}
+
+MAX_NUMBER = 1e9
+"""Greatest length, angle or count that makes sense; files hold 999999 for 'very much'."""
+
+
+@dataclass(slots=True)
+class Units:
+    """Metres and radians in the units of a file."""
+
+    length: float = LENGTHS["m"]
+    angle: float = ANGLES["degrees"]
+
+    def factor(self, code: str) -> float:
+        """Of a field: ``l`` is a length, ``a`` an angle, ``d`` degrees always, ``f`` a number."""
+        return {"l": self.length, "a": self.angle, "d": ANGLES["degrees"]}.get(code, 1.0)
+
+
+@dataclass(slots=True)
+class Properties:
+    """Reads the properties of one entity; what was asked for is known.
+
+    Attributes:
+        entity: What they belong to.
+        reading: Takes remarks.
+        units: Of the file.
+        own: Read only what stands in the entity itself, not in its macros.
+    """
+
+    entity: Entity
+    reading: Reading
+    units: Units
+    own: bool = False
+    _all: Mapping[str, Property] = field(init=False)
+    _known: set[str] = field(default_factory=set, init=False)
+
+    def __post_init__(self) -> None:
+        self._all = self.entity.own if self.own else self.entity.properties
+
+    def has(self, name: str) -> bool:
+        """Whether there is one of this name."""
+        return self.get(name) is not None
+
+    def get(self, name: str) -> Property | None:
+        """One by name."""
+        self._known.add(name)
+        return self._all.get(name)
+
+    def matching(self, prefix: str) -> list[Property]:
+        """All whose names begin so."""
+        found = [each for name, each in self._all.items() if name.startswith(prefix)]
+        self._known.update(each.name for each in found)
+        return found
+
+    def number(self, name: str, default: float, code: str = "f") -> float:
+        """A number; ``code`` is that of its unit, see ``Units``."""
+        given = self.get(name)
+        return default if given is None else _number(given, given.value) * self.units.factor(code)
+
+    def length(self, name: str, default: float) -> float:
+        """A length [m]; not negative."""
+        given = self.get(name)
+        if given is None:
+            return default
+        value = self.number(name, default, "l")
+        if value < 0.0:
+            raise given.fail(f"'{name}' must not be negative, found {value:g}")
+        return value
+
+    def angle(self, name: str, default: float) -> float:
+        """An angle [rad]."""
+        return self.number(name, default, "a")
+
+    def whole(self, name: str, default: int, least: int | None = None) -> int:
+        """A whole number; a fraction is cut off, as Stage does."""
+        given = self.get(name)
+        if given is None:
+            return default
+        value = int(_number(given, given.value))
+        if least is not None and value < least:
+            raise given.fail(f"'{name}' must be at least {least}, found {value}")
+        return value
+
+    def flag(self, name: str, *, default: bool) -> bool:
+        """A number that is 0 or not."""
+        return bool(self.whole(name, int(default)))
+
+    def text(self, name: str, default: str = "") -> str:
+        """A string."""
+        given = self.get(name)
+        if given is None:
+            return default
+        value = given.value
+        if not isinstance(value, str):
+            raise given.fail(f"'{name}' must be a string in quotes, found {given.token.text}")
+        return value
+
+    def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
+        """One of some strings."""
+        value = self.text(name, default)
+        given = self.get(name)
+        if value not in options and given is not None:
+            raise given.fail(f"'{name}' cannot be '{value}'", did_you_mean(value, options))
+        return value
+
+    def numbers(self, name: str, codes: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        """A tuple of numbers, one for each code of a unit; more are left out, as Stage does.
+
+        Raises:
+            FormatError: It is shorter, or holds something else.
+        """
+        given = self.get(name)
+        if given is None:
+            return default
+        items = items_of(given, given.value)
+        if len(items) < len(codes):
+            raise given.fail(
+                f"'{name}' must have {len(codes)} numbers, found {given.token.text}",
+                hint="Stage 4 stops at this too",
+            )
+        return tuple(
+            _number(given, item) * self.units.factor(code)
+            for item, code in zip(items, codes, strict=False)
+        )
+
+    def pose(self, name: str, default: StagePose | None = None) -> StagePose:
+        """x, y, z and heading."""
+        return StagePose(*self.numbers(name, "llla", default or StagePose()))
+
+    def size(self, name: str, default: StageSize) -> StageSize:
+        """Three lengths, none negative."""
+        values = self.numbers(name, "lll", default)
+        given = self.get(name)
+        if given is not None and min(values) < 0.0:
+            raise given.fail(f"'{name}' must not be negative, found {given.token.text}")
+        return StageSize(*values)
+
+    def color(self) -> StageColor | None:
+        """Of ``color`` and ``color_rgba``: (red, green, blue, alpha), ``random``, or None."""
+        named, mixed = self.get("color"), self.get("color_rgba")
+        if mixed is not None:
+            red, green, blue, alpha = self.numbers("color_rgba", "ffff", (0.0,) * 4)
+            return (red, green, blue, alpha)
+        if named is None:
+            return None
+        name = self.text("color")
+        if not name:
+            return None
+        if name == "random":
+            return "random"
+        found = color_of(name)
+        if found is None:
+            self.reading.remark(f"'{name}' is no colour of X11; red is used", named.source)
+        return found or (1.0, 0.0, 0.0, 1.0)
+
+    def note(self, name: str, message: str, hint: str | None = None) -> None:
+        """Remark on one if it is there."""
+        given = self.get(name)
+        if given is not None:
+            self.reading.remark(message, given.source, hint)
+
+    def report_unknown(self) -> None:
+        """Remark on each property that nobody asked for."""
+        for name, given in self._all.items():
+            if name not in self._known:
+                self.reading.remark(
+                    f"'{name}' is no property of a {self.entity.type}, and ignored",
+                    given.source,
+                    _suggestion(name, self._known),
+                )
+
+
+def _suggestion(name: str, known: set[str]) -> str | None:
+    hint = did_you_mean(name, known)
+    return hint if hint.startswith("did you") else None
+
+
+def items_of(given: Property, value: Value) -> tuple[float | str, ...]:
+    """The items of a tuple.
+
+    Raises:
+        FormatError: It is none.
+    """
+    if not isinstance(value, tuple):
+        raise given.fail(f"'{given.name}' must be a tuple in brackets, found {given.token.text}")
+    return value
+
+
+def _number(given: Property, value: Value) -> float:
+    if not isinstance(value, float):
+        raise given.fail(f"expected a number in '{given.name}', found {given.token.text}")
+    if not abs(value) <= MAX_NUMBER:
+        raise given.fail(f"'{given.name}' is out of all bounds: {value:g}")
+    return value

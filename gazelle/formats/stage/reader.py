@@ -1,0 +1,34 @@
+"""What one load of a Stage file carries along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.formats.reading import Reading
+from gazelle.formats.stage.properties import Units
+
+if TYPE_CHECKING:
+    from gazelle.description.stage import StageModel
+    from gazelle.formats.stage.body import Pictures
+    from gazelle.formats.stage.entity import Entity
+
+
+@dataclass(slots=True)
+class Context:
+    """The state of one load.
+
+    Attributes:
+        reading: Finds files, takes remarks.
+        units: Of the file.
+        folder: Of the top-level file; None for text.
+        pictures: Bitmaps already read.
+        prototypes: Models already made of macros.
+    """
+
+    reading: Reading
+    units: Units
+    folder: Path | None
+    pictures: Pictures
+    prototypes: dict[Entity, StageModel] = field(default_factory=dict)

@@ -1,0 +1,102 @@
+"""The world, its window, and what of a file is neither."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.description.stage import StageWindow, StageWorld
+from gazelle.formats.reading import Reading
+from gazelle.formats.stage.body import Pictures
+from gazelle.formats.stage.entity import Entity
+from gazelle.formats.stage.lexer import Script
+from gazelle.formats.stage.models import read_models
+from gazelle.formats.stage.parser import parse
+from gazelle.formats.stage.properties import ANGLES, LENGTHS, Properties, Units
+from gazelle.formats.stage.reader import Context
+
+_IGNORED = (
+    ("interval_real", "say 'speedup'"),
+    ("gui_interval", "say 'interval' in the window"),
+    ("threadpool", "say 'threads'"),
+    ("ppm", "say 'resolution'"),
+)
+
+
+def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWorld:
+    """What a Stage file says.
+
+    Args:
+        script: The file.
+        reading: Finds what it names, takes remarks.
+        folder: That of the file; None for text.
+
+    Raises:
+        FormatError: It cannot be read, or says something that cannot be.
+        ResolveError: A file that it includes or a picture is not there.
+    """
+    root = parse(script, reading, folder)
+    given = Properties(root, reading, Units())
+    given.units.length = LENGTHS[given.choice("unit_length", tuple(LENGTHS), "m")]
+    given.units.angle = ANGLES[given.choice("unit_angle", tuple(ANGLES), "degrees")]
+    context = Context(reading, given.units, folder, Pictures())
+    windows = [part for part in root.children if part.type == "window"]
+    models = [part for part in root.children if part.type != "window"]
+    world = StageWorld(
+        name=given.text("name", Path(script.name).stem) or "default",
+        models=read_models(models, context),
+        interval_sim=_interval(given),
+        resolution=_resolution(given),
+        quit_time=given.number("quit_time", 0.0),
+        speedup=given.number("speedup", 1.0),
+        paused=given.flag("paused", default=False),
+        threads=given.whole("threads", 1, least=0),
+        show_clock=given.flag("show_clock", default=False),
+        show_clock_interval=given.whole("show_clock_interval", 100),
+        confirm_on_quit=given.flag("confirm_on_quit", default=True),
+        window=read_window(windows[-1], given) if windows else None,
+        source=script.source(0, "world"),
+    )
+    given.get("test")
+    for name, hint in _IGNORED:
+        given.note(name, f"'{name}' means nothing to Stage 4, and is ignored", hint)
+    given.report_unknown()
+    return world
+
+
+def _interval(given: Properties) -> float:
+    milliseconds = given.number("interval_sim", 100.0)
+    written = given.get("interval_sim")
+    if written is not None and not 1e-3 <= milliseconds <= 1e6:
+        raise written.fail(f"'interval_sim' must be a time in ms, found {milliseconds:g}")
+    return milliseconds / 1000.0
+
+
+def _resolution(given: Properties) -> float:
+    value = given.number("resolution", 0.02)
+    written = given.get("resolution")
+    if written is not None and not 1e-4 <= value <= 1e3:
+        raise written.fail(f"'resolution' must be a length in m, found {value:g}")
+    return value
+
+
+def read_window(entity: Entity, world: Properties) -> StageWindow:
+    """``window``; all of its properties are kept.
+
+    Raises:
+        FormatError: One of those with a field is of the wrong type.
+    """
+    given = Properties(entity, world.reading, Units())
+    default = StageWindow()
+    width, height = given.numbers("size", "ff", default.size)
+    x, y = given.numbers("center", "ff", default.center)
+    tilt, turn = given.numbers("rotate", "ff", default.rotate)
+    fields = {"size", "center", "rotate", "scale"}
+    return StageWindow(
+        size=(width, height),
+        center=(x, y),
+        rotate=(tilt, turn),
+        scale=given.number("scale", default.scale),
+        settings=tuple(
+            (name, each.value) for name, each in entity.properties.items() if name not in fields
+        ),
+    )
