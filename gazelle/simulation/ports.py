@@ -86,6 +86,7 @@ class Input(Generic[T]):
         kind: Type of the values.
         receive: Gets a value and the worlds it is for; None means all.
         forget: Called at a reset with the worlds; to put back what a value changed.
+        queue_size: Of the topic.
     """
 
     def __init__(
@@ -95,9 +96,11 @@ class Input(Generic[T]):
         receive: Callable[[T, Worlds | None], None],
         *,
         forget: Callable[[Worlds | None], None] | None = None,
+        queue_size: int = 10,
     ) -> None:
         self.topic = topic
         self.kind = kind
+        self.queue_size = queue_size
         self._receive = receive
         self._forget = forget
 

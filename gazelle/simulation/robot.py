@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement
-from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.errors import SimulationError, did_you_mean
 from gazelle.rotations import from_yaw, yaw_of
 from gazelle.simulation.handles import JointHandle, LinkHandle
+from gazelle.simulation.models import mounts, sensor_model
 from gazelle.simulation.ports import Ports
-from gazelle.simulation.sensors import SensorUnit, sensor_model
+from gazelle.simulation.sensors import SensorUnit
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
@@ -39,6 +39,10 @@ class Named(Mapping[str, T]):
             raise SimulationError(
                 f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
             ) from None
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """The item of a name; the default if there is none."""
+        return self._items.get(name, default)
 
     def __contains__(self, name: object) -> bool:
         return name in self._items
@@ -234,22 +238,12 @@ def _joint_handles(simulation: Simulation, model: Model) -> dict[str, JointHandl
 
 
 def _sensor_units(robot: Robot, model: Model) -> dict[str, SensorUnit]:
+    simulation = robot.simulation
     units: dict[str, SensorUnit] = {}
-    for placed in model.walk():
-        for link in placed.model.links:
-            for sensor in link.sensors:
-                scoped = f"{placed.scope}::{link.name}"
-                unit_name = f"{scoped}::{sensor.name}"
-                made = sensor_model(robot, sensor, scoped, sensor.pose, unit_name)
-                if made is None:
-                    warnings.warn(
-                        SimulationWarning(
-                            f"sensor '{unit_name}' of type '{sensor.type}' is not measured yet"
-                        ),
-                        stacklevel=2,
-                    )
-                    continue
-                units[sensor.name] = SensorUnit(robot, sensor, unit_name, made)
+    for mount in mounts(simulation.engine, model, simulation.seed):
+        made = sensor_model(mount)
+        if made is not None:
+            units[mount.sensor.name] = SensorUnit(robot, mount.sensor, mount.name, made)
     return units
 
 

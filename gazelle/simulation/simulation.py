@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
@@ -137,19 +137,12 @@ class Simulation:
             SimulationError: The simulation is closed, or ``count`` is negative.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        if self._closed:
-            raise SimulationError("the simulation is closed")
         if count < 0:
             raise SimulationError(f"cannot step {count} times; time goes forward only")
-        with self.requests.lock:
-            remaining = count
-            while remaining > 0:
-                self.requests.drain()
-                remaining -= self._advance(remaining)
-            self.requests.drain()
+        self._walk(count, lambda: False)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
-        """Advance by simulated time.
+        """Advance by simulated time, or until somebody pauses the simulation.
 
         Args:
             seconds: How long [s]; rounded to whole physics steps.
@@ -161,7 +154,11 @@ class Simulation:
         """
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
-        pacing.run_paced(lambda piece: self.step(self.clock.steps_in(piece)), seconds, rate)
+        pacing.run_paced(
+            lambda piece: self._walk(self.clock.steps_in(piece), lambda: self.paused),
+            seconds,
+            rate,
+        )
 
     def pause(self) -> None:
         """Let ``run`` refuse to run."""
@@ -170,6 +167,19 @@ class Simulation:
     def unpause(self) -> None:
         """Let ``run`` run again."""
         self.requests.call(lambda: setattr(self, "paused", False))
+
+    def _walk(self, count: int, stop: Callable[[], bool]) -> None:
+        """Make steps, and what others ask for between two of them."""
+        if self._closed:
+            raise SimulationError("the simulation is closed")
+        with self.requests.lock:
+            remaining = count
+            while remaining > 0:
+                self.requests.drain()
+                if stop():
+                    return
+                remaining -= self._advance(remaining)
+            self.requests.drain()
 
     def _advance(self, most: int) -> int:
         """Do what is due, then step to the next thing that will be; returns the steps made."""

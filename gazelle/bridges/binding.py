@@ -1,0 +1,128 @@
+"""Put the ports of a robot or of the world on a ROS graph."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
+from gazelle.bridges.graph import Graph
+from gazelle.ros import load_message, load_service
+from gazelle.simulation import Input, Output, Ports, Service, TwistInput
+
+
+class Binding:
+    """The ports of one owner as topics and services, until it is closed.
+
+    A topic that nobody listens to costs nothing: its port is listened to only while there are
+    subscribers.
+
+    Args:
+        graph: Where.
+        ports: Of a robot or of the world.
+    """
+
+    def __init__(self, graph: Graph, ports: Ports) -> None:
+        self._graph = graph
+        self._simulation = graph.simulation
+        self._node = graph.node
+        self._worlds = np.array([graph.world])
+        self._closing: list[Callable[[], None]] = []
+        self._outputs = [self._publish(output) for output in ports.outputs.values()]
+        for port in ports.inputs.values():
+            self._subscribe(port)
+        for service in ports.services.values():
+            self._serve(service)
+
+    def refresh(self) -> None:
+        """Publish what is true now to all who listen."""
+        for output in self._outputs:
+            output.publish()
+
+    def close(self) -> None:
+        """Take the topics and services off the graph."""
+        while self._closing:
+            self._closing.pop()()
+
+    def _publish(self, output: Output[Any]) -> Output[Any]:
+        encoder = encoder_of(output.kind)
+        message_class = load_message(encoder.message)
+        view = View(output.frame, self._graph.world, self._graph.stamp)
+        ending: list[Callable[[], None]] = []
+
+        def send(value: Any) -> None:
+            message = message_class()
+            encoder.fill(message, value, view)
+            publisher.publish(message)
+
+        def follow(_peer: str) -> None:
+            """Listen while somebody does."""
+
+            def work() -> None:
+                if publisher.num_connections and not ending:
+                    ending.append(output.subscribe(send))
+                elif not publisher.num_connections and ending:
+                    ending.pop()()
+
+            self._simulation.requests.post(work)
+
+        publisher = self._node.advertise(
+            output.topic,
+            message_class,
+            queue_size=output.queue_size,
+            latch=output.latch,
+            on_connect=follow,
+            on_disconnect=follow,
+        )
+        if output.latch:
+            send(output.last)
+
+        def close() -> None:
+            publisher.close()
+            while ending:
+                with contextlib.suppress(ValueError):
+                    ending.pop()()
+
+        self._closing.append(close)
+        return output
+
+    def _subscribe(self, port: TwistInput | Input[Any]) -> None:
+        if isinstance(port, TwistInput):
+            subscriber = self._node.subscribe(
+                port.topic, load_message("geometry_msgs/Twist"), self._twist_into(port), 1
+            )
+        else:
+            decoder = decoder_of(port.kind)
+
+            def receive(message: Any) -> None:
+                value = decoder.read(message)
+                self._simulation.requests.call(lambda: port.send(value, self._worlds))
+
+            subscriber = self._node.subscribe(
+                port.topic, load_message(decoder.message), receive, port.queue_size
+            )
+        self._closing.append(subscriber.close)
+
+    def _twist_into(self, port: TwistInput) -> Callable[[Any], None]:
+        def receive(message: Any) -> None:
+            linear, angular = message.linear, message.angular
+            forward = np.array([[linear.x, linear.y, linear.z]])
+            turning = np.array([[angular.x, angular.y, angular.z]])
+            self._simulation.requests.call(lambda: port.send(forward, turning, self._worlds))
+
+        return receive
+
+    def _serve(self, service: Service[Any, Any]) -> None:
+        codec = service_of(service.request, service.response)
+        service_class = load_service(codec.service)
+
+        def answer(request: Any) -> Any:
+            asked = codec.read(request)
+            given = self._simulation.requests.call(lambda: service.call(asked, self._worlds))
+            return service_class._response_class(**codec.answer(given))  # noqa: SLF001  # genpy's name
+
+        server = self._node.serve(service.topic, service_class, answer)
+        self._closing.append(server.close)

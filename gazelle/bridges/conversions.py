@@ -1,0 +1,254 @@
+"""Values of ports to ROS messages and back, one world at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gazelle.errors import RosError
+from gazelle.ros.messages import load_message
+from gazelle.ros.time import Time
+from gazelle.sensors import ImuReading, LaserScan
+from gazelle.simulation import JointStates, Odometry, Transforms, WrenchValue
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """How a graph sees a value.
+
+    Attributes:
+        frame: Frame of the port, for kinds that carry none.
+        world: Which world of the batch.
+        stamp: Turns a simulated time [ns] into the graph's.
+    """
+
+    frame: str
+    world: int
+    stamp: Callable[[int], Time]
+
+
+@dataclass(frozen=True, slots=True)
+class Encoder:
+    """How values of one kind become messages.
+
+    Attributes:
+        message: Type of the messages.
+        fill: Puts a value into a fresh message.
+    """
+
+    message: str
+    fill: Callable[[Any, Any, View], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Decoder:
+    """How messages become values of one kind.
+
+    Attributes:
+        message: Type of the messages.
+        read: The value of a message.
+    """
+
+    message: str
+    read: Callable[[Any], Any]
+
+
+def set_point(target: Any, values: Any) -> None:
+    """Fill x, y and z."""
+    target.x, target.y, target.z = (float(value) for value in values)
+
+
+def set_quaternion(target: Any, values: Any) -> None:
+    """Fill x, y, z and w."""
+    target.x, target.y, target.z, target.w = (float(value) for value in values)
+
+
+def set_pose(target: Any, position: Any, quaternion: Any) -> None:
+    """Fill a ``geometry_msgs/Pose``."""
+    set_point(target.position, position)
+    set_quaternion(target.orientation, quaternion)
+
+
+def set_twist(target: Any, linear: Any, angular: Any) -> None:
+    """Fill a ``geometry_msgs/Twist``."""
+    set_point(target.linear, linear)
+    set_point(target.angular, angular)
+
+
+def point(message: Any) -> tuple[float, float, float]:
+    """x, y and z of a point or vector."""
+    return (message.x, message.y, message.z)
+
+
+def quaternion(message: Any) -> tuple[float, float, float, float]:
+    """x, y, z and w, made of length one; all zero is no turn, as Gazebo takes it."""
+    values = np.array([message.x, message.y, message.z, message.w])
+    length = float(np.linalg.norm(values))
+    if not length > 0.0:
+        return (0.0, 0.0, 0.0, 1.0)
+    x, y, z, w = (values / length).tolist()
+    return (x, y, z, w)
+
+
+def set_header(message: Any, view: View, nanoseconds: int, frame: str | None = None) -> None:
+    """Fill a header; the port's frame if None."""
+    message.header.stamp = view.stamp(nanoseconds)
+    message.header.frame_id = view.frame if frame is None else frame
+
+
+def _odometry(message: Any, value: Odometry, view: View) -> None:
+    set_header(message, view, value.stamp, value.frame)
+    message.child_frame_id = value.child_frame
+    set_pose(message.pose.pose, value.position[view.world], value.quaternion[view.world])
+    set_twist(message.twist.twist, value.linear[view.world], value.angular[view.world])
+    message.pose.covariance = _diagonal(value.pose_variance)
+    message.twist.covariance = _diagonal(value.twist_variance)
+
+
+def _diagonal(values: Any) -> list[float]:
+    return [float(x) for x in np.diag(np.asarray(values, np.float64)).ravel()]
+
+
+def _joint_states(message: Any, value: JointStates, view: View) -> None:
+    set_header(message, view, value.stamp)
+    message.name = list(value.names)
+    message.position = value.position[view.world].tolist()
+    message.velocity = value.velocity[view.world].tolist()
+    if value.effort is not None:
+        message.effort = value.effort[view.world].tolist()
+
+
+def _transforms(message: Any, value: Transforms, view: View) -> None:
+    stamped: Any = load_message("geometry_msgs/TransformStamped")
+    for each in value.transforms:
+        one = stamped()
+        set_header(one, view, value.stamp, each.frame)
+        one.child_frame_id = each.child_frame
+        set_point(one.transform.translation, each.position[view.world])
+        set_quaternion(one.transform.rotation, each.quaternion[view.world])
+        message.transforms.append(one)
+
+
+def _scan(message: Any, value: LaserScan, view: View) -> None:
+    set_header(message, view, value.stamp)
+    message.angle_min, message.angle_max = value.angle_min, value.angle_max
+    message.angle_increment = value.angle_increment
+    message.range_min, message.range_max = value.range_min, value.range_max
+    message.ranges = np.atleast_2d(value.ranges)[view.world].tolist()
+    message.intensities = [0.0] * len(message.ranges)
+
+
+def _imu(message: Any, value: ImuReading, view: View) -> None:
+    set_header(message, view, value.stamp)
+    set_quaternion(message.orientation, value.orientation[view.world])
+    set_point(message.angular_velocity, value.angular_velocity[view.world])
+    set_point(message.linear_acceleration, value.linear_acceleration[view.world])
+
+
+def _wrench(message: Any, value: WrenchValue, view: View) -> None:
+    set_header(message, view, value.stamp)
+    set_point(message.wrench.force, value.force[view.world])
+    set_point(message.wrench.torque, value.torque[view.world])
+
+
+def _data(message: Any, value: Any, _view: View) -> None:
+    message.data = value
+
+
+def _read_data(message: Any) -> Any:
+    return message.data
+
+
+_ENCODERS: dict[type[Any], Encoder] = {
+    Odometry: Encoder("nav_msgs/Odometry", _odometry),
+    JointStates: Encoder("sensor_msgs/JointState", _joint_states),
+    Transforms: Encoder("tf2_msgs/TFMessage", _transforms),
+    LaserScan: Encoder("sensor_msgs/LaserScan", _scan),
+    ImuReading: Encoder("sensor_msgs/Imu", _imu),
+    WrenchValue: Encoder("geometry_msgs/WrenchStamped", _wrench),
+    bool: Encoder("std_msgs/Bool", _data),
+    int: Encoder("std_msgs/Int32", _data),
+    float: Encoder("std_msgs/Float64", _data),
+    str: Encoder("std_msgs/String", _data),
+}
+_DECODERS: dict[type[Any], Decoder] = {
+    bool: Decoder("std_msgs/Bool", _read_data),
+    int: Decoder("std_msgs/Int32", _read_data),
+    float: Decoder("std_msgs/Float64", _read_data),
+    str: Decoder("std_msgs/String", _read_data),
+}
+_SERVICES: dict[tuple[type[Any] | None, type[Any] | None], ServiceCodec] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceCodec:
+    """How the questions and answers of one kind of service go over ROS.
+
+    Attributes:
+        service: Type of the service.
+        read: The question of a request message.
+        answer: The response's fields, from the answer.
+    """
+
+    service: str
+    read: Callable[[Any], Any]
+    answer: Callable[[Any], Mapping[str, Any]]
+
+
+def add_encoder(kind: type[Any], encoder: Encoder) -> None:
+    """Let outputs of another kind be published."""
+    _ENCODERS[kind] = encoder
+
+
+def add_decoder(kind: type[Any], decoder: Decoder) -> None:
+    """Let inputs of another kind be subscribed to."""
+    _DECODERS[kind] = decoder
+
+
+def add_service(request: type[Any] | None, response: type[Any] | None, codec: ServiceCodec) -> None:
+    """Let services of another kind be called."""
+    _SERVICES[request, response] = codec
+
+
+add_service(None, None, ServiceCodec("std_srvs/Empty", lambda _request: None, lambda _answer: {}))
+
+
+def encoder_of(kind: type[Any]) -> Encoder:
+    """How values of a kind become messages.
+
+    Raises:
+        RosError: Nobody said; see ``add_encoder``.
+    """
+    found: Encoder = _found(_ENCODERS, kind, "published")
+    return found
+
+
+def decoder_of(kind: type[Any]) -> Decoder:
+    """How messages become values of a kind.
+
+    Raises:
+        RosError: Nobody said; see ``add_decoder``.
+    """
+    found: Decoder = _found(_DECODERS, kind, "subscribed to")
+    return found
+
+
+def service_of(request: type[Any] | None, response: type[Any] | None) -> ServiceCodec:
+    """How a kind of service goes over ROS.
+
+    Raises:
+        RosError: Nobody said; see ``add_service``.
+    """
+    found: ServiceCodec = _found(_SERVICES, (request, response), "called")
+    return found
+
+
+def _found(table: Mapping[Any, Any], kind: Any, done: str) -> Any:
+    try:
+        return table[kind]
+    except KeyError:
+        name = getattr(kind, "__name__", str(kind))
+        raise RosError(f"a port of kind '{name}' cannot be {done} over ROS") from None

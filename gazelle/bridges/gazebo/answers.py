@@ -1,0 +1,18 @@
+"""The two fields that nearly every answer of Gazebo's services has."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Answer = Any
+"""A response, or a dict of its fields."""
+
+
+def yes(text: str) -> dict[str, Any]:
+    """It is done."""
+    return {"success": True, "status_message": text}
+
+
+def no(text: str) -> dict[str, Any]:
+    """It cannot be done, and why."""
+    return {"success": False, "status_message": text}

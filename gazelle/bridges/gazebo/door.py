@@ -1,0 +1,234 @@
+"""A simulation on a ROS 1 graph, as gazebo_ros_pkgs puts Gazebo on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.bridges.binding import Binding
+from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.joints import JointServices
+from gazelle.bridges.gazebo.lights import LightServices
+from gazelle.bridges.gazebo.links import LinkServices
+from gazelle.bridges.gazebo.models import ModelServices
+from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
+from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
+from gazelle.bridges.gazebo.world import WorldServices
+from gazelle.ros import Node, load_message, load_service
+from gazelle.simulation import Ports, Robot, Simulation
+from gazelle.simulation.stepping import make_scheduled
+
+Worlds = NDArray[np.intp]
+Handler = Callable[[Any], Any]
+
+
+class GazeboDoor:
+    """What a ROS graph sees of a simulation.
+
+    Every service is carried out between two steps, also while the simulation is paused, and
+    answers when what it says is true. After a reset, a spawn or steps of a paused world
+    everything that is listened to is published once before the answer.
+
+    Args:
+        simulation: Runs, on whatever thread steps it.
+        node: Called ``gazebo``; it stays open when the door is closed.
+        world: Which world of a batch the graph sees and commands.
+        monotonic_clock: Let ``/clock`` go on at a reset instead of back to zero.
+
+    Attributes:
+        context: What the parts of the door share.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        node: Node,
+        *,
+        world: int = 0,
+        monotonic_clock: bool = False,
+    ) -> None:
+        self.context = Context(simulation, node, world, monotonic=monotonic_clock)
+        self._simulation, self._node = simulation, node
+        self._closing: list[Callable[[], None]] = []
+        self._bindings: dict[str, Binding] = {}
+        if node.get_param("/use_sim_time", None) is None:
+            node.set_param("/use_sim_time", True)
+        rate = float(node.get_param("~pub_clock_frequency", 0))
+        self._clock = ClockBeat(self.context, rate)
+        self._beats: list[ClockBeat | StatesBeat | PerformanceBeat] = [self._clock]
+        if node.get_param("~enable_ros_network", True):
+            self._open_network()
+        entries = [make_scheduled(beat, type(beat).__name__, "") for beat in self._beats]
+        simulation.requests.call(lambda: simulation.plugins.extend(entries))
+        self._entries = entries
+
+    def _open_network(self) -> None:
+        self._states = StatesBeat(self.context)
+        self._beats += [self._states, PerformanceBeat(self.context)]
+        self._serve()
+        requests, events = self._simulation.requests, self._simulation.events
+        self._closing.append(events.spawned.subscribe(lambda robot: self._bind(robot.name, robot)))
+        self._closing.append(events.deleted.subscribe(lambda robot: self._unbind(robot.name)))
+        self._closing.append(events.reset.subscribe(self._after_reset))
+        requests.call(self._bind_all)
+
+    def publish(self) -> None:
+        """Publish everything that somebody listens to, as it is now."""
+        self._simulation.requests.call(self._publish)
+
+    def close(self) -> None:
+        """Take everything off the graph; the simulation goes on without."""
+        self._simulation.requests.call(self._leave)
+        while self._closing:
+            self._closing.pop()()
+        for beat in self._beats:
+            beat.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    # -- ports -----------------------------------------------------------------------------
+
+    def _bind_all(self) -> None:
+        self._bind("", self._simulation.ports)
+        for name, robot in self._simulation.robots.items():
+            self._bind(name, robot)
+
+    def _bind(self, name: str, ports: Ports | Robot) -> None:
+        self._bindings[name] = Binding(self.context, ports)
+
+    def _unbind(self, name: str) -> None:
+        bound = self._bindings.pop(name, None)
+        if bound is not None:
+            bound.close()
+
+    def _leave(self) -> None:
+        plugins = self._simulation.plugins
+        self._simulation.plugins = [entry for entry in plugins if entry not in self._entries]
+        for name in list(self._bindings):
+            self._unbind(name)
+
+    # -- what is published -------------------------------------------------------------------
+
+    def _publish(self) -> None:
+        self._clock.publish()
+        for binding in self._bindings.values():
+            binding.refresh()
+        self._states.publish()
+
+    def _after_reset(self, _worlds: Worlds | None, rewound: bool) -> None:  # noqa: FBT001  an event's arguments
+        if rewound:
+            self.context.rewound()
+        self._publish()
+
+    # -- services ----------------------------------------------------------------------------
+
+    def _serve(self) -> None:
+        lights, links = LightServices(self.context), LinkServices(self.context)
+        models, joints = ModelServices(self.context, lights), JointServices(self.context)
+        world = WorldServices(self.context)
+        self._offer("spawn_sdf_model", "SpawnModel", models.spawn, wait=False)
+        self._offer("spawn_urdf_model", "SpawnModel", models.spawn, wait=False)
+        for name, handler in {
+            "delete_model": models.delete,
+            "delete_light": lights.delete,
+            "get_model_properties": models.get_properties,
+            "get_model_state": models.get_state,
+            "get_world_properties": world.get_properties,
+            "get_joint_properties": joints.get_properties,
+            "get_link_properties": links.get_properties,
+            "get_link_state": links.get_state,
+            "get_light_properties": lights.get,
+            "set_light_properties": lights.set,
+            "get_physics_properties": world.get_physics,
+            "set_physics_properties": world.set_physics,
+            "set_link_properties": links.set_properties,
+            "set_model_state": models.set_state,
+            "set_model_configuration": models.set_configuration,
+            "set_joint_properties": joints.set_properties,
+            "set_link_state": links.set_state,
+            "apply_body_wrench": links.apply_wrench,
+            "apply_joint_effort": joints.apply_effort,
+        }.items():
+            self._offer(name, "".join(part.title() for part in name.split("_")), handler)
+        self._offer("clear_joint_forces", "JointRequest", joints.clear_efforts)
+        self._offer("clear_body_wrenches", "BodyRequest", links.clear_wrenches)
+        self._offer_empty(world)
+        self._offer_own(world)
+        self._listen(models, links)
+        reconfigure = PhysicsReconfigure(self.context, world)
+        self._closing.append(reconfigure.close)
+
+    def _offer_empty(self, world: WorldServices) -> None:
+        for name, handler in {
+            "pause_physics": world.pause,
+            "unpause_physics": world.unpause,
+            "reset_simulation": world.reset_simulation,
+            "reset_world": world.reset_world,
+        }.items():
+            self._offer(name, "Empty", handler, package="std_srvs")
+
+    def _offer_own(self, world: WorldServices) -> None:
+        for name, kind, handler in (
+            ("step", "Step", self._then_publish(world.step)),
+            ("seed", "Seed", world.seed),
+            ("snapshot", "Snapshot", world.snapshot),
+            ("restore", "Restore", self._then_publish(world.restore)),
+            ("set_real_time_factor", "SetRealTimeFactor", world.set_real_time_factor),
+        ):
+            self._offer(f"/gazelle/{name}", kind, handler, package="gazelle_msgs")
+
+    def _then_publish(self, handler: Handler) -> Handler:
+        def work(request: Any) -> Any:
+            answer = handler(request)
+            self._publish()
+            return answer
+
+        return work
+
+    def _offer(
+        self,
+        name: str,
+        kind: str,
+        handler: Handler,
+        *,
+        package: str = "gazebo_msgs",
+        wait: bool = True,
+    ) -> None:
+        """Serve; between two steps if ``wait``, else the handler sees to it."""
+        service = load_service(f"{package}/{kind}")
+        response = service._response_class  # noqa: SLF001  # genpy's name
+
+        def answer(request: Any) -> Any:
+            call = self._simulation.requests.call
+            given = call(lambda: handler(request)) if wait else handler(request)
+            return response(**given) if isinstance(given, dict) else given
+
+        full = name if name.startswith("/") else f"/gazebo/{name}"
+        self._closing.append(self._node.serve(full, service, answer).close)
+
+    def _listen(self, models: ModelServices, links: LinkServices) -> None:
+        for name, kind, act in (
+            ("set_model_state", "ModelState", models.set_state_of),
+            ("set_link_state", "LinkState", links.set_state_of),
+        ):
+            subscriber = self._node.subscribe(
+                f"/gazebo/{name}", load_message(f"gazebo_msgs/{kind}"), self._between(act), 10
+            )
+            self._closing.append(subscriber.close)
+
+    def _between(self, act: Handler) -> Handler:
+        """The same, done between two steps."""
+        return lambda message: self._simulation.requests.call(lambda: act(message))

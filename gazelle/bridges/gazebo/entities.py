@@ -1,0 +1,121 @@
+"""Find models, links, joints and frames by the names that Gazebo's interfaces use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.rotations import conjugate, multiply, rotate
+from gazelle.simulation import JointHandle, LinkHandle, Robot, Simulation
+
+Floats = NDArray[np.float64]
+
+# Names of the inertial frame.
+_WORLD = frozenset({"", "world", "map", "/map"})
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Where something is and how it moves, in one world, seen from the world frame.
+
+    Attributes:
+        position: [m], shape (3,).
+        quaternion: (x, y, z, w), shape (4,).
+        linear: Velocity of its origin [m/s], shape (3,).
+        angular: [rad/s], shape (3,).
+    """
+
+    position: Floats
+    quaternion: Floats
+    linear: Floats
+    angular: Floats
+
+    def seen_from(self, frame: State) -> State:
+        """The same in a frame's axes, velocities as differences to the frame's own."""
+        back = conjugate(frame.quaternion)
+        return State(
+            rotate(back, self.position - frame.position),
+            multiply(back, self.quaternion),
+            rotate(back, self.linear - frame.linear),
+            rotate(back, self.angular - frame.angular),
+        )
+
+    def placed_in(self, frame: State) -> State:
+        """What is given in a frame's axes, in the world; velocities are only turned."""
+        return State(
+            frame.position + rotate(frame.quaternion, self.position),
+            multiply(frame.quaternion, self.quaternion),
+            rotate(frame.quaternion, self.linear),
+            rotate(frame.quaternion, self.angular),
+        )
+
+
+REST = State(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), np.zeros(3), np.zeros(3))
+"""The world frame."""
+
+
+class Entities:
+    """What there is in one world of a simulation.
+
+    Args:
+        simulation: Runs.
+        world: Which world of the batch.
+    """
+
+    def __init__(self, simulation: Simulation, world: int) -> None:
+        self.simulation = simulation
+        self.worlds = np.array([world])
+
+    def model(self, name: str) -> Robot | None:
+        """A model."""
+        found: Robot | None = self.simulation.robots.get(name)
+        return found
+
+    def links(self) -> list[LinkHandle]:
+        """All links, in the order of their models."""
+        return [link for robot in self.simulation.robots.values() for link in robot.links.values()]
+
+    def link(self, name: str) -> LinkHandle | None:
+        """A link by its scoped name ``model::link``, or the first of a plain name."""
+        model, _, inner = name.partition("::")
+        robots = self.simulation.robots
+        if inner:
+            robot = robots.get(model)
+            found: LinkHandle | None = None if robot is None else robot.links.get(inner)
+            return found
+        for robot in robots.values():
+            if name in robot.links:
+                return robot.links[name]
+        return None
+
+    def joint(self, name: str) -> tuple[Robot, JointHandle] | None:
+        """A joint that moves, by plain or scoped name, in the first model that has it."""
+        model, _, inner = name.partition("::")
+        for robot in self.simulation.robots.values():
+            if name in robot.joints:
+                return robot, robot.joints[name]
+            if inner and robot.name == model and inner in robot.joints:
+                return robot, robot.joints[inner]
+        return None
+
+    def frame(self, name: str) -> State | None:
+        """The state of a model or link by name; the world frame for ``""``, ``world`` or ``map``."""
+        if name in _WORLD:
+            return REST
+        robot = self.model(name)
+        if robot is not None:
+            return self.model_state(robot)
+        link = self.link(name)
+        return None if link is None else self.link_state(link)
+
+    def model_state(self, robot: Robot) -> State:
+        """Pose of the model frame, velocity of its canonical link."""
+        place, motion = robot.placement(self.worlds), robot.motion(self.worlds)
+        return State(place.position[0], place.quaternion[0], motion.linear[0], motion.angular[0])
+
+    def link_state(self, link: LinkHandle) -> State:
+        """Pose and velocity of a link."""
+        place, motion = link.placement(self.worlds), link.motion(self.worlds)
+        return State(place.position[0], place.quaternion[0], motion.linear[0], motion.angular[0])

@@ -1,0 +1,93 @@
+"""The services on joints: properties and efforts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.bridges.gazebo.answers import Answer, no, yes
+from gazelle.bridges.gazebo.context import Context
+from gazelle.errors import Error
+from gazelle.simulation import JointHandle
+
+
+class JointServices:
+    """What ``/gazebo`` offers about joints."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._entities = context.entities
+
+    def get_properties(self, request: Any) -> Answer:
+        """``get_joint_properties``; as in Gazebo the type is always 0 and damping empty."""
+        found = self._entities.joint(request.joint_name)
+        if found is None:
+            return no("GetJointProperties: joint not found")
+        _, joint = found
+        worlds = self._entities.worlds
+        return {
+            "type": 0,
+            "damping": [],
+            "position": joint.positions(worlds)[0, :1].tolist(),
+            "rate": joint.velocities(worlds)[0, :1].tolist(),
+            **yes("GetJointProperties: got properties"),
+        }
+
+    def set_properties(self, request: Any) -> Answer:
+        """``set_joint_properties``: each list that is not empty changes something.
+
+        Damping, limits and the motor's ``fmax`` and ``vel`` act. ODE's other numbers have no
+        counterpart.
+        """
+        found = self._entities.joint(request.joint_name)
+        if found is None:
+            return no("SetJointProperties: joint not found")
+        _, joint = found
+        wanted = request.ode_joint_config
+        try:
+            joint.set_properties(
+                damping=_first(wanted.damping),
+                lower=_first(wanted.loStop),
+                upper=_first(wanted.hiStop),
+                worlds=self._entities.worlds,
+            )
+            self._set_motor(joint, _first(wanted.fmax), _first(wanted.vel))
+        except Error as error:
+            return no(f"SetJointProperties: {error}")
+        return yes("SetJointProperties: properties set")
+
+    def _set_motor(self, joint: JointHandle, effort: float | None, speed: float | None) -> None:
+        worlds = self._entities.worlds
+        if effort is not None:
+            joint.add_motor(effort)
+            joint.set_properties(motor_effort=effort, worlds=worlds)
+        if speed is not None and effort is not None:
+            joint.drive(speed, worlds)
+
+    def apply_effort(self, request: Any) -> Answer:
+        """``apply_joint_effort``."""
+        found = self._entities.joint(request.joint_name)
+        if found is None:
+            return no("ApplyJointEffort: joint not found")
+        _, joint = found
+        duration = request.duration.to_sec()
+        try:
+            joint.apply_effort(
+                request.effort,
+                start=self._context.seconds(request.start_time),
+                duration=None if duration < 0.0 else duration,
+                worlds=self._entities.worlds,
+            )
+        except Error as error:
+            return no(f"ApplyJointEffort: {error}")
+        return yes("ApplyJointEffort: effort set")
+
+    def clear_efforts(self, request: Any) -> Answer:
+        """``clear_joint_forces``; of no joint that is not there."""
+        found = self._entities.joint(request.joint_name)
+        if found is not None:
+            found[1].clear_efforts()
+        return {}
+
+
+def _first(values: Any) -> float | None:
+    return float(values[0]) if len(values) else None

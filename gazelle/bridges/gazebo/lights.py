@@ -1,0 +1,81 @@
+"""The services on lights."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from gazelle.bridges.conversions import point, quaternion
+from gazelle.bridges.gazebo.answers import Answer, no, yes
+from gazelle.bridges.gazebo.context import Context
+from gazelle.description import Attenuation, Light, Pose
+
+
+class LightServices:
+    """What ``/gazebo`` offers about lights."""
+
+    def __init__(self, context: Context) -> None:
+        self._simulation = context.simulation
+
+    def add(self, light: Light) -> bool:
+        """Put a light into the world; False if there is one of that name."""
+        if self._find(light.name) is not None:
+            return False
+        self._keep((*self._simulation.world.lights, light))
+        return True
+
+    def delete(self, request: Any) -> Answer:
+        """``delete_light``."""
+        if self._find(request.light_name) is None:
+            return no("DeleteLight: Requested light " + request.light_name + " not found!")
+        lights = self._simulation.world.lights
+        self._keep(tuple(light for light in lights if light.name != request.light_name))
+        return yes("DeleteLight: " + request.light_name + " successfully deleted")
+
+    def get(self, request: Any) -> Answer:
+        """``get_light_properties``."""
+        light = self._find(request.light_name)
+        if light is None:
+            return no("getLightProperties: Requested light " + request.light_name + " not found!")
+        red, green, blue, alpha = light.diffuse
+        return {
+            "diffuse": {"r": red, "g": green, "b": blue, "a": alpha},
+            "attenuation_constant": light.attenuation.constant,
+            "attenuation_linear": light.attenuation.linear,
+            "attenuation_quadratic": light.attenuation.quadratic,
+            **yes(""),
+        }
+
+    def set(self, request: Any) -> Answer:
+        """``set_light_properties``."""
+        if self._find(request.light_name) is None:
+            return no("setLightProperties: Requested light " + request.light_name + " not found!")
+        light = self._find(request.light_name)
+        attenuation = Attenuation() if light is None else light.attenuation
+        pose = request.pose
+        self._simulation.set_light(
+            request.light_name,
+            cast_shadows=request.cast_shadows,
+            diffuse=_colour(request.diffuse),
+            specular=_colour(request.specular),
+            attenuation=replace(
+                attenuation,
+                constant=request.attenuation_constant,
+                linear=request.attenuation_linear,
+                quadratic=request.attenuation_quadratic,
+            ),
+            direction=point(request.direction),
+            pose=Pose.from_quaternion(point(pose.position), quaternion(pose.orientation)),
+        )
+        return yes("")
+
+    def _find(self, name: str) -> Light | None:
+        return next((light for light in self._simulation.world.lights if light.name == name), None)
+
+    def _keep(self, lights: tuple[Light, ...]) -> None:
+        engine = self._simulation.engine
+        engine.update_world(replace(self._simulation.world, lights=lights))
+
+
+def _colour(message: Any) -> tuple[float, float, float, float]:
+    return (message.r, message.g, message.b, message.a)

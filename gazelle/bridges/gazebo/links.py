@@ -1,0 +1,158 @@
+"""The services on links: state, properties, wrenches."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.conversions import point, set_pose, set_twist
+from gazelle.bridges.gazebo.answers import Answer, no, yes
+from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.entities import State
+from gazelle.bridges.gazebo.models import read_state
+from gazelle.errors import Error
+from gazelle.rotations import cross, rotate
+from gazelle.simulation import LinkHandle
+
+_UNSCOPED = "link not found, did you forget to scope the link by model name?"
+
+
+class LinkServices:
+    """What ``/gazebo`` offers about links."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._entities = context.entities
+        self._engine = context.simulation.engine
+
+    def get_properties(self, request: Any) -> Answer:
+        """``get_link_properties``."""
+        link = self._entities.link(request.link_name)
+        if link is None:
+            return no(f"GetLinkProperties: {_UNSCOPED}")
+        mass, gravity, tensor = (
+            self._value(kind, link) for kind in ("link_mass", "link_gravity", "link_inertia")
+        )
+        response = self._context.response("GetLinkProperties")
+        set_pose(response.com, self._value("link_centre", link), (0.0, 0.0, 0.0, 1.0))
+        response.gravity_mode = bool(gravity[0] > 0.0)
+        response.mass = float(mass[0])
+        response.ixx, response.iyy, response.izz = tensor[:3].tolist()
+        response.ixy, response.ixz, response.iyz = tensor[3:].tolist()
+        response.success = True
+        response.status_message = "GetLinkProperties: got properties"
+        return response
+
+    def set_properties(self, request: Any) -> Answer:
+        """``set_link_properties``; the orientation of ``com`` has no meaning here."""
+        link = self._entities.link(request.link_name)
+        if link is None:
+            return no(f"SetLinkProperties: {_UNSCOPED}")
+        tensor = [request.ixx, request.iyy, request.izz, request.ixy, request.ixz, request.iyz]
+        try:
+            link.set_properties(
+                mass=request.mass,
+                centre=np.array([point(request.com.position)]),
+                inertia=np.array([tensor]),
+                gravity=float(request.gravity_mode),
+                worlds=self._entities.worlds,
+            )
+        except Error as error:
+            return no(f"SetLinkProperties: {error}")
+        return yes("SetLinkProperties: properties set")
+
+    def get_state(self, request: Any) -> Answer:
+        """``get_link_state``."""
+        link = self._entities.link(request.link_name)
+        if link is None:
+            return no(f"GetLinkState: {_UNSCOPED}")
+        frame = self._entities.frame(request.reference_frame)
+        if frame is None:
+            return no(
+                "GetLinkState: reference link not found, did you forget to scope the link by "
+                "model name?"
+            )
+        seen = self._entities.link_state(link).seen_from(frame)
+        response = self._context.response("GetLinkState")
+        state = response.link_state
+        state.link_name = request.link_name
+        state.reference_frame = request.reference_frame
+        set_pose(state.pose, seen.position, seen.quaternion)
+        set_twist(state.twist, seen.linear, seen.angular)
+        response.success = True
+        response.status_message = "GetLinkState: got state"
+        return response
+
+    def set_state(self, request: Any) -> Answer:
+        """``set_link_state``."""
+        return self.set_state_of(request.link_state)
+
+    def set_state_of(self, wanted: Any) -> Answer:
+        """Do what a ``gazebo_msgs/LinkState`` says; of the service and of the topic."""
+        link = self._entities.link(wanted.link_name)
+        if link is None:
+            return no("SetLinkState: link does not exist")
+        frame = self._entities.frame(wanted.reference_frame)
+        if frame is None:
+            return no("SetLinkState: failed")
+        state, worlds = read_state(wanted).placed_in(frame), self._entities.worlds
+        try:
+            link.set_pose(state.position, state.quaternion, worlds=worlds)
+            # Gazebo takes the frame's own velocity off.
+            link.set_twist(state.linear - frame.linear, state.angular - frame.angular, worlds)
+        except Error:
+            return no("SetLinkState: failed")
+        return yes("SetLinkState: success")
+
+    def apply_wrench(self, request: Any) -> Answer:
+        """``apply_body_wrench``.
+
+        As in Gazebo the force acts at the centre of mass. Given in a frame, the wrench also has
+        the torque of the force at ``reference_point``, as seen from the body's origin; given in
+        the world frame the point has no meaning.
+        """
+        link = self._entities.link(request.body_name)
+        if link is None:
+            return no("ApplyBodyWrench: body does not exist")
+        frame = self._entities.frame(request.reference_frame)
+        if frame is None:
+            return no("ApplyBodyWrench: reference_frame not found")
+        force, torque = self._wrench(request, link, frame)
+        try:
+            link.apply_wrench(
+                force,
+                torque,
+                start=self._context.seconds(request.start_time),
+                duration=_duration(request.duration),
+                worlds=self._entities.worlds,
+            )
+        except Error as error:
+            return no(f"ApplyBodyWrench: {error}")
+        return yes("")
+
+    def _wrench(self, request: Any, link: LinkHandle, frame: State) -> tuple[Any, Any]:
+        force = rotate(frame.quaternion, np.array(point(request.wrench.force)))
+        torque = rotate(frame.quaternion, np.array(point(request.wrench.torque)))
+        if request.reference_frame not in ("", "world", "map", "/map"):
+            body = self._entities.link_state(link).position
+            offset = np.array(point(request.reference_point))
+            where = frame.position + rotate(frame.quaternion, offset)
+            torque = torque + cross(where - body, force)
+        return force, torque
+
+    def clear_wrenches(self, request: Any) -> Answer:
+        """``clear_body_wrenches``; of no body that is not there."""
+        link = self._entities.link(request.body_name)
+        if link is not None:
+            link.clear_wrenches()
+        return {}
+
+    def _value(self, kind: str, link: LinkHandle) -> Any:
+        return self._engine.parameter(kind, link.name, self._entities.worlds)[0]
+
+
+def _duration(duration: Any) -> float | None:
+    """Seconds; None for the negative ones that mean for ever."""
+    seconds = duration.to_sec()
+    return None if seconds < 0.0 else seconds

@@ -1,0 +1,175 @@
+"""The services on models: spawn, delete, state, configuration, properties."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.conversions import (
+    point,
+    quaternion,
+    set_pose,
+    set_twist,
+)
+from gazelle.bridges.gazebo.answers import Answer, no, yes
+from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.entities import State
+from gazelle.bridges.gazebo.lights import LightServices
+from gazelle.bridges.gazebo.spawning import read_light, read_model
+from gazelle.description import Light, Model, Pose
+from gazelle.errors import Error
+from gazelle.simulation import Robot
+
+_NO_FRAME = "reference reference_frame not found, did you forget to scope the link by model name?"
+
+
+class ModelServices:
+    """What ``/gazebo`` offers about models."""
+
+    def __init__(self, context: Context, lights: LightServices) -> None:
+        self._context = context
+        self._lights = lights
+        self._entities = context.entities
+        self._simulation = context.simulation
+        self._calls: Counter[str] = Counter()
+
+    def spawn(self, request: Any) -> Answer:
+        """``spawn_sdf_model`` and ``spawn_urdf_model``: a model, or a light.
+
+        The text is read beside the running simulation; only what follows waits for its turn.
+        """
+        requests = self._simulation.requests
+        light = read_light(request.model_xml, request.model_name)
+        if light is not None:
+            return requests.call(lambda: self._spawn_light(light, request))
+        model = read_model(request.model_xml, request.model_name)
+        return requests.call(lambda: self._spawn(model, request))
+
+    def _pose(self, request: Any) -> Pose | None:
+        """Where a request wants its model; None if there is no such frame."""
+        frame = self._entities.frame(request.reference_frame)
+        if frame is None:
+            return None
+        place = read_pose(request.initial_pose).placed_in(frame)
+        x, y, z = place.position.tolist()
+        qx, qy, qz, qw = place.quaternion.tolist()
+        return Pose.from_quaternion((x, y, z), (qx, qy, qz, qw))
+
+    def _spawn_light(self, light: Light, request: Any) -> Answer:
+        pose = self._pose(request)
+        if pose is None:
+            return no(f"SpawnModel: {_NO_FRAME}")
+        if not self._lights.add(replace(light, pose=pose * light.pose)):
+            return no("SpawnModel: Failure - entity already exists.")
+        return yes("SpawnModel: Successfully spawned entity")
+
+    def _spawn(self, model: Model, request: Any) -> Answer:
+        if request.model_name in self._simulation.robots:
+            return no("SpawnModel: Failure - entity already exists.")
+        pose = self._pose(request)
+        if pose is None:
+            return no(f"SpawnModel: {_NO_FRAME}")
+        try:
+            self._simulation.spawn(model, request.model_name, pose, request.robot_namespace)
+        except Error as error:
+            return no(f"SpawnModel: Failure - {error}")
+        return yes("SpawnModel: Successfully spawned entity")
+
+    def delete(self, request: Any) -> Answer:
+        """``delete_model``."""
+        if request.model_name not in self._simulation.robots:
+            return no("DeleteModel: model does not exist")
+        self._simulation.delete(request.model_name)
+        self._calls.pop(request.model_name, None)
+        return yes("DeleteModel: successfully deleted model")
+
+    def get_properties(self, request: Any) -> Answer:
+        """``get_model_properties``."""
+        robot = self._entities.model(request.model_name)
+        if robot is None:
+            return no("GetModelProperties: model does not exist")
+        model = robot.description
+        return {
+            "body_names": list(robot.links),
+            "geom_names": [each.name for link in model.links for each in link.collisions],
+            "joint_names": [joint.name for joint in model.joints],
+            "child_model_names": [child.name for child in model.models],
+            "is_static": model.static,
+            **yes("GetModelProperties: got properties"),
+        }
+
+    def get_state(self, request: Any) -> Answer:
+        """``get_model_state``."""
+        robot = self._entities.model(request.model_name)
+        if robot is None:
+            return no("GetModelState: model does not exist")
+        frame = self._entities.frame(request.relative_entity_name)
+        if frame is None:
+            return no(
+                "GetModelState: reference relative_entity_name not found, did you forget to scope "
+                "the body by model name?"
+            )
+        seen = self._entities.model_state(robot).seen_from(frame)
+        response = self._context.response("GetModelState")
+        self._calls[request.model_name] += 1
+        response.header.seq = self._calls[request.model_name]
+        response.header.stamp = self._context.now()
+        response.header.frame_id = request.relative_entity_name
+        set_pose(response.pose, seen.position, seen.quaternion)
+        set_twist(response.twist, seen.linear, seen.angular)
+        response.success = True
+        response.status_message = "GetModelState: got properties"
+        return response
+
+    def set_state(self, request: Any) -> Answer:
+        """``set_model_state``."""
+        return self.set_state_of(request.model_state)
+
+    def set_state_of(self, wanted: Any) -> Answer:
+        """Do what a ``gazebo_msgs/ModelState`` says; of the service and of the topic."""
+        robot = self._entities.model(wanted.model_name)
+        if robot is None:
+            return no("SetModelState: model does not exist")
+        frame = self._entities.frame(wanted.reference_frame)
+        if frame is None:
+            return no("SetModelState: specified reference frame entity does not exist")
+        self._place(robot, read_state(wanted).placed_in(frame))
+        return yes("SetModelState: set model state done")
+
+    def _place(self, robot: Robot, state: State) -> None:
+        engine, worlds = self._simulation.engine, self._entities.worlds
+        engine.set_model_placement(robot.name, state.position, state.quaternion, worlds)
+        if not robot.description.static:
+            engine.set_model_motion(robot.name, state.linear, state.angular, worlds)
+
+    def set_configuration(self, request: Any) -> Answer:
+        """``set_model_configuration``: joints are put somewhere, with the speed they have."""
+        robot = self._entities.model(request.model_name)
+        if robot is None:
+            return no("SetModelConfiguration: model does not exist")
+        names, positions = request.joint_names, request.joint_positions
+        if len(names) != len(positions):
+            return no("SetModelConfiguration: joint name and position list have different lengths")
+        for name, position in zip(names, positions, strict=True):
+            # Gazebo passes over names that it does not know.
+            found = robot.joints.get(name) or robot.joints.get(name.removeprefix(f"{robot.name}::"))
+            if found is not None:
+                self._simulation.engine.set_joint_position(
+                    found.name, np.array([position]), self._entities.worlds
+                )
+        return yes("SetModelConfiguration: success")
+
+
+def read_pose(wanted: Any) -> State:
+    """A ``geometry_msgs/Pose``, at rest."""
+    place = np.array(point(wanted.position)), np.array(quaternion(wanted.orientation))
+    return State(*place, np.zeros(3), np.zeros(3))
+
+
+def read_state(wanted: Any) -> State:
+    """Pose and twist of a ``ModelState`` or ``LinkState``."""
+    linear, angular = np.array(point(wanted.twist.linear)), np.array(point(wanted.twist.angular))
+    return replace(read_pose(wanted.pose), linear=linear, angular=angular)

@@ -1,0 +1,159 @@
+"""What ``/gazebo`` publishes: the clock, all models and links, and how fast the run is."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from gazelle.bridges.conversions import set_pose, set_twist
+from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.entities import State
+from gazelle.ros import Publisher, load_message
+from gazelle.simulation import Plugin
+
+# How often the performance is published, in simulated time [Hz].
+_PERFORMANCE_RATE = 5.0
+
+
+class ClockBeat(Plugin):
+    """Publishes ``/clock`` while somebody listens.
+
+    Args:
+        context: Of the door.
+        rate: At most [Hz]; 0 means every step.
+    """
+
+    def __init__(self, context: Context, rate: float) -> None:
+        self.update_rate = rate
+        self._context = context
+        self._message = load_message("rosgraph_msgs/Clock")
+        self._publisher: Publisher = context.node.advertise(
+            "/clock", self._message, 10, on_connect=self._greet
+        )
+
+    @property
+    def active(self) -> bool:
+        """Whether somebody listens."""
+        return self._publisher.has_listener
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the context knows the time
+        """Tick."""
+        self.publish()
+
+    def publish(self) -> None:
+        """Tell the time."""
+        if self._publisher.has_listener:
+            self._publisher.publish(self._message(self._context.now()))
+
+    def close(self) -> None:
+        """Stop."""
+        self._publisher.close()
+
+    def _greet(self, _peer: str) -> None:
+        """Tell who comes the time, also while the simulation is paused."""
+        self._context.simulation.requests.post(self.publish)
+
+
+class StatesBeat(Plugin):
+    """Publishes ``model_states`` and ``link_states`` at every step while somebody listens."""
+
+    update_rate = 0.0
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._models = context.node.advertise(
+            "/gazebo/model_states", load_message("gazebo_msgs/ModelStates"), 10
+        )
+        self._links = context.node.advertise(
+            "/gazebo/link_states", load_message("gazebo_msgs/LinkStates"), 10
+        )
+
+    @property
+    def active(self) -> bool:
+        """Whether somebody listens."""
+        return self._models.has_listener or self._links.has_listener
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  messages carry no time
+        """Publish."""
+        self.publish()
+
+    def publish(self) -> None:
+        """Tell where everything is."""
+        entities = self._context.entities
+        if self._models.has_listener:
+            robots = self._context.simulation.robots
+            self._send(self._models, {name: entities.model_state(r) for name, r in robots.items()})
+        if self._links.has_listener:
+            self._send(
+                self._links, {link.name: entities.link_state(link) for link in entities.links()}
+            )
+
+    def close(self) -> None:
+        """Stop."""
+        self._models.close()
+        self._links.close()
+
+    def _send(self, publisher: Publisher, states: dict[str, State]) -> None:
+        pose, twist = load_message("geometry_msgs/Pose"), load_message("geometry_msgs/Twist")
+        message = publisher.message_class()
+        for name, state in states.items():
+            place, motion = pose(), twist()
+            set_pose(place, state.position, state.quaternion)
+            set_twist(motion, state.linear, state.angular)
+            message.name.append(name)
+            message.pose.append(place)
+            message.twist.append(motion)
+        publisher.publish(message)
+
+
+class PerformanceBeat(Plugin):
+    """Publishes ``performance_metrics`` while somebody listens."""
+
+    update_rate = _PERFORMANCE_RATE
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._publisher = context.node.advertise(
+            "/gazebo/performance_metrics", load_message("gazebo_msgs/PerformanceMetrics"), 10
+        )
+        self._wall = time.monotonic()
+        self._simulated = context.simulation.time
+
+    @property
+    def active(self) -> bool:
+        """Whether somebody listens."""
+        return self._publisher.has_listener
+
+    def on_update(self, time: float) -> None:
+        """Measure since the last time and publish."""
+        self._publish(time)
+
+    def reset(self, worlds: Any) -> None:
+        """Measure anew from here."""
+        del worlds
+        self._wall, self._simulated = time.monotonic(), self._context.simulation.time
+
+    def close(self) -> None:
+        """Stop."""
+        self._publisher.close()
+
+    def _publish(self, simulated: float) -> None:
+        wall = time.monotonic()
+        passed, real = simulated - self._simulated, wall - self._wall
+        self._wall, self._simulated = wall, simulated
+        message = self._publisher.message_class()
+        message.header.stamp = self._context.now()
+        message.real_time_factor = passed / real if real > 0.0 else 0.0
+        one = load_message("gazebo_msgs/SensorPerformanceMetric")
+        for robot in self._context.simulation.robots.values():
+            for unit in robot.sensors.values():
+                rate = unit.schedule.rate if unit.awake else 0.0
+                message.sensors.append(
+                    one(
+                        name=unit.name,
+                        sim_update_rate=rate,
+                        real_update_rate=rate * message.real_time_factor,
+                        fps=-1.0,
+                    )
+                )
+        self._publisher.publish(message)

@@ -1,0 +1,146 @@
+"""The services on the world and its physics: pause, reset, properties, and Gazelle's own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.conversions import point, set_point
+from gazelle.bridges.gazebo.answers import Answer, no, yes
+from gazelle.bridges.gazebo.context import Context
+from gazelle.errors import Error
+
+_MOST_STEPS = 10_000_000
+
+
+class WorldServices:
+    """What ``/gazebo`` offers about the world, and ``/gazelle`` about the run."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._simulation = context.simulation
+
+    def pause(self, _request: Any) -> Answer:
+        """``pause_physics``: no step is made once this is answered."""
+        self._simulation.pause()
+        return {}
+
+    def unpause(self, _request: Any) -> Answer:
+        """``unpause_physics``."""
+        self._simulation.unpause()
+        return {}
+
+    def reset_simulation(self, _request: Any) -> Answer:
+        """``reset_simulation``: everything, and time."""
+        self._simulation.reset()
+        return {}
+
+    def reset_world(self, _request: Any) -> Answer:
+        """``reset_world``: everything but time."""
+        self._simulation.reset(time=False)
+        return {}
+
+    def get_properties(self, _request: Any) -> Answer:
+        """``get_world_properties``."""
+        return {
+            "sim_time": self._context.now().to_sec(),
+            "model_names": list(self._simulation.robots),
+            "rendering_enabled": True,
+            **yes("GetWorldProperties: got properties"),
+        }
+
+    def get_physics(self, _request: Any) -> Answer:
+        """``get_physics_properties``."""
+        physics = self._simulation.physics
+        response = self._context.response("GetPhysicsProperties")
+        response.time_step = physics.time_step
+        response.pause = self._simulation.paused
+        response.max_update_rate = physics.update_rate
+        set_point(response.gravity, physics.gravity)
+        ode = response.ode_config
+        ode.auto_disable_bodies = bool(physics.auto_disable)
+        ode.sor_pgs_precon_iters = physics.precon_iterations
+        ode.sor_pgs_iters = physics.iterations
+        ode.sor_pgs_w = physics.sor
+        ode.contact_surface_layer = physics.contact_surface_layer
+        ode.contact_max_correcting_vel = physics.contact_max_correcting_velocity
+        ode.cfm, ode.erp = physics.cfm, physics.erp
+        ode.max_contacts = physics.max_contacts
+        response.success = True
+        response.status_message = "GetPhysicsProperties: got properties"
+        return response
+
+    def set_physics(self, request: Any) -> Answer:
+        """``set_physics_properties``."""
+        ode = request.ode_config
+        try:
+            self.change_physics(
+                time_step=request.time_step,
+                update_rate=request.max_update_rate,
+                gravity=point(request.gravity),
+                auto_disable=ode.auto_disable_bodies,
+                precon_iterations=ode.sor_pgs_precon_iters,
+                iterations=ode.sor_pgs_iters,
+                sor=ode.sor_pgs_w,
+                cfm=ode.cfm,
+                erp=ode.erp,
+                contact_surface_layer=ode.contact_surface_layer,
+                contact_max_correcting_velocity=ode.contact_max_correcting_vel,
+                max_contacts=ode.max_contacts,
+            )
+        except Error as error:
+            return no(f"SetPhysicsProperties: {error}")
+        return yes("physics engine updated")
+
+    def change_physics(self, **wanted: Any) -> None:
+        """Change the properties that differ from what is; what is the same is left alone."""
+        physics = self._simulation.physics
+        changed = {name: value for name, value in wanted.items() if value != _now(physics, name)}
+        if changed:
+            physics.set(**changed)
+
+    def step(self, request: Any) -> Answer:
+        """``/gazelle/step``: so many steps of a paused world, answered when they are made."""
+        if not self._simulation.paused:
+            return {"time": self._context.now(), **no("Step: the simulation is not paused")}
+        if request.steps > _MOST_STEPS:
+            return {"time": self._context.now(), **no(f"Step: at most {_MOST_STEPS} at once")}
+        self._simulation.step(request.steps)
+        return {"time": self._context.now(), **yes("Step: steps made")}
+
+    def seed(self, request: Any) -> Answer:
+        """``/gazelle/seed``: everything starts over with the random numbers of another seed."""
+        self._simulation.reset(seed=request.seed)
+        return yes("Seed: the simulation is reset")
+
+    def snapshot(self, _request: Any) -> Answer:
+        """``/gazelle/snapshot``."""
+        return {"state": self._simulation.snapshot(), **yes("Snapshot: taken")}
+
+    def restore(self, request: Any) -> Answer:
+        """``/gazelle/restore``."""
+        try:
+            self._simulation.restore(bytes(request.state))
+        except Error as error:
+            return no(f"Restore: {error}")
+        return yes("Restore: done")
+
+    def set_real_time_factor(self, request: Any) -> Answer:
+        """``/gazelle/set_real_time_factor``: a number, or ``max``."""
+        text = request.real_time_factor.strip()
+        try:
+            factor = 0.0 if text == "max" else float(text)
+        except ValueError:
+            factor = -1.0
+        if not (np.isfinite(factor) and (factor > 0.0 or text == "max")):
+            return no(f"SetRealTimeFactor: expected a positive number or max, not '{text}'")
+        physics = self._simulation.physics
+        self.change_physics(update_rate=factor / physics.time_step)
+        return yes("SetRealTimeFactor: done")
+
+
+def _now(physics: Any, name: str) -> Any:
+    """A property as a request would give it."""
+    value = getattr(physics, name)
+    return bool(value) if name == "auto_disable" else value

@@ -1,0 +1,50 @@
+"""A simulation, a node, and the time as the graph sees it."""
+
+from __future__ import annotations
+
+from gazelle.ros import Node, Time
+from gazelle.simulation import Simulation
+
+_SECOND = 1_000_000_000
+
+
+class Graph:
+    """What everything that puts a simulation on a ROS graph shares.
+
+    Args:
+        simulation: Runs.
+        node: On the graph.
+        world: Which world of a batch the graph sees and commands.
+        monotonic: Let the graph's time never go back: after a reset it goes on from where it
+            was.
+    """
+
+    def __init__(
+        self, simulation: Simulation, node: Node, world: int = 0, *, monotonic: bool = False
+    ) -> None:
+        self.simulation = simulation
+        self.node = node
+        self.world = world
+        self._monotonic = monotonic
+        self._offset_ns = 0
+        self._last_ns = 0
+
+    def now(self) -> Time:
+        """The simulated time."""
+        return self.stamp(self.simulation.clock.now_ns)
+
+    def stamp(self, nanoseconds: int) -> Time:
+        """A simulated time as the graph sees it."""
+        self._last_ns = max(self._last_ns, nanoseconds)
+        total = nanoseconds + self._offset_ns
+        return Time(total // _SECOND, total % _SECOND)
+
+    def seconds(self, time: Time) -> float:
+        """A time of the graph as simulated time [s]."""
+        return (time.to_nsec() - self._offset_ns) / _SECOND
+
+    def rewound(self) -> None:
+        """Simulated time began again."""
+        if self._monotonic:
+            self._offset_ns += self._last_ns
+        self._last_ns = 0

@@ -1,0 +1,78 @@
+"""Keep a simulation going at the pace its physics properties ask for, while others steer it."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from gazelle.simulation import Simulation
+
+# Wall time between two looks at the clock, and at the pause [s].
+_SLICE = 0.002
+_REST = 0.002
+
+
+class Pacer:
+    """Runs a simulation until it is told to stop.
+
+    The pace is ``physics.update_rate`` steps a second of wall time, as in Gazebo; 0 means as
+    fast as possible. It can be changed while running.
+
+    Args:
+        simulation: Runs on the thread that calls ``run``.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._stop = threading.Event()
+
+    def run(self, seconds: float | None = None) -> None:
+        """Go on until ``stop`` is called.
+
+        Args:
+            seconds: Simulated time after which to end; None for never. A reset of the time
+                starts it over.
+        """
+        simulation = self._simulation
+        while not self._stop.is_set():
+            if simulation.paused:
+                self._stop.wait(_REST)
+                continue
+            if seconds is not None and simulation.time >= seconds - 1e-9:
+                return
+            self._run_piece(seconds)
+
+    def stop(self) -> None:
+        """Let ``run`` return; from any thread."""
+        self._stop.set()
+
+    def _run_piece(self, seconds: float | None) -> None:
+        """A stretch at one pace, until it changes or there is a pause."""
+        simulation, physics = self._simulation, self._simulation.physics
+        rate, step = physics.update_rate, physics.time_step
+        factor = rate * step
+        start, done = time.monotonic(), 0.0
+        while not (self._stop.is_set() or simulation.paused):
+            if (physics.update_rate, physics.time_step) != (rate, step):
+                return
+            piece = _SLICE * factor if factor > 0.0 else self._fast_piece(step)
+            piece = max(piece, step)
+            if seconds is not None:
+                piece = min(piece, seconds - simulation.time)
+                if piece < step / 2.0:
+                    return
+            simulation.run(piece)
+            done += max(1, round(piece / step)) * step
+            if factor <= 0.0:
+                continue
+            ahead = done / factor - (time.monotonic() - start)
+            if ahead > 0.0:
+                time.sleep(ahead)
+            elif ahead < -0.1:
+                # Too slow to keep the pace: do not run after it in bursts later.
+                return
+
+    @staticmethod
+    def _fast_piece(step: float) -> float:
+        """As much as is worth one look at the pause; requests come in between anyway."""
+        return 20.0 * step

@@ -1,0 +1,121 @@
+"""Put a simulation on a ROS 1 graph, with a master of its own where there is none."""
+
+from __future__ import annotations
+
+import socket
+from types import TracebackType
+from typing import Self
+
+from gazelle.bridges.gazebo import GazeboDoor
+from gazelle.bridges.pacing import Pacer
+from gazelle.ros import Master, Node, net
+from gazelle.ros.errors import MasterUnreachableError
+from gazelle.simulation import Simulation
+
+
+class RosDoor:
+    """A simulation on a ROS 1 graph; also a context manager.
+
+    Attributes:
+        node: Called ``gazebo``.
+        master_uri: Of the master that it is on.
+        gazebo: The services, topics and ports.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        node: Node,
+        master: Master | None,
+        *,
+        world: int,
+        monotonic_clock: bool,
+    ) -> None:
+        self.node = node
+        self.master_uri = node.master_uri
+        self._master = master
+        self._pacer = Pacer(simulation)
+        self.gazebo = GazeboDoor(simulation, node, world=world, monotonic_clock=monotonic_clock)
+        node.on_shutdown.append(lambda _reason: self._pacer.stop())
+
+    def run(self, seconds: float | None = None) -> None:
+        """Let the simulation run until ``stop``, at the pace of its physics properties.
+
+        Args:
+            seconds: Simulated time at which to end; None for never.
+        """
+        self._pacer.run(seconds)
+
+    def stop(self) -> None:
+        """Let ``run`` return; from any thread."""
+        self._pacer.stop()
+
+    def close(self) -> None:
+        """Leave the graph, and end the master if it was started here."""
+        self.stop()
+        self.gazebo.close()
+        self.node.close()
+        if self._master is not None:
+            self._master.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def serve_ros(
+    simulation: Simulation,
+    master_uri: str | None = None,
+    *,
+    name: str = "gazebo",
+    host: str | None = None,
+    world: int = 0,
+    monotonic_clock: bool = False,
+) -> RosDoor:
+    """Put a simulation on a ROS 1 graph as Gazebo's ROS packages do.
+
+    The caller goes on stepping it, or lets ``RosDoor.run`` do so.
+
+    Args:
+        simulation: Runs.
+        master_uri: Of the master; by default ``ROS_MASTER_URI``, else this machine's port
+            11311. Where none answers on this machine, one is started.
+        name: Of the node.
+        host: The name other nodes reach it by; loopback by default.
+        world: Which world of a batch the graph sees and commands.
+        monotonic_clock: Let ``/clock`` go on at a reset instead of back to zero.
+
+    Raises:
+        MasterUnreachableError: There is no master, and none can be started at that address.
+    """
+    uri = master_uri or net.default_master_uri()
+    master = None
+    try:
+        node = Node(name, master_uri=uri, host=host)
+    except MasterUnreachableError:
+        master = _start_master(uri)
+        node = Node(name, master_uri=master.uri, host=host)
+    try:
+        return RosDoor(simulation, node, master, world=world, monotonic_clock=monotonic_clock)
+    except BaseException:
+        node.close()
+        if master is not None:
+            master.close()
+        raise
+
+
+def _start_master(uri: str) -> Master:
+    """A master at a URI of this machine."""
+    host, port, _ = net.split_uri(uri)
+    if host not in {"localhost", net.LOOPBACK, net.default_host(), socket.gethostname()}:
+        raise MasterUnreachableError(
+            f"there is no master at {uri}", hint="start it there, or unset ROS_MASTER_URI"
+        )
+    return Master(host, port)
