@@ -7,7 +7,6 @@ time stands still or jumps (http://wiki.ros.org/Clock).
 from __future__ import annotations
 
 import logging
-import struct
 import threading
 import time
 from collections.abc import Callable
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
     from gazelle.ros.node import Node
 
 SECOND = 1_000_000_000
-_STAMP = struct.Struct("<II")
 _CHECK_S = 0.3
 """How often a sleeper looks whether it is to give up, in seconds of wall time."""
 _SILENCE_S = 2.0
@@ -222,8 +220,8 @@ def follow_clock(node: Node, topic: str = "/clock") -> SimulatedClock:
     clock = SimulatedClock(topic)
 
     def tick(message: Any) -> None:
-        seconds, nanoseconds = _STAMP.unpack_from(message._buff)  # noqa: SLF001  # genpy's name
-        clock.set(seconds * SECOND + nanoseconds)
+        clock.set(message.clock.to_nsec())
 
-    node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10, raw=True)
+    # Not raw: the subscription is shared with others of this node, who want messages.
+    node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10)
     return clock

@@ -10,8 +10,8 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.ros import Rate, SimulatedClock, WallClock, load_message
-from gazelle.ros.clock import SECOND
+from gazelle.ros import Rate, SimulatedClock, Time, WallClock, load_message
+from gazelle.ros.clock import SECOND, follow_clock
 from gazelle.ros.errors import TimeMovedBackwardsError
 
 
@@ -113,3 +113,15 @@ def test_a_node_follows_the_clock_topic(make_node):
     message.deserialize(struct.pack("<II", 7, 5))
     publisher.publish(message)
     until(lambda: node.clock.now() == 7 * SECOND + 5)
+
+
+def test_a_node_that_follows_the_clock_still_gives_its_messages_to_others(make_node):
+    stage, node = make_node("stage"), make_node("watcher")
+    clock = load_message("rosgraph_msgs/Clock")
+    follow_clock(node)
+    heard = []
+    node.subscribe("/clock", clock, heard.append)
+    publisher = stage.advertise("/clock", clock, latch=True)
+    publisher.publish(clock(Time(3, 5)))
+    until(lambda: heard)
+    assert heard[0].clock == Time(3, 5)
