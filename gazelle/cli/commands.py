@@ -53,6 +53,8 @@ COMMANDS = {
         Command("node", "list, show, ping and end nodes", "ROS 1", "node"),
         Command("param", "get, set, load and dump parameters", "ROS 1", "param"),
         Command("bag", "record, play and inspect bag files", "ROS 1", "bag"),
+        Command("msg", "show messages: fields, MD5 sums", "ROS 1", "messages"),
+        Command("srv", "show services: fields, MD5 sums", "ROS 1", "messages"),
         Command("tasks", "list the tasks", "what there is", "tasks"),
         Command("robots", "list the bundled robots", "what there is", "robots"),
         Command("worlds", "list the bundled worlds", "what there is", "worlds"),

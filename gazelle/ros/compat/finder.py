@@ -1,7 +1,8 @@
 """Makes the modules of ROS 1 importable, without touching the ones that may be installed.
 
-Three kinds of names are answered: modules this package has (``rospy``), packages with definitions
-(``std_msgs``, ``std_msgs.msg``), and the Python code of packages on ROS_PACKAGE_PATH.
+Four kinds of names are answered: modules this package has (``rospy``), packages with definitions
+(``std_msgs``, ``std_msgs.msg``), modules made by ``.cfg`` files (``demo.cfg.DemoConfig``), and the Python
+code of packages on ROS_PACKAGE_PATH.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
+from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
 from gazelle.ros.compat.message_modules import MessageLoader, PackageLoader, has_definitions
 from gazelle.ros.messages.library import bundled_packages
 from gazelle.ros.messages.search import find_packages
@@ -28,7 +30,7 @@ _KINDS = ("msg", "srv")
 def own_modules() -> frozenset[str]:
     """Names of the top-level modules of ROS that this package has itself."""
     folder = Path(__file__).parent
-    private = {"__init__", "finder", "message_modules", "script"}
+    private = {"__init__", "finder", "message_modules", "cfg_modules", "script"}
     found = {path.stem for path in folder.glob("*.py")} - private
     return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
 
@@ -62,6 +64,8 @@ class RosFinder(importlib.abc.MetaPathFinder):
         kind, _, member = rest.partition(".")
         if kind in _KINDS and has_definitions(package, kind):
             return ModuleSpec(fullname, MessageLoader(), is_package=not member)
+        if kind == "cfg" and has_cfg(package):
+            return ModuleSpec(fullname, CfgLoader(), is_package=not member)
         if package in own_modules():
             if importlib.util.find_spec(f"{HOME}.{fullname}") is None:
                 return None
@@ -88,7 +92,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
 
 def _known(package: str) -> bool:
-    return any(has_definitions(package, kind) for kind in _KINDS)
+    return any(has_definitions(package, kind) for kind in _KINDS) or has_cfg(package)
 
 
 _finder = RosFinder()
@@ -136,7 +140,7 @@ def uninstall() -> None:
     if _uses:
         return
     sys.meta_path.remove(_finder)
-    ours = (AliasLoader, MessageLoader, PackageLoader)
+    ours = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
     for name, module in list(sys.modules.items()):
         loader = getattr(getattr(module, "__spec__", None), "loader", None)
         alias = _is_ours(name) and getattr(module, "__name__", "").startswith(f"{HOME}.")

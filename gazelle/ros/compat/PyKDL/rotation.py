@@ -125,13 +125,13 @@ class Rotation:
         sign = -1.0 if w < 0 else 1.0
         length = math.hypot(x, y, z)
         angle = 2 * math.atan2(length, abs(w))
-        if angle < eps:
+        if angle == 0.0 or angle < eps:
             return 0.0, Vector(0, 0, 1)
         return angle, Vector(x, y, z) * (sign / length)
 
     def GetRot(self) -> Vector:
         """Its axis, as long as its angle [rad]."""
-        angle, axis = self.GetRotAngle(0.0) if self.matrix != Rotation().matrix else (0.0, Vector())
+        angle, axis = self.GetRotAngle(0.0)
         return axis * angle
 
     def DoRotX(self, angle: float) -> None:

@@ -97,7 +97,8 @@ def create_cloud(header: Any, fields: Sequence[Any], points: Any) -> Any:
     )
     data = np.zeros(len(points), layout)
     if isinstance(points, np.ndarray) and points.dtype.names is None:
-        if points.ndim == 2 and points.shape[1] != len(parts):
+        points = points.reshape(len(points), -1) if len(points) else points.reshape(0, len(parts))
+        if points.shape[1] != len(parts):
             raise ValueError(f"points have {points.shape[1]} values, fields {len(parts)}")
         for place, name in enumerate(layout.names or ()):
             data[name] = points[:, place]
