@@ -3,6 +3,10 @@ folder, or a bundled name (see 'gazelle worlds').
 
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
+  gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
+
+With --ros it is a ROS 1 node: /clock, topics, /gazebo/... services, as Gazebo has
+them. A master is started where ROS_MASTER_URI names none that answers.
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
@@ -41,6 +45,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
+    parser.add_argument(
+        "--spawn",
+        metavar="ROBOT",
+        action="append",
+        default=[],
+        help="also put a robot there: a file or a bundled name; may be given several times",
+    )
+    parser.add_argument(
+        "--plugins",
+        metavar="DIR",
+        action="append",
+        default=[],
+        help="folder with your own plugins, Python modules that the file names",
+    )
     parser.set_defaults(parser=parser)
 
 
@@ -50,11 +69,16 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
     from gazelle.simulation import Simulation
 
+    sys.path[:0] = args.plugins
     with Simulation(args.file, args.engine, seed=args.seed) as sim:
+        for robot in args.spawn:
+            sim.spawn(robot, namespace="/")
         models = ", ".join(sim.robots) or "no models"
         sys.stdout.write(f"world '{sim.world.name}': {models}\n")
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
+        if args.ros:
+            return _serve(sim, args)
         status = _Status(sim)
         try:
             if args.paused:
@@ -103,6 +127,26 @@ def _advance(sim: Simulation, seconds: float | None, rate: float | None, status:
             took = max(time.monotonic() - began, 1e-4)
             piece = min(max(piece * _SLICE / took, sim.engine.time_step), 2 * piece)
         status.show()
+
+
+def _serve(sim: Simulation, args: argparse.Namespace) -> int:
+    """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
+    from gazelle.bridges import serve_ros
+
+    if args.paused:
+        sim.pause()
+    sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
+    with serve_ros(sim) as door:
+        sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n")
+        sys.stdout.flush()
+        status = _Status(sim)
+        try:
+            door.run(args.seconds)
+        except KeyboardInterrupt:
+            status.show(final=True)
+            return 130
+        status.show(final=True)
+    return 0
 
 
 def _hold(sim: Simulation) -> None:
