@@ -1,17 +1,56 @@
 """What sensors measure, with their noise, for all worlds at once."""
 
+from gazelle.sensors.altitude import (
+    AirPressure,
+    AirPressureModel,
+    Altimeter,
+    AltimeterModel,
+    AltimeterReading,
+    PressureReading,
+    air_pressure,
+)
+from gazelle.sensors.contact import ContactModel, ContactReading
+from gazelle.sensors.force_torque import ForceTorque, ForceTorqueModel, WrenchReading
+from gazelle.sensors.geodesy import TangentPlane
+from gazelle.sensors.gps import Gps, GpsModel, GpsReading
 from gazelle.sensors.imu import ImuModel, ImuReading
 from gazelle.sensors.lidar import LaserScan, LidarModel
+from gazelle.sensors.magnetometer import MagneticReading, Magnetometer, MagnetometerModel
+from gazelle.sensors.model import SensorModel
 from gazelle.sensors.noise import NoiseModel
 from gazelle.sensors.rendering import View, look_at, render
+from gazelle.sensors.sonar import Sonar, SonarModel, SonarReading
 
 __all__ = [
+    "AirPressure",
+    "AirPressureModel",
+    "Altimeter",
+    "AltimeterModel",
+    "AltimeterReading",
+    "ContactModel",
+    "ContactReading",
+    "ForceTorque",
+    "ForceTorqueModel",
+    "Gps",
+    "GpsModel",
+    "GpsReading",
     "ImuModel",
     "ImuReading",
     "LaserScan",
     "LidarModel",
+    "MagneticReading",
+    "Magnetometer",
+    "MagnetometerModel",
     "NoiseModel",
+    "PressureReading",
+    "SensorModel",
+    "Sonar",
+    "SonarModel",
+    "SonarReading",
+    "TangentPlane",
     "View",
+    "WrenchReading",
+    "air_pressure",
     "look_at",
     "render",
 ]

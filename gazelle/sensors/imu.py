@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Imu, Noise, Pose
+from gazelle.description import Imu, Pose
 from gazelle.engines import Engine
 from gazelle.rotations import conjugate, cross, multiply, rotate
-from gazelle.sensors.noise import NoiseModel
+from gazelle.sensors.model import NoisySensor
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -34,7 +34,7 @@ class ImuReading:
     linear_acceleration: Floats
 
 
-class ImuModel:
+class ImuModel(NoisySensor):
     """Measures one IMU in every world.
 
     Args:
@@ -49,22 +49,16 @@ class ImuModel:
     def __init__(
         self, imu: Imu, engine: Engine, link: str, pose: Pose, seed: int, name: str
     ) -> None:
+        rates = {f"rate/{n}": noise for n, noise in zip("xyz", imu.angular_velocity, strict=True)}
+        forces = {
+            f"force/{n}": noise for n, noise in zip("xyz", imu.linear_acceleration, strict=True)
+        }
+        super().__init__({**rates, **forces}, seed, name, engine.nworld)
         self.imu = imu
         self._engine = engine
         self._link = link
         self._offset = np.asarray(pose.position)
         self._turn = np.asarray(pose.quaternion)
-
-        def axis(noise: Noise, part: str) -> NoiseModel:
-            return NoiseModel(noise, seed, f"{name}/{part}", engine.nworld, 1)
-
-        self._rate_noise = [
-            axis(noise, f"rate/{n}") for n, noise in zip("xyz", imu.angular_velocity, strict=True)
-        ]
-        self._force_noise = [
-            axis(noise, f"force/{n}")
-            for n, noise in zip("xyz", imu.linear_acceleration, strict=True)
-        ]
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Orientation, turning rate and specific force now, shape (n, 10).
@@ -85,45 +79,9 @@ class ImuModel:
         to_sensor = conjugate(orientation)
         force = rotate(to_sensor, acceleration - self._engine.parameter("gravity", "", worlds))
         rate = rotate(to_sensor, spin)
-        return np.concatenate(
-            (
-                orientation,
-                _noisy(self._rate_noise, rate, interval, worlds),
-                _noisy(self._force_noise, force, interval, worlds),
-            ),
-            axis=1,
-        )
+        felt = self.noisy(np.concatenate((rate, force), axis=1), interval, worlds)
+        return np.concatenate((orientation, felt), axis=1)
 
     def reading(self, values: Floats, stamp: int) -> ImuReading:
         """A measurement by name."""
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
-
-    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start."""
-        for noise in (*self._rate_noise, *self._force_noise):
-            noise.reseed(seed, worlds)
-
-    def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drifts of noise."""
-        for noise in (*self._rate_noise, *self._force_noise):
-            noise.reset(worlds)
-
-    def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
-        models = enumerate((*self._rate_noise, *self._force_noise))
-        return {f"{i}/{k}": v for i, noise in models for k, v in noise.state().items()}
-
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
-        for i, noise in enumerate((*self._rate_noise, *self._force_noise)):
-            own = {k.partition("/")[2]: v for k, v in state.items() if k.startswith(f"{i}/")}
-            noise.restore(own)
-
-
-def _noisy(
-    models: list[NoiseModel], values: Floats, interval: float, worlds: Worlds | None
-) -> Floats:
-    columns = [
-        model.apply(values[:, i : i + 1], interval, worlds) for i, model in enumerate(models)
-    ]
-    return np.concatenate(columns, axis=1)

@@ -100,6 +100,10 @@ class LidarModel:
             stamp, ranges, first, last, increment, self.lidar.range_min, self.lidar.range_max
         )
 
+    def reading(self, values: Floats, stamp: int) -> LaserScan:
+        """The same as ``scan``, under the name that all sensors have it."""
+        return self.scan(values, stamp)
+
     @property
     def noise(self) -> NoiseModel:
         """The noise on the ranges."""

@@ -13,6 +13,8 @@ from gazelle.streams import Stream
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
+NO_NOISE = Noise()
+
 
 class NoiseModel:
     """White noise, a constant bias and a drifting bias on one group of channels.

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Imu, Pose, Sensor
-from gazelle.sensors import ImuModel, LidarModel
+from gazelle.description import Sensor
+from gazelle.sensors import SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.ports import Output
 
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
-SensorModel = LidarModel | ImuModel
-
-_LIDARS = frozenset({"ray", "gpu_ray", "lidar", "gpu_lidar"})
 
 
 class SensorUnit:
@@ -56,7 +53,7 @@ class SensorUnit:
         return self.model.measure(worlds, self._period())
 
     def read(self, world: int = 0) -> Any:
-        """The last reading of one world: a LaserScan or an ImuReading.
+        """The last reading of one world: a LaserScan, an ImuReading, ...; see ``gazelle.sensors``.
 
         The first call measures at once and wakes the sensor.
         """
@@ -81,8 +78,6 @@ class SensorUnit:
 
     def reading(self, values: Floats) -> Any:
         """Values by name."""
-        if isinstance(self.model, LidarModel):
-            return self.model.scan(values, self._stamp)
         return self.model.reading(values, self._stamp)
 
     def subscribe(self, listener: Callable[[SensorUnit], None]) -> Callable[[], None]:
@@ -172,16 +167,3 @@ class SensorOutput(Output[Any]):
                 self._asleep = None
 
         return finish
-
-
-def sensor_model(
-    robot: Robot, sensor: Sensor, link: str, pose: Pose, name: str
-) -> SensorModel | None:
-    """The measurement model of a sensor; None for types that are not measured yet."""
-    simulation = robot.simulation
-    if sensor.type in _LIDARS and sensor.lidar is not None:
-        return LidarModel(sensor.lidar, simulation.engine, link, pose, simulation.seed, name)
-    if sensor.type == "imu":
-        imu = sensor.imu or Imu()
-        return ImuModel(imu, simulation.engine, link, pose, simulation.seed, name)
-    return None

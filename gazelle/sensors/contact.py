@@ -1,0 +1,115 @@
+"""Touch: which collisions meet some collisions of a link, where, and how hard."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines import Contacts, Engine
+from gazelle.sensors.model import NoisySensor
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+# Values of one contact: two names, position, normal, depth, force, torque.
+_WIDTH = 15
+
+
+@dataclass(frozen=True, slots=True)
+class ContactReading:
+    """What touches the watched collisions of one world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        contacts: Every point of contact, in the world frame.
+    """
+
+    stamp: int
+    contacts: Contacts
+
+
+class ContactModel(NoisySensor):
+    """Watches some collisions in every world.
+
+    A measurement has room for ``most`` contacts a world, the rest is left out; the room not
+    used is NaN. Contacts are listed world by world, each at the price of one evaluation of
+    the physics, so a batch that only has to know whether something is touched is better
+    served by a lidar or by positions.
+
+    Args:
+        engine: Knows the contacts.
+        collisions: Scoped names, ``model::link::collision``.
+        most: Contacts kept of each world.
+    """
+
+    def __init__(self, engine: Engine, collisions: Sequence[str], most: int = 20) -> None:
+        super().__init__({}, 0, "", engine.nworld)
+        self.collisions = tuple(collisions)
+        self._engine = engine
+        self._most = most
+        self._names: list[str] = []
+
+    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  touch has no drift
+        """Contacts now, shape (n, most * 15); see ``reading``.
+
+        Args:
+            worlds: Which worlds; all if None.
+            interval: Not used.
+        """
+        chosen = range(self._engine.nworld) if worlds is None else worlds
+        values = np.full((len(chosen), self._most, _WIDTH), np.nan)
+        for row, world in zip(values, chosen, strict=True):
+            touching = self._engine.contacts(self.collisions, int(world))
+            count = min(len(touching), self._most)
+            row[:count] = self._rows(touching)[:count]
+        return values.reshape(len(chosen), -1)
+
+    def reading(self, values: Floats, stamp: int) -> ContactReading:
+        """The contacts of one world's measurement, shape (most * 15,)."""
+        table = values.reshape(-1, _WIDTH)
+        table = table[~np.isnan(table[:, 0])]
+        names = [[self._names[int(i)] for i in table[:, column]] for column in (0, 1)]
+        return ContactReading(
+            stamp,
+            Contacts(
+                collisions=tuple(names[0]),
+                others=tuple(names[1]),
+                position=table[:, 2:5],
+                normal=table[:, 5:8],
+                depth=table[:, 8],
+                force=table[:, 9:12],
+                torque=table[:, 12:15],
+            ),
+        )
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """What the numbers in measurements stand for."""
+        return {"names": np.asarray(self._names, np.str_)}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._names = [str(name) for name in state["names"]]
+
+    def _rows(self, touching: Contacts) -> Floats:
+        mine = [self._number(name) for name in touching.collisions]
+        others = [self._number(name) for name in touching.others]
+        return np.column_stack(
+            (
+                mine,
+                others,
+                touching.position,
+                touching.normal,
+                touching.depth,
+                touching.force,
+                touching.torque,
+            )
+        )
+
+    def _number(self, name: str) -> float:
+        """A name as a number that a measurement can hold."""
+        if name not in self._names:
+            self._names.append(name)
+        return float(self._names.index(name))

@@ -1,0 +1,93 @@
+"""What all sensors have in common, so that whoever reads one needs not know which it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Noise
+from gazelle.sensors.noise import NoiseModel
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class SensorModel(Protocol):
+    """Measures one sensor in every world."""
+
+    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
+        """Measure now, shape (n, channels).
+
+        Args:
+            worlds: Which worlds; all if None.
+            interval: Time since the last measurement [s].
+        """
+
+    def reading(self, values: Floats, stamp: int) -> Any:
+        """A measurement by name; ``values`` are of one world, shape (channels,), or of many."""
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed, from their start."""
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Forget drifts of noise."""
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+
+
+class NoisySensor:
+    """Holds the noise of a sensor's channels, each with random numbers of its own.
+
+    Args:
+        noises: By name of the channel, in the order of the channels.
+        seed: The run's seed.
+        name: Scoped name of the sensor; names its random streams.
+        nworld: Number of worlds.
+    """
+
+    def __init__(self, noises: Mapping[str, Noise], seed: int, name: str, nworld: int) -> None:
+        self._noises = [
+            NoiseModel(noise, seed, f"{name}/{channel}", nworld, 1)
+            for channel, noise in noises.items()
+        ]
+
+    @property
+    def noises(self) -> tuple[NoiseModel, ...]:
+        """The noise of every channel that has some model."""
+        return tuple(self._noises)
+
+    def noisy(self, values: Floats, interval: float, worlds: Worlds | None) -> Floats:
+        """True values with noise, shape (n, channels)."""
+        columns = [
+            model.apply(values[:, i : i + 1], interval, worlds)
+            for i, model in enumerate(self._noises)
+        ]
+        return np.concatenate(columns, axis=1) if columns else values
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed, from their start."""
+        for noise in self._noises:
+            noise.reseed(seed, worlds)
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Forget drifts of noise."""
+        for noise in self._noises:
+            noise.reset(worlds)
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        models = enumerate(self._noises)
+        return {f"{i}/{k}": v for i, noise in models for k, v in noise.state().items()}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        for i, noise in enumerate(self._noises):
+            own = {k.partition("/")[2]: v for k, v in state.items() if k.startswith(f"{i}/")}
+            noise.restore(own)

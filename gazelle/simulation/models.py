@@ -1,0 +1,183 @@
+"""Which sensor of a file is measured by which model."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gazelle.description import Imu, Joint, Link, Pose, Sensor
+from gazelle.engines import Engine
+from gazelle.errors import EngineError, SimulationWarning
+from gazelle.sensors import (
+    AirPressure,
+    AirPressureModel,
+    Altimeter,
+    AltimeterModel,
+    ContactModel,
+    ForceTorque,
+    ForceTorqueModel,
+    Gps,
+    GpsModel,
+    ImuModel,
+    LidarModel,
+    Magnetometer,
+    MagnetometerModel,
+    SensorModel,
+    Sonar,
+    SonarModel,
+)
+
+if TYPE_CHECKING:
+    from gazelle.description import Model
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    """A sensor and what it is on.
+
+    Attributes:
+        engine: Of the simulation.
+        sensor: What the file says.
+        scope: Scoped name of the model that it is in.
+        link: The link, or the child of the joint, that it moves with.
+        joint: The joint that it is on, if it is on one.
+        seed: The run's seed.
+    """
+
+    engine: Engine
+    sensor: Sensor
+    scope: str
+    link: Link
+    joint: Joint | None
+    seed: int
+
+    @property
+    def link_name(self) -> str:
+        """Scoped name of the link."""
+        return f"{self.scope}::{self.link.name}"
+
+    @property
+    def name(self) -> str:
+        """Scoped name of the sensor."""
+        owner = self.link.name if self.joint is None else self.joint.name
+        return f"{self.scope}::{owner}::{self.sensor.name}"
+
+
+def mounts(engine: Engine, model: Model, seed: int) -> Iterator[Mount]:
+    """All sensors of a model and its nested ones, on links and on joints."""
+    for placed in model.walk():
+        links = {link.name: link for link in placed.model.links}
+        for link in placed.model.links:
+            for sensor in link.sensors:
+                yield Mount(engine, sensor, placed.scope, link, None, seed)
+        for joint in placed.model.joints:
+            for sensor in joint.sensors:
+                child = links.get(joint.child) or Link(joint.child)
+                yield Mount(engine, sensor, placed.scope, child, joint, seed)
+
+
+def sensor_model(mount: Mount) -> SensorModel | None:
+    """The measurement model of a sensor; None, with a warning, for what is not measured."""
+    try:
+        return _MODELS.get(mount.sensor.type, _unknown)(mount)
+    except EngineError as error:
+        warnings.warn(
+            SimulationWarning(
+                f"sensor '{mount.name}' of type '{mount.sensor.type}' is not measured yet: {error}"
+            ),
+            stacklevel=2,
+        )
+    return None
+
+
+def _unknown(_: Mount) -> SensorModel:
+    raise EngineError("there is no model of this type")
+
+
+def _lidar(mount: Mount) -> SensorModel:
+    if mount.sensor.lidar is None:
+        raise EngineError("it says nothing about its rays")
+    return LidarModel(mount.sensor.lidar, *_on_link(mount))
+
+
+def _imu(mount: Mount) -> SensorModel:
+    return ImuModel(mount.sensor.imu or Imu(), *_on_link(mount))
+
+
+def _magnetometer(mount: Mount) -> SensorModel:
+    return MagnetometerModel(Magnetometer.read(mount.sensor.settings), *_on_link(mount))
+
+
+def _gps(mount: Mount) -> SensorModel:
+    return GpsModel(Gps.read(mount.sensor.settings), *_on_link(mount))
+
+
+def _altimeter(mount: Mount) -> SensorModel:
+    return AltimeterModel(Altimeter.read(mount.sensor.settings), *_on_link(mount))
+
+
+def _air_pressure(mount: Mount) -> SensorModel:
+    return AirPressureModel(AirPressure.read(mount.sensor.settings), *_on_link(mount))
+
+
+def _sonar(mount: Mount) -> SensorModel:
+    return SonarModel(Sonar.read(mount.sensor.settings), *_on_link(mount))
+
+
+def _force_torque(mount: Mount) -> SensorModel:
+    joint, scope = mount.joint, mount.scope
+    if joint is None:
+        raise EngineError("it is on a link, not on a joint")
+    name = f"{scope}::{joint.name}"
+    mount.engine.joint_wrench(name)  # refuses what carries nothing
+    parent = "world" if joint.parent == "world" else f"{scope}::{joint.parent}"
+    return ForceTorqueModel(
+        ForceTorque.read(mount.sensor.settings),
+        mount.engine,
+        name,
+        (parent, f"{scope}::{joint.child}"),
+        mount.sensor.pose,
+        mount.seed,
+        mount.name,
+    )
+
+
+def _contact(mount: Mount) -> SensorModel:
+    """Of the collisions that it names, or of all of its link."""
+    contact = mount.sensor.contact
+    known = [collision.name for collision in mount.link.collisions]
+    named = [] if contact is None else [name.rpartition("::")[2] for name in contact.collisions]
+    lost = [name for name in named if name not in known]
+    if lost:
+        warnings.warn(
+            SimulationWarning(
+                f"contact sensor '{mount.name}' watches '{lost[0]}', which '{mount.link_name}' "
+                f"does not have; it has: {', '.join(known) or 'none'}"
+            ),
+            stacklevel=2,
+        )
+    watched = [name for name in named if name in known] if named else known
+    return ContactModel(mount.engine, [f"{mount.link_name}::{name}" for name in watched])
+
+
+def _on_link(mount: Mount) -> tuple[Engine, str, Pose, int, str]:
+    return mount.engine, mount.link_name, mount.sensor.pose, mount.seed, mount.name
+
+
+_MODELS: dict[str, Callable[[Mount], SensorModel]] = {
+    "air_pressure": _air_pressure,
+    "altimeter": _altimeter,
+    "contact": _contact,
+    "force_torque": _force_torque,
+    "gps": _gps,
+    "gpu_lidar": _lidar,
+    "gpu_ray": _lidar,
+    "imu": _imu,
+    "lidar": _lidar,
+    "magnetometer": _magnetometer,
+    "navsat": _gps,
+    "ray": _lidar,
+    "sonar": _sonar,
+}
