@@ -101,7 +101,9 @@ def read_block(entity: Entity, outer: Properties) -> StageBlock:
     Raises:
         FormatError: It has too few points, or a wrong one.
     """
-    given = Properties(entity, outer.reading, outer.units)
+    # what a model macro of that name says is of models
+    own = entity.type != "block"
+    given = Properties(entity, outer.reading, outer.units, own=own)
     block = _block(given, "", entity)
     color = given.color()
     given.report_unknown()

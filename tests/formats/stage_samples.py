@@ -1,0 +1,28 @@
+"""Stage files for tests, written where they are used."""
+
+import numpy as np
+from PIL import Image
+
+from gazelle.formats.stage import load_stage
+
+SQUARE = "points 4 point[0] [0 0] point[1] [2 0] point[2] [2 1] point[3] [0 1]"
+
+
+def write(folder, text, name="test.world"):
+    """A file with this text."""
+    file = folder / name
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+    return file
+
+
+def read(folder, text):
+    """The world that a text says."""
+    return load_stage(write(folder, text))
+
+
+def draw(folder, rows, name="map.png"):
+    """A picture with walls where the rows have ``#``."""
+    pixels = [[0 if mark == "#" else 255 for mark in row] for row in rows]
+    Image.fromarray(np.array(pixels, np.uint8)).save(folder / name)
+    return name
