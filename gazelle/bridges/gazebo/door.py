@@ -216,7 +216,7 @@ class GazeboDoor:
             given = call(lambda: handler(request)) if wait else handler(request)
             return response(**given) if isinstance(given, dict) else given
 
-        full = name if name.startswith("/") else f"/gazebo/{name}"
+        full = name if name.startswith("/") else f"~{name}"
         self._closing.append(self._node.serve(full, service, answer).close)
 
     def _listen(self, models: ModelServices, links: LinkServices) -> None:
@@ -225,7 +225,7 @@ class GazeboDoor:
             ("set_link_state", "LinkState", links.set_state_of),
         ):
             subscriber = self._node.subscribe(
-                f"/gazebo/{name}", load_message(f"gazebo_msgs/{kind}"), self._between(act), 10
+                f"~{name}", load_message(f"gazebo_msgs/{kind}"), self._between(act), 10
             )
             self._closing.append(subscriber.close)
 

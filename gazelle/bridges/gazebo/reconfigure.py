@@ -48,7 +48,7 @@ class PhysicsReconfigure:
         self._physics = context.simulation.physics
         self._requests = context.simulation.requests
         self._server = ReconfigureServer(
-            context.node, "/gazebo", _PHYSICS, self._change, self._requests.call(self._now)
+            context.node, context.node.name, _PHYSICS, self._change, self._requests.call(self._now)
         )
 
     def close(self) -> None:

@@ -62,10 +62,10 @@ class StatesBeat(Plugin):
     def __init__(self, context: Context) -> None:
         self._context = context
         self._models = context.node.advertise(
-            "/gazebo/model_states", load_message("gazebo_msgs/ModelStates"), 10
+            "~model_states", load_message("gazebo_msgs/ModelStates"), 10
         )
         self._links = context.node.advertise(
-            "/gazebo/link_states", load_message("gazebo_msgs/LinkStates"), 10
+            "~link_states", load_message("gazebo_msgs/LinkStates"), 10
         )
 
     @property
@@ -114,7 +114,7 @@ class PerformanceBeat(Plugin):
     def __init__(self, context: Context) -> None:
         self._context = context
         self._publisher = context.node.advertise(
-            "/gazebo/performance_metrics", load_message("gazebo_msgs/PerformanceMetrics"), 10
+            "~performance_metrics", load_message("gazebo_msgs/PerformanceMetrics"), 10
         )
         self._wall = time.monotonic()
         self._simulated = context.simulation.time

@@ -1,0 +1,21 @@
+"""The package ``gazebo_ros`` where it is not installed: its nodes and launch files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.ros.builtin.registry import BuiltinPackage
+
+_SERVER = "gazelle.bridges.gazebo.server:main"
+
+GAZEBO_ROS = BuiltinPackage(
+    "gazebo_ros",
+    {
+        "gzserver": _SERVER,
+        "gazebo": _SERVER,
+        "debug": _SERVER,
+        "spawn_model": "gazelle.clients.spawn_model:main",
+    },
+    folder=Path(__file__).parents[2] / "assets" / "gazebo_ros",
+    skipped=None,
+)

@@ -1,0 +1,89 @@
+"""The nodes ``gzserver`` and ``gazebo`` of the package ``gazebo_ros``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from gazelle.bridges.serving import RosDoor
+from gazelle.errors import ResolveError
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.signals import stopping
+from gazelle.simulation import Simulation
+
+_ASSETS = Path(__file__).parents[2] / "assets"
+# Options that name a value, and those that do not, which change nothing here.
+_PASSED_OVER = ("-e", "--physics", "-s", "--server-plugin", "-g", "--gui-plugin", "--record_path")
+_IGNORED = ("-r", "--record", "--verbose", "--lockstep", "-q", "--pose")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a world on the graph until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "gazebo")
+    options = _options(found.plain)
+    with found.start() as node, Simulation(find_world(options.world), seed=options.seed) as sim:
+        if options.paused:
+            sim.pause()
+        door = RosDoor(
+            sim,
+            node,
+            None,
+            world=0,
+            monotonic_clock=bool(node.get_param("~monotonic_clock", False)),
+        )
+        with door, stopping() as stop:
+            _run(door, stop, options.iterations * sim.physics.time_step or None)
+    return 0
+
+
+def _run(door: RosDoor, stop: threading.Event, seconds: float | None) -> None:
+    """Run until a signal, which a thread hands on."""
+
+    def wait() -> None:
+        stop.wait()
+        door.stop()
+
+    waiter = threading.Thread(target=wait, name="gzserver-end", daemon=True)
+    waiter.start()
+    try:
+        door.run(seconds)
+    finally:
+        stop.set()
+        waiter.join()
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser("gzserver", allow_abbrev=False)
+    parser.add_argument("world", nargs="?", default="worlds/empty.world")
+    parser.add_argument("-u", "--pause", dest="paused", action="store_true")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--iters", dest="iterations", type=int, default=0)
+    for flag in _IGNORED:
+        parser.add_argument(flag, action="store_true", dest="ignored")
+    for flag in _PASSED_OVER:
+        parser.add_argument(flag, action="append", dest="passed_over")
+    return parser.parse_args(list(arguments))
+
+
+def find_world(name: str) -> str:
+    """A world's file as Gazebo looks for it, or the name itself for what ``load`` finds.
+
+    Raises:
+        ResolveError: A path that is nowhere.
+    """
+    folders = [Path(), *_resource_path(), _ASSETS]
+    for folder in folders:
+        if (folder / name).is_file():
+            return str(folder / name)
+    if "/" in name and "://" not in name:
+        looked = ", ".join(str(folder) for folder in folders)
+        raise ResolveError("there is no such world", file=name, hint=f"looked in {looked}")
+    return name
+
+
+def _resource_path() -> list[Path]:
+    text = os.environ.get("GAZEBO_RESOURCE_PATH", "")
+    return [Path(part) for part in text.split(os.pathsep) if part]

@@ -1,0 +1,193 @@
+"""The node ``spawn_model`` of the package ``gazebo_ros``: puts a model into a running world."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import math
+import os
+import re
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import RosError
+from gazelle.ros import Node, load_message, load_service
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.signals import stopping
+
+# How long Gazebo's services are waited for, in wall time [s].
+_PATIENCE_S = 30.0
+_POLL_S = 0.05
+_log = logging.getLogger("gazelle.clients")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Spawn a model; returns 0 if it is there, else 1."""
+    found = parse_arguments(arguments, "spawn_model", anonymous=True)
+    options = _options(found.plain)
+    with found.start() as node:
+        spawner = _Spawner(node, options)
+        if not spawner.spawn():
+            return 1
+        if options.bond:
+            _wait_for_the_end(node)
+            spawner.delete()
+    return 0
+
+
+class _Spawner:
+    """One run of the program."""
+
+    def __init__(self, node: Node, options: argparse.Namespace) -> None:
+        self._node = node
+        self._options = options
+        self._gazebo = "/" + options.gazebo_namespace.strip("/")
+
+    def spawn(self) -> bool:
+        """Do what the command line says; False if Gazebo does not."""
+        options = self._options
+        text = _read(self._node, options)
+        if options.wait:
+            self._wait_for(options.wait)
+        kind = "urdf" if options.urdf else "sdf"
+        answer = self._call(
+            f"spawn_{kind}_model",
+            "SpawnModel",
+            model_name=options.model,
+            model_xml=text,
+            robot_namespace=options.robot_namespace or self._node.namespace,
+            initial_pose=_pose(options),
+            reference_frame=options.reference_frame,
+        )
+        _log.info("%s", answer.status_message)
+        if not answer.success:
+            sys.stderr.write(f"{answer.status_message}\n")
+            return False
+        return self._configure() and self._unpause()
+
+    def delete(self) -> None:
+        """Take the model away again."""
+        self._call("delete_model", "DeleteModel", model_name=self._options.model)
+
+    def _configure(self) -> bool:
+        joints = self._options.joints
+        if not joints:
+            return True
+        answer = self._call(
+            "set_model_configuration",
+            "SetModelConfiguration",
+            model_name=self._options.model,
+            urdf_param_name="",
+            joint_names=[name for name, _ in joints],
+            joint_positions=[float(position) for _, position in joints],
+        )
+        if not answer.success:
+            sys.stderr.write(f"{answer.status_message}\n")
+        return bool(answer.success)
+
+    def _unpause(self) -> bool:
+        if self._options.unpause:
+            self._call("unpause_physics", "Empty", package="std_srvs")
+        return True
+
+    def _wait_for(self, model: str) -> None:
+        """Until a model is there, however long it takes."""
+        while True:
+            answer = self._call("get_world_properties", "GetWorldProperties")
+            if model in answer.model_names:
+                return
+            time.sleep(_POLL_S)
+
+    def _call(self, name: str, kind: str, package: str = "gazebo_msgs", **fields: Any) -> Any:
+        service = load_service(f"{package}/{kind}")
+        full = f"{self._gazebo}/{name}"
+        self._node.wait_for_service(full, timeout=_PATIENCE_S)
+        request = service._request_class(**fields)  # noqa: SLF001  # genpy's name
+        return self._node.client(full, service).call(request)
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        "spawn_model", description="Put a model into a running world.", allow_abbrev=False
+    )
+    kind = parser.add_mutually_exclusive_group(required=True)
+    kind.add_argument("-urdf", action="store_true", help="the description is URDF")
+    kind.add_argument("-sdf", action="store_true", help="the description is SDF")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("-file", metavar="FILE")
+    source.add_argument("-param", metavar="NAME", help="a parameter holds the description")
+    source.add_argument("-database", metavar="MODEL", help="a model by its name")
+    source.add_argument("-stdin", action="store_true")
+    parser.add_argument("-model", metavar="NAME", required=True)
+    parser.add_argument("-reference_frame", metavar="NAME", default="")
+    parser.add_argument("-gazebo_namespace", metavar="NS", default="/gazebo")
+    parser.add_argument("-robot_namespace", metavar="NS", default="")
+    parser.add_argument("-unpause", action="store_true", help="let the world run afterwards")
+    parser.add_argument("-wait", metavar="MODEL", help="until that model is there")
+    for flag, meaning in zip("xyzRPY", ("x", "y", "z", "roll", "pitch", "yaw"), strict=True):
+        parser.add_argument(f"-{flag}", dest=meaning, type=float, default=0.0)
+    parser.add_argument(
+        "-J", dest="joints", nargs=2, action="append", default=[], metavar=("JOINT", "POSITION")
+    )
+    parser.add_argument(
+        "-package_to_model", action="store_true", help="write package:// as model://"
+    )
+    parser.add_argument("-b", dest="bond", action="store_true", help="delete it at the end")
+    return parser.parse_args(list(arguments))
+
+
+def _read(node: Node, options: argparse.Namespace) -> str:
+    """The description; Gazebo knows nothing of ``package://`` in SDF."""
+    if options.param:
+        found = node.get_param(options.param, None)
+        if not isinstance(found, str):
+            raise RosError(f"the parameter '{options.param}' holds no description")
+        text = found
+    elif options.stdin:
+        text = sys.stdin.read()
+    else:
+        text = _read_file(options.file or _in_database(options.database))
+    if options.package_to_model:
+        text = re.sub(r"package://", "model://", text)
+    return text
+
+
+def _read_file(path: str) -> str:
+    try:
+        return Path(path).expanduser().read_text(encoding="utf-8")
+    except OSError as error:
+        raise RosError(f"the model cannot be read: {error.strerror}", file=path) from None
+
+
+def _in_database(model: str) -> str:
+    """The file of a model in one of the folders of ``GAZEBO_MODEL_PATH``."""
+    folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
+    for folder in filter(None, folders):
+        file = Path(folder) / model / "model.sdf"
+        if file.is_file():
+            return str(file)
+    raise RosError(
+        f"there is no model '{model}'", hint=f"looked in GAZEBO_MODEL_PATH: {':'.join(folders)}"
+    )
+
+
+def _pose(options: argparse.Namespace) -> Any:
+    pose: Any = load_message("geometry_msgs/Pose")()
+    pose.position.x, pose.position.y, pose.position.z = options.x, options.y, options.z
+    turns = (options.roll / 2.0, options.pitch / 2.0, options.yaw / 2.0)
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(half), math.sin(half)) for half in turns)
+    pose.orientation.x = sr * cp * cy - cr * sp * sy
+    pose.orientation.y = cr * sp * cy + sr * cp * sy
+    pose.orientation.z = cr * cp * sy - sr * sp * cy
+    pose.orientation.w = cr * cp * cy + sr * sp * sy
+    return pose
+
+
+def _wait_for_the_end(node: Node) -> None:
+    """Until Ctrl-C, or until the node is asked to end."""
+    with stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        stop.wait()
