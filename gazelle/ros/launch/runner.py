@@ -9,7 +9,6 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 from types import TracebackType
 from typing import Self
 
@@ -17,6 +16,7 @@ from gazelle.ros import net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
 from gazelle.ros.launch import folders, machines, setup
 from gazelle.ros.launch.errors import LaunchError
+from gazelle.ros.launch.guard import Guard
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.launch.plan import LaunchPlan, NodePlan
 from gazelle.ros.launch.process import NodeProcess, Patience, Start, stop_all
@@ -72,6 +72,7 @@ class Launch:
     Attributes:
         processes: The nodes' processes, in the order of the plan.
         ended: Set it to end the launch.
+        listeners: Called with a process and its exit code when it ends by itself.
     """
 
     def __init__(
@@ -86,6 +87,7 @@ class Launch:
         self.options = options or Options()
         self.processes: list[NodeProcess] = []
         self.ended = threading.Event()
+        self.listeners: list[Callable[[NodeProcess, int], object]] = []
         self.master_uri = self.options.master_uri
         self.run_id = self.options.run_id
         self._say = say
@@ -97,6 +99,8 @@ class Launch:
         self._due: dict[NodeProcess, float] = {}
         self._reported: set[NodeProcess] = set()
         self._failed = False
+        self._guard = Guard()
+        self._lock = threading.RLock()
 
     # Beginning ---------------------------------------------------------------------------
 
@@ -111,15 +115,39 @@ class Launch:
         programs = self._find_programs()
         self._reach_master()
         self._serve()
-        logs = folders.log_folder(self.run_id)
-        home = folders.made(folders.ros_home())
         setup.prepare(self.plan, self._proxy, self._packages)
-        for node, program in programs:
-            self.processes.append(self._process(node, program, logs, home))
-        for process in self.processes:
+        with self._lock:
+            self.processes += [self._process(node, program) for node, program in programs]
+            for process in self.processes:
+                if self.ended.is_set():
+                    break
+                self._start(process)
+
+    def launch_node(self, node: NodePlan) -> NodeProcess:
+        """Start one more node.
+
+        Raises:
+            LaunchError: It has no program, or is left out on purpose.
+        """
+        program = find_program(node, self._packages)
+        if isinstance(program, Skipped):
+            raise LaunchError(f"nodes of '{program.package}' are left out: {program.reason}")
+        with self._lock:
             if self.ended.is_set():
-                break
+                raise LaunchError("the launch has ended")
+            process = self._process(node, program)
+            self.processes.append(process)
             self._start(process)
+        return process
+
+    def forget(self, process: NodeProcess) -> None:
+        """Stop a node and watch it no more."""
+        with self._lock:
+            if process in self.processes:
+                self.processes.remove(process)
+            self._due.pop(process, None)
+        stop_all([process], self.options.patience)
+        self._guard.forget(process.pid)
 
     def _find_programs(self) -> list[tuple[NodePlan, Program]]:
         """The programs of all nodes; a node without one stops the launch before it begins."""
@@ -180,7 +208,9 @@ class Launch:
         self._proxy.set_param(self._server.key, self._server.uri)
         self._say(f"started launch server {self._server.uri}")
 
-    def _process(self, node: NodePlan, program: Program, logs: Path, home: Path) -> NodeProcess:
+    def _process(self, node: NodePlan, program: Program) -> NodeProcess:
+        logs = folders.log_folder(self.run_id)
+        home = folders.made(folders.ros_home())
         name = f"{node.full_name.strip('/')}-{next(self._numbers)}"
         file = name.replace("/", "-")
         to_screen = (node.output == "screen" or self.options.screen) and not self.options.log
@@ -196,7 +226,10 @@ class Launch:
         return NodeProcess(node, name, start)
 
     def _start(self, process: NodeProcess) -> None:
+        if process.spawned:
+            self._guard.forget(process.pid)
         process.start()
+        self._guard.watch(process.pid)
         self._reported.discard(process)
         self._say(f"process[{process.name}]: started with pid [{process.pid}]")
 
@@ -210,7 +243,7 @@ class Launch:
         """
         while not self.ended.wait(_WATCH_S):
             self.look()
-            if not self._due and not any(each.running for each in self.processes):
+            if self.idle:
                 if self.processes:
                     self._say("all nodes have ended, and so does the launch")
                     break
@@ -218,8 +251,22 @@ class Launch:
                     break
         return int(self._failed)
 
+    @property
+    def idle(self) -> bool:
+        """Whether no node runs, and none will."""
+        return not self._due and not any(each.running for each in list(self.processes))
+
+    @property
+    def failed(self) -> bool:
+        """Whether a required node failed."""
+        return self._failed
+
     def look(self) -> None:
         """Look once at all processes: report ends, respawn what is due."""
+        with self._lock:
+            self._look()
+
+    def _look(self) -> None:
         now = time.monotonic()
         for process in self.processes:
             code = process.poll()
@@ -250,6 +297,8 @@ class Launch:
                 f"[{process.name}] process has died [pid {process.pid}, exit code {code}, "
                 f"cmd {command}].{where}"
             )
+        for listener in list(self.listeners):
+            listener(process, code)
 
     def _end_required(self, process: NodeProcess, code: int) -> None:
         self._failed = code != 0
@@ -267,8 +316,11 @@ class Launch:
     def close(self) -> None:
         """End all nodes, then what this launch put on the master, then the master."""
         self.ended.set()
-        for process in stop_all(self.processes, self.options.patience):
+        with self._lock:
+            processes = list(self.processes)
+        for process in stop_all(processes, self.options.patience):
             self._say(f"[{process.name}] did not end on SIGINT")
+        self._guard.close()
         if self._server is not None:
             if self._master is None:
                 with contextlib.suppress(RosError):
