@@ -5,7 +5,7 @@ from gazelle.simulation.faults import Fault
 from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
-from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
+from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, SystemPlugin, WorldPlugin
 from gazelle.simulation.ports import Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
@@ -38,6 +38,7 @@ __all__ = [
     "SensorUnit",
     "Service",
     "Simulation",
+    "SystemPlugin",
     "Transform",
     "Transforms",
     "TwistInput",

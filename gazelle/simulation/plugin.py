@@ -71,6 +71,10 @@ class WorldPlugin(Plugin):
         """Start: read the parameters, keep what is needed."""
 
 
+class SystemPlugin(WorldPlugin):
+    """A plugin that no file names: given on the command line, it is loaded with empty parameters."""
+
+
 class ModelPlugin(Plugin):
     """A plugin of a model."""
 

@@ -2,12 +2,14 @@
 
 Gazelle's own and other packages' plugins are entry points of the group ``gazelle.plugins``,
 named like the library without ``lib`` and ``.so``: ``libgazebo_ros_diff_drive.so`` is found as
-``gazebo_ros_diff_drive``. A program can add its own with ``register``.
+``gazebo_ros_diff_drive``. A program can add its own with ``register``, and a file can name a
+Python class itself: ``filename="package.module:Class"``.
 """
 
 from __future__ import annotations
 
 import functools
+import importlib
 import warnings
 from importlib.metadata import EntryPoint, entry_points
 from typing import TypeVar
@@ -35,7 +37,13 @@ def names() -> list[str]:
 
 
 def find(plugin: description.Plugin) -> type[Plugin] | None:
-    """The class for a ``<plugin>``; None, with one warning a file name, if there is none."""
+    """The class for a ``<plugin>``; None, with one warning a file name, if there is none.
+
+    Raises:
+        SimulationError: The file names a Python class that cannot be had.
+    """
+    if ":" in plugin.filename:
+        return _import(plugin)
     stem = _stem(plugin.filename)
     if stem in _registered:
         return _registered[stem]
@@ -50,12 +58,39 @@ def find(plugin: description.Plugin) -> type[Plugin] | None:
         warnings.warn(
             SimulationWarning(
                 f"{where}plugin '{plugin.name}' ({plugin.filename}) is not supported and is "
-                f"left out; {did_you_mean(f'lib{stem}.so', names())}; supported: "
-                f"{', '.join(names())}"
+                f"left out; {_nearest(f'lib{stem}.so')}"
+                "'gazelle plugins' lists those that are"
             ),
             stacklevel=3,
         )
     return None
+
+
+def _nearest(filename: str) -> str:
+    """What may have been meant; nothing where no name is near."""
+    hint = did_you_mean(filename, names())
+    return f"{hint} " if hint.startswith("did you mean") else ""
+
+
+def _import(plugin: description.Plugin) -> type[Plugin]:
+    """The Python class that a file names as ``package.module:Class``."""
+    name, _, attribute = plugin.filename.partition(":")
+    try:
+        module = importlib.import_module(name)
+    except ImportError as error:
+        raise SimulationError(
+            f"the module of plugin '{plugin.name}' cannot be imported: {error}",
+            source=plugin.source,
+            hint="put its folder on PYTHONPATH, or give it as 'gazelle run --plugins DIR'",
+        ) from error
+    found = getattr(module, attribute, None)
+    if not (isinstance(found, type) and issubclass(found, Plugin)):
+        raise SimulationError(
+            f"'{plugin.filename}' is no plugin class",
+            source=plugin.source,
+            hint="subclass gazelle.simulation's WorldPlugin, ModelPlugin or SensorPlugin",
+        )
+    return found
 
 
 def _load(point: EntryPoint) -> type[Plugin]:

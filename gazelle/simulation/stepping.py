@@ -49,14 +49,19 @@ def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) 
 
 def _detach(entry: ScheduledPlugin, error: Exception, now: float) -> None:
     entry.schedule = None
+    warn_of_fault(f"plugin '{entry.name}'", entry.owner, f"at {now:g} s and is detached", error)
+
+
+def warn_of_fault(what: str, owner: str, when: str, error: Exception) -> None:
+    """Name a plugin that failed, and the line where it did."""
     last = traceback.extract_tb(error.__traceback__)[-1]
-    owner = f" of '{entry.owner}'" if entry.owner else ""
+    whose = f" of '{owner}'" if owner else ""
     warnings.warn(
         SimulationWarning(
-            f"plugin '{entry.name}'{owner} failed at {now:g} s and is detached: "
-            f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"
+            f"{what}{whose} failed {when}: {type(error).__name__}: {error} "
+            f"({last.filename}:{last.lineno})"
         ),
-        stacklevel=5,
+        stacklevel=6,
     )
 
 
