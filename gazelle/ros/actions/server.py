@@ -26,16 +26,20 @@ _CANCELLED_BEFORE = (
 
 
 class ServerGoalHandle:
-    """A goal, for the server that works on it.
+    """A goal, for the server that works on it; one made of nothing stands for no goal.
 
     Attributes:
         status: The ``GoalStatus`` message.
         goal: The goal with its header and id; None if only a cancel request came.
     """
 
-    def __init__(self, server: ActionServer, status: Any, goal: Any) -> None:
+    def __init__(
+        self, server: ActionServer | None = None, status: Any = None, goal: Any = None
+    ) -> None:
         self._server = server
-        self.status = status
+        self.status: Any = status
+        if status is None:
+            self.status = load_message("actionlib_msgs/GoalStatus")()
         self.goal = goal
         self.finished = 0
         """When it ended [ns]; 0 before."""
@@ -54,7 +58,7 @@ class ServerGoalHandle:
 
     def get_default_result(self) -> Any:
         """An empty result."""
-        return self._server.types.result()
+        return None if self._server is None else self._server.types.result()
 
     def set_accepted(self, text: str = "") -> bool:
         """Work on it begins; False if it cannot."""
@@ -97,6 +101,8 @@ class ServerGoalHandle:
             GoalStatus.PENDING: GoalStatus.RECALLING,
             GoalStatus.ACTIVE: GoalStatus.PREEMPTING,
         }
+        if self._server is None:
+            return self._refuse()
         with self._server.lock:
             after = table.get(self.status.status)
             if after is None:
@@ -107,7 +113,15 @@ class ServerGoalHandle:
 
     def publish_feedback(self, feedback: Any) -> None:
         """Say what is going on."""
-        self._server.publish_feedback(self.status, feedback)
+        if self._server is None:
+            self._refuse()
+        else:
+            self._server.publish_feedback(self.status, feedback)
+
+    @staticmethod
+    def _refuse() -> bool:
+        _LOG.error("Attempt to set status on an uninitialized ServerGoalHandle")
+        return False
 
     def _move(
         self,
@@ -119,6 +133,8 @@ class ServerGoalHandle:
         *,
         over: bool = False,
     ) -> bool:
+        if self._server is None:
+            return self._refuse()
         with self._server.lock:
             before = self.status.status
             after = table.get(before)
@@ -166,6 +182,9 @@ class ActionServer:
         cancel_cb: Called with each goal somebody wants given up.
         auto_start: Start at once.
 
+    Attributes:
+        status_list: The goals it speaks of, oldest first.
+
     Raises:
         ActionException: `spec` is no action.
     """
@@ -187,7 +206,7 @@ class ActionServer:
         self.cancel_callback = cancel_cb
         self.lock = threading.RLock()
         self.started = False
-        self._handles: list[ServerGoalHandle] = []
+        self.status_list: list[ServerGoalHandle] = []
         self._last_cancel = Time(0)
         self._stopped = False
         self._due = time.monotonic()
@@ -254,7 +273,7 @@ class ActionServer:
             self._forget_old()
             message: Any = self._status_array()
             message.header = header(self.node)
-            message.status_list = [handle.status for handle in self._handles]
+            message.status_list = [handle.status for handle in self.status_list]
             self._send(self._status, message)
 
     def publish_result(self, status: Any, result: Any) -> None:
@@ -282,12 +301,12 @@ class ActionServer:
 
     def _forget_old(self) -> None:
         limit = self.node.clock.now() - self.status_list_timeout.to_nsec()
-        self._handles = [h for h in self._handles if not h.finished or h.finished > limit]
+        self.status_list = [h for h in self.status_list if not h.finished or h.finished > limit]
 
     # What comes in -----------------------------------------------------------------------------
 
     def _find(self, name: str) -> ServerGoalHandle | None:
-        return next((h for h in self._handles if h.status.goal_id.id == name), None)
+        return next((h for h in self.status_list if h.status.goal_id.id == name), None)
 
     def _take_goal(self, goal: Any) -> None:
         with self.lock:
@@ -305,7 +324,7 @@ class ActionServer:
             if not stamped:
                 status.goal_id.stamp = now(self.node)
             handle = ServerGoalHandle(self, status, goal)
-            self._handles.append(handle)
+            self.status_list.append(handle)
             if stamped and goal.goal_id.stamp <= self._last_cancel:
                 handle.set_canceled(None, _CANCELLED_BEFORE)
                 return
@@ -327,7 +346,7 @@ class ActionServer:
             everything = not request.id and not request.stamp
             chosen = [
                 handle
-                for handle in self._handles
+                for handle in self.status_list
                 if everything
                 or handle.status.goal_id.id == request.id
                 or (request.stamp and handle.status.goal_id.stamp <= request.stamp)
@@ -346,4 +365,4 @@ class ActionServer:
         status.goal_id, status.status = request, GoalStatus.RECALLING
         handle = ServerGoalHandle(self, status, None)
         handle.finished = max(1, self.node.clock.now())
-        self._handles.append(handle)
+        self.status_list.append(handle)

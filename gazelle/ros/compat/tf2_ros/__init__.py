@@ -23,6 +23,12 @@ from gazelle.ros.compat.tf2_ros.buffer_interface import (
 from gazelle.ros.compat.tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_broadcaster import TransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_listener import TransformListener
+from gazelle.ros.messages import load_message
+
+# The real module gives these names, too, and programs import them from here.
+Header = load_message("std_msgs/Header")
+TFMessage = load_message("tf2_msgs/TFMessage")
+TransformStamped = load_message("geometry_msgs/TransformStamped")
 
 __all__ = [
     "Buffer",
@@ -32,16 +38,19 @@ __all__ = [
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",
+    "Header",
     "InvalidArgumentException",
     "LookupException",
     "NotImplementedException",
     "Stamped",
     "StaticTransformBroadcaster",
+    "TFMessage",
     "TimeoutException",
     "TransformBroadcaster",
     "TransformException",
     "TransformListener",
     "TransformRegistration",
+    "TransformStamped",
     "TypeException",
     "convert",
 ]
