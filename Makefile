@@ -7,12 +7,13 @@ VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
 STAMP := $(VENV)/.installed
 
-.PHONY: help setup demo test test-slow lint bench clean
+.PHONY: help setup demo test test-slow ros-suites lint bench clean
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
 	@echo "make test       set up and run every quick test"
 	@echo "make test-slow  the long checks too"
+	@echo "make ros-suites ROS 1's own test suites against Gazelle (Debian 12, 20 minutes)"
 	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make bench      the benchmark of the environments"
@@ -40,6 +41,10 @@ test: $(STAMP).all
 
 test-slow: $(STAMP).all
 	$(VENV)/bin/python -m pytest -q
+
+# ROS_SOURCES names a folder with checkouts; without it, Debian's source packages are fetched.
+ros-suites: $(STAMP).all
+	$(VENV)/bin/python tools/ros_suites.py $(if $(ROS_SOURCES),--sources $(ROS_SOURCES),--fetch)
 
 lint: $(STAMP).all
 	$(VENV)/bin/ruff check

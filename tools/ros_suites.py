@@ -1,0 +1,127 @@
+"""Run ROS 1's own test suites with parts of Gazelle in the real ones' place, and count.
+
+  python tools/ros_suites.py --fetch
+  python tools/ros_suites.py --sources ~/ros --stack both --only actionlib
+
+Needs the real ROS 1 of Debian 12 (.ci/packages.txt) and the suites' sources: those of Debian's
+source packages (--fetch), or checkouts of ros/ros_comm at 1.15.15, ros/actionlib, ros/geometry and
+ros/geometry2 below one folder. Nothing of them is kept. The stacks are: real, the installed ROS
+alone; master, Gazelle's master under real clients; clients, Gazelle's modules and tools on the real
+master; both. Exits with 1 if a stack passes fewer tests than the real one is known to.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+
+from rossuites import generating, sources, stacks  # noqa: E402  # the path must come first
+from rossuites.catalogue import SUITES, Suite  # noqa: E402
+from rossuites.running import Outcome, run  # noqa: E402
+
+
+def main() -> int:
+    """Run what is asked for and print the table."""
+    options = _parse()
+    if not Path("/usr/bin/rostest").exists():
+        print("the real ROS 1 is not installed (Debian: see .ci/packages.txt); nothing is run")
+        return 1 if options.strict else 0
+    with tempfile.TemporaryDirectory(prefix="ros-suites-") as scratch:
+        return _run(options, Path(scratch))
+
+
+def _parse() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--sources", type=Path, help="folder with the suites' sources")
+    parser.add_argument("--fetch", action="store_true", help="fetch them from Debian")
+    parser.add_argument("--stack", nargs="+", choices=stacks.STACKS, help="default: all but real")
+    parser.add_argument("--only", nargs="+", metavar="SUITE", help="suites by name")
+    parser.add_argument("--quick", action="store_true", help="only those that take seconds")
+    parser.add_argument("--log", type=Path, help="folder for the output of what failed")
+    parser.add_argument("--strict", action="store_true", help="what cannot be run has failed")
+    return parser.parse_args()
+
+
+def _run(options: argparse.Namespace, scratch: Path) -> int:
+    folder = options.sources or scratch / "sources"
+    if options.fetch:
+        folder.mkdir(parents=True, exist_ok=True)
+        for package in sources.fetch(folder):
+            print(f"Debian's source package {package} cannot be had")
+    found = sources.packages(folder) if folder.is_dir() else {}
+    print("| suite | stack | passed | run | real ROS passes | s | differs |")
+    print("|---|---|---|---|---|---|---|")
+    good = True
+    for name in options.stack or [name for name in stacks.STACKS if name != "real"]:
+        stack = stacks.STACKS[name]
+        environment = _prepare(stack, found, scratch / name)
+        for suite in _chosen(options, stack):
+            if suite.package in found:
+                good &= _suite(suite, stack, environment, scratch / name, options.log)
+            else:
+                print(f"| {suite.name} | {name} | - | - | {suite.reference} | | no sources |")
+                good &= not options.strict
+    return 0 if good else 1
+
+
+def _prepare(stack: stacks.Stack, found: dict[str, Path], folder: Path) -> dict[str, str]:
+    environment = stacks.lay_out(stack, folder)
+    names = {suite.package for suite in SUITES} | {"test_rosmaster"}
+    sources.overlay(found, names, folder / "packages", folder / "bin" / "python")
+    generating.generate(folder / "packages", folder / "generated")
+    return environment
+
+
+def _chosen(options: argparse.Namespace, stack: stacks.Stack) -> list[Suite]:
+    return [
+        suite
+        for suite in SUITES
+        if (options.only is None or suite.name in options.only)
+        and (suite.quick or not options.quick)
+        and (not stack.replaces or suite.uses & stack.replaces)
+    ]
+
+
+def _suite(
+    suite: Suite, stack: stacks.Stack, environment: dict[str, str], folder: Path, log: Path | None
+) -> bool:
+    outcomes = []
+    for name in suite.files:
+        home = folder / f"{suite.package}-{Path(name).name}"  # roslaunch wants no blanks
+        file = folder / "packages" / suite.package / name
+        outcome = run(file, environment | {"ROS_HOME": str(home)})
+        if stack.clients and not (home / stacks.USED).exists():
+            raise SystemExit(f"{name}: Gazelle's modules were not used")
+        outcomes.append(outcome)
+        if log is not None and outcome.passed < suite.files[name]:
+            log.mkdir(parents=True, exist_ok=True)
+            (log / f"{stack.name}-{Path(name).name}.log").write_text(outcome.log)
+    passed = sum(outcome.passed for outcome in outcomes)
+    fewer, reason = suite.less.get(stack.name, (0, ""))
+    print(_row(suite, stack, outcomes, reason), flush=True)
+    return passed >= suite.reference - fewer
+
+
+def _row(suite: Suite, stack: stacks.Stack, outcomes: list[Outcome], reason: str) -> str:
+    failed = ", ".join(name for outcome in outcomes for name in outcome.failed)
+    cells = (
+        suite.name,
+        stack.name,
+        sum(outcome.passed for outcome in outcomes),
+        sum(outcome.total for outcome in outcomes),
+        suite.reference,
+        f"{sum(outcome.seconds for outcome in outcomes):.0f}",
+        "; ".join(each for each in (reason, failed) if each),
+    )
+    return f"| {' | '.join(map(str, cells))} |"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+"""Finds or fetches the repositories whose suites are run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tarfile
+from collections.abc import Iterable
+from pathlib import Path
+
+DEBIAN = ("ros-ros-comm", "ros-actionlib", "ros-geometry", "ros-geometry2")
+_LIST = """Types: deb-src
+URIs: http://deb.debian.org/debian
+Suites: bookworm
+Components: main
+Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
+"""
+
+
+def fetch(folder: Path) -> list[str]:
+    """Fetch the source packages of Debian 12 with apt, and unpack them.
+
+    The lists and caches of apt are kept in the folder too: the system's own are left as they are.
+
+    Args:
+        folder: Where they go.
+
+    Returns:
+        The packages that could not be had.
+    """
+    options = _apt_options(folder)
+    subprocess.run(["apt-get", *options, "-qq", "update"], check=False, timeout=300)
+    missing = []
+    for package in DEBIAN:
+        place = folder / package
+        place.mkdir(exist_ok=True)
+        command = ["apt-get", *options, "-qq", "source", "--download-only", package]
+        subprocess.run(command, cwd=place, check=False, timeout=300, capture_output=True)
+        archives = list(place.glob("*.orig.tar.*"))
+        for archive in archives:
+            with tarfile.open(archive) as packed:
+                packed.extractall(place, filter="data")
+        if not archives:
+            missing.append(package)
+    return missing
+
+
+def _apt_options(folder: Path) -> list[str]:
+    for each in ("apt/parts", "apt/lists/partial", "apt/cache/archives/partial"):
+        (folder / each).mkdir(parents=True, exist_ok=True)
+    (folder / "apt/parts/sources.sources").write_text(_LIST)
+    settings = {
+        "Dir::Etc::SourceList": "/dev/null",
+        "Dir::Etc::SourceParts": folder / "apt/parts",
+        "Dir::State::Lists": folder / "apt/lists",
+        "Dir::Cache": folder / "apt/cache",
+        "APT::Sandbox::User": "root",
+    }
+    return [word for key, value in settings.items() for word in ("-o", f"{key}={value}")]
+
+
+def packages(folder: Path) -> dict[str, Path]:
+    """The folders of the ROS packages below a folder, by name."""
+    found: dict[str, Path] = {}
+    for place, folders, files in os.walk(folder, followlinks=True):
+        if "package.xml" in files:
+            found.setdefault(Path(place).name, Path(place))
+            folders.clear()
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+    return found
+
+
+def overlay(found: dict[str, Path], names: Iterable[str], folder: Path, python: Path) -> None:
+    """Make a folder with copies of some packages, whose scripts run with a given Python.
+
+    A whole tree cannot be on ROS_PACKAGE_PATH: its rosbag_storage would hide the installed one,
+    whose plugins rosbag then misses. PATH cannot say which Python it is: Debian's rostest puts its
+    own in front.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in sorted(set(names)):
+        if name in found:
+            shutil.copytree(found[name], folder / name)
+    for file in folder.rglob("*"):
+        if file.is_file():
+            _use_python(file, python)
+
+
+def _use_python(script: Path, python: Path) -> None:
+    first, line_end, rest = script.read_bytes().partition(b"\n")
+    if first.startswith(b"#!") and b"python" in first:
+        script.write_bytes(b"#!" + bytes(python) + line_end + rest)

@@ -1,0 +1,3 @@
+"""What roslaunch asks of this module."""
+
+NUM_WORKERS = 3
