@@ -90,7 +90,8 @@ class StateAccess(ABC):
         """How a link's motion changes in the next physics step [m/s², rad/s²]."""
         before = self.link_motion(link, worlds)
         state, warnings = self._batch.state.copy(), self._batch.warning.copy()
-        self._batch.step(ids=worlds)
+        with self._layout.limits.held_back(self._state):
+            self._batch.step(ids=worlds)
         self._stale = True
         after = self.link_motion(link, worlds)
         self._batch.state[:], self._batch.warning[:] = state, warnings
@@ -238,7 +239,9 @@ class StateAccess(ABC):
     def set_joint_effort(self, joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply an effort [N or N m] until told otherwise, shape (axes,) or (n, axes)."""
         slots = self._now().joint(joint)
-        self._write(self._state.qfrc_applied, [s.velocity for s in slots], effort, worlds)
+        given = np.atleast_1d(np.asarray(effort, np.float64))
+        within = self._layout.limits.clamp(joint, given)
+        self._write(self._state.qfrc_applied, [s.velocity for s in slots], within, worlds)
 
     def _write(
         self, array: Floats, columns: list[slice], values: ArrayLike, worlds: Worlds | None

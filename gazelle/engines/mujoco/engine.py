@@ -126,16 +126,30 @@ class MujocoEngine(ForceAccess):
         self._now()
         self._stale = True
         np.copyto(self._before, self._batch.state)
-        failed: Sequence[int] = ()
-        try:
-            self._batch.step(nstep=count)
-        except SimulationError as error:
-            failed = error.ids
+        failed = self._advance(count)
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
         if len(failed) or np.count_nonzero(self._state.faults):
             bad = np.asarray(self._state.faults.any(axis=1))
-            bad[np.asarray(failed, np.intp)] = True
+            bad[sorted(failed)] = True
             self._give_up(np.flatnonzero(bad), count)
+
+    def _advance(self, count: int) -> set[int]:
+        """Step all worlds; returns those in which MuJoCo gave up."""
+        limits = self._layout.limits
+        if not limits.govern(self._state):
+            return self._step_batch(count)
+        failed: set[int] = set()
+        for _ in range(count):
+            with limits.held_back(self._state):
+                failed |= self._step_batch(1)
+        return failed
+
+    def _step_batch(self, count: int) -> set[int]:
+        try:
+            self._batch.step(nstep=count)
+        except SimulationError as error:
+            return {int(world) for world in error.ids}
+        return set()
 
     def _give_up(self, worlds: Worlds, count: int) -> None:
         """Reset worlds that broke down, and say so.

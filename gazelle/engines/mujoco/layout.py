@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
@@ -10,6 +11,7 @@ import mujoco
 
 from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
+from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
 from gazelle.engines.mujoco.tree import Body, RootKind
 from gazelle.errors import EngineError, did_you_mean
 
@@ -98,6 +100,7 @@ class Layout:
         collisions: Indices of MuJoCo's geoms by scoped name, ``model::link::collision``.
         attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
         reactions: Joints that hold a body, by scoped name.
+        limits: Of efforts on joints.
     """
 
     links: Mapping[str, LinkSlot]
@@ -107,6 +110,7 @@ class Layout:
     collisions: Mapping[str, list[int]]
     attachments: Mapping[str, int]
     reactions: Mapping[str, ReactionSlot]
+    limits: EffortLimits
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -169,11 +173,14 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
                 reactions[body.joint_name] = ReactionSlot(links[body.name].body, anchor)
             if body.joint is not None and body.joint.type != "fixed":
                 joints[body.joint_name] = _joint_slots(model, body.joint_name)
-        models[name] = _model_slot(bodies, joints)
+        if bodies:  # a model may have no links, only plugins
+            models[name] = _model_slot(bodies, joints)
     motors = {model.actuator(column).name: column for column in range(model.nu)}
     collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
     held = {name: model.equality(name).id for name in attachments}
-    return Layout(links, joints, models, motors, collisions, held, reactions)
+    columns = {name: tuple(slot.velocity for slot in slots) for name, slots in joints.items()}
+    limits = effort_limits(itertools.chain.from_iterable(compiled.bodies.values()), columns)
+    return Layout(links, joints, models, motors, collisions, held, reactions, limits)
 
 
 def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:

@@ -58,7 +58,8 @@ class ForceAccess(BodyAccess):
             state = batch.state.copy()
             flags &= ~SENSORS_OFF
             try:
-                batch.forward()
+                with self._layout.limits.held_back(self._state):
+                    batch.forward()
             finally:
                 flags |= SENSORS_OFF
                 batch.state[:] = state
