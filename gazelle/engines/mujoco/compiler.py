@@ -166,12 +166,15 @@ def draft_world(recipe: Recipe) -> Draft:
     add_attachments(spec, recipe.attachments, bodies)
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    springs = add_pairs(spec, builder.solids, recipe.time_step)
-    if springs:
-        # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more.
+    gravity = math.hypot(*recipe.world.gravity)
+    pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
+    if pairs.springs or pairs.bounces:
+        # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
+        # and bounce with what bounces.
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    if pairs.springs:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
-    return Draft(spec, builder.shapes, bodies, builder.geoms, springs)
+    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs)
 
 
 def _needs_cone(solids: list[Solid]) -> bool:
@@ -240,14 +243,15 @@ class _Builder:
             for shape in self.shapes.options(collision.geometry, placed, collision.source):
                 names.append(f"{body.name}::{collision.name}#{len(names)}")
                 handle.add_geom(name=names[-1], group=COLLISION_GROUP, mass=0.0, **surface, **shape)
-                self.solids.append(self._solid(names[-1], body, collision))
+                self.solids.append(self._solid(names[-1], body, collision, placed))
 
-    def _solid(self, name: str, body: Body, collision: Collision) -> Solid:
+    def _solid(self, name: str, body: Body, collision: Collision, placed: Pose) -> Solid:
         model = body.name.partition("::")[0]
         moves = body.root not in ("static", "kinematic")
         where = body.name if body.root != "static" else ""
         mass = self._masses[model] if moves else math.inf
-        return Solid(name, where, model, mass, body.self_collide, collision)
+        turn = placed.quaternion if body.root == "static" else None
+        return Solid(name, where, model, mass, body.self_collide, collision, turn)
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""

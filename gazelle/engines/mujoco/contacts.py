@@ -1,17 +1,16 @@
-"""Contacts between two surfaces that MuJoCo would mix wrongly: bouncing and springy ones.
+"""Contacts between two surfaces that MuJoCo would mix wrongly, by pairs.
 
 MuJoCo decides most contacts by the surface of one of the two geoms. Where both matter, as
-for restitution and for stiffness, the two get a contact pair of their own, with terms that
-follow from ODE's rules for two surfaces:
+for restitution, for stiffness and for friction that differs by direction, the two get a
+contact pair of their own, with terms that follow from ODE's rules for two surfaces:
 
 * restitution: the smaller coefficient;
 * stiffness: 1 / (1 / kp1 + 1 / kp2), damping: kd1 + kd2;
-* friction: the smaller coefficient.
+* friction: the smaller coefficient, in each direction.
 """
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 import warnings
@@ -20,21 +19,25 @@ from dataclasses import dataclass
 from typing import Any
 
 import mujoco
-import numpy as np
 
-from gazelle.description import Collision
-from gazelle.engines.mujoco.surfaces import friction_of
+from gazelle.description import Collision, Contact
+from gazelle.engines.mujoco.directions import Quaternion, Rubbing, friction_between, is_directional
+from gazelle.engines.mujoco.surfaces import rigid_terms, torsional_friction_of
 from gazelle.errors import EngineWarning
 
 # Above this speed no file means its bounce threshold seriously [m/s]; SDF's default is 1e5.
-_LARGEST_THRESHOLD = 1000.0
+# What falls that fast fell from 45 m.
+_LARGEST_THRESHOLD = 30.0
 
-# Half a period of a bounce, in physics steps. More would let bodies sink deeper while they
-# bounce, fewer would let the height depend more on when in a step the contact begins.
-_BOUNCE_STEPS = 20
-
-# Impact speed at which the coefficient comes out best: a fall from 0.8 m [m/s].
+# Impact speed at which the coefficient of restitution comes out best: a fall from 0.8 m [m/s].
 _USUAL_SPEED = 4.0
+
+# Softest correction of a bouncing contact, as a share of the depth a step. With none at all
+# what lies would sink without end.
+_LEAST_CORRECTION = 1e-4
+
+# Share of the force of a bouncing contact that acts: MuJoCo's most.
+_FULL = 0.9999
 
 # Stiffer springs than this are as good as rigid [N/m]; SDF's default is 1e12.
 _STIFFEST = 1e9
@@ -56,6 +59,7 @@ class Solid:
         mass: Of that model [kg]; infinite when it does not move.
         collides_with_own: Whether it collides with its own model.
         collision: The description.
+        turn: How it stands in the world (x, y, z, w); None if it moves.
     """
 
     geom: str
@@ -64,6 +68,12 @@ class Solid:
     mass: float
     collides_with_own: bool
     collision: Collision
+    turn: Quaternion | None = None
+
+    @property
+    def rubbing(self) -> Rubbing:
+        """What of it matters for friction."""
+        return Rubbing(self.collision, self.turn)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,47 +91,70 @@ class Spring:
     damping: float
 
 
-def add_pairs(spec: mujoco.MjSpec, solids: Iterable[Solid], time_step: float) -> list[Spring]:
-    """Add a contact pair for every two surfaces that bounce or give way.
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """What the pairs of a world ask of it.
 
-    Returns:
-        The springs, to be tuned by ``tune_springs`` when the model is compiled.
+    Attributes:
+        springs: To be tuned by ``tune_springs`` when the model is compiled.
+        bounces: Whether some bounce.
     """
-    special = [s for s in solids if _bounce_of(s.collision) > 0.0 or _is_soft(s.collision)]
+
+    springs: list[Spring]
+    bounces: bool
+
+
+def add_pairs(
+    spec: mujoco.MjSpec, solids: Iterable[Solid], time_step: float, gravity: float
+) -> Pairs:
+    """Add a contact pair for every two surfaces that MuJoCo would mix wrongly.
+
+    Args:
+        spec: Where to.
+        solids: All geoms that may touch others.
+        time_step: Physics step [s].
+        gravity: Its size [m/s²].
+    """
     everything = list(solids)
     springs: list[Spring] = []
-    seen: set[tuple[str, str]] = set()
-    count = 0
-    for first, second in itertools.product(special, everything):
-        names = (min(first.geom, second.geom), max(first.geom, second.geom))
-        if names in seen or not _may_touch(first, second):
-            continue
-        seen.add(names)
-        law = _law(first, second, time_step)
-        if law is None:
-            continue
+    bounces = False
+    for count, (first, second) in enumerate(_special_pairs(everything, time_step)):
         if count == _MOST_PAIRS:
             warnings.warn(
                 EngineWarning(
-                    f"more than {_MOST_PAIRS} pairs of surfaces bounce or are springy; "
-                    "the others are rigid"
+                    f"more than {_MOST_PAIRS} pairs of surfaces bounce, are springy or rub by "
+                    "direction; the others are rigid and rub alike in all directions"
                 ),
                 stacklevel=2,
             )
             break
-        options, spring = law
-        mu = min(friction_of(first.collision), friction_of(second.collision))
-        spec.add_pair(
-            geomname1=first.geom,
-            geomname2=second.geom,
-            condim=3 if mu > 0.0 else 1,
-            friction=[mu, mu, 0.0, 0.0, 0.0],
-            **options,
-        )
-        if spring is not None:
+        e, spring = _restitution(first, second), _spring_between(first, second, time_step)
+        terms: dict[str, Any] = rigid_terms(time_step)
+        if e > 0.0:
+            terms, bounces = bouncing_terms(e, time_step, gravity), True
+        elif spring is not None:
             springs.append(Spring(count, *spring))
-        count += 1
-    return springs
+        spec.add_pair(
+            geomname1=first.geom, geomname2=second.geom, **_friction_terms(first, second), **terms
+        )
+    return Pairs(springs, bounces)
+
+
+def _special_pairs(solids: list[Solid], time_step: float) -> Iterable[tuple[Solid, Solid]]:
+    special = [s for s in solids if _bounces(s) or _is_soft(s) or is_directional(s.collision)]
+    seen: set[tuple[str, str]] = set()
+    for first, second in itertools.product(special, solids):
+        names = (min(first.geom, second.geom), max(first.geom, second.geom))
+        if names in seen or not _may_touch(first, second):
+            continue
+        seen.add(names)
+        directional = is_directional(first.collision) or is_directional(second.collision)
+        if (
+            directional
+            or _restitution(first, second) > 0.0
+            or _spring_between(first, second, time_step) is not None
+        ):
+            yield first, second
 
 
 def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:
@@ -144,9 +177,36 @@ def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:
         flat = bool(pyramidal and model.pair_dim[spring.pair] > 1)
         pyramid = mu * mu * (1.0 + mu * mu) / 2.0 if flat else 1.0
         ratio = give / h / max(mobility * pyramid, 1e-12)
-        d = min(max(1.0 / (1.0 + ratio), 1e-4), 0.9999)
+        d = min(max(1.0 / (1.0 + ratio), 1e-4), _FULL)
         model.pair_solimp[spring.pair] = (d, d, 0.001, 0.5, 2.0)
         model.pair_solref[spring.pair] = (-d * erp / h**2, -d / h)
+
+
+def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list[float]]:
+    """Terms of a contact that bounces by a coefficient, in one step, as ODE's.
+
+    MuJoCo's reference acceleration is -B v - K depth. With B = (1 + e) / h the velocity v of
+    approach becomes -e v in the step h that finds the bodies in each other. By then they are
+    too deep by up to v h, and were sped up by gravity g on the way: to reach e² of the height
+    all the same they must part a little faster, by g (1 - e²) / (e v) times the depth. That is
+    K h, at a usual speed v. What rubs stops, in the same step.
+    """
+    h = time_step
+    correction = gravity * (1.0 - e * e) / (e * _USUAL_SPEED) * h
+    stiffness = min(max(correction, _LEAST_CORRECTION), 1.0) / h**2
+    return {
+        "solref": [-_FULL * stiffness, -_FULL * (1.0 + e) / h],
+        "solreffriction": [0.0, -_FULL / h],
+        "solimp": [_FULL, _FULL, 0.001, 0.5, 2.0],
+    }
+
+
+def _friction_terms(first: Solid, second: Solid) -> dict[str, Any]:
+    one, two = friction_between(first.rubbing, second.rubbing)
+    spin = max(torsional_friction_of(first.collision), torsional_friction_of(second.collision))
+    rubs = max(one, two, spin) > 0.0
+    condim = 4 if spin > 0.0 else 3
+    return {"condim": condim if rubs else 1, "friction": [one, two, spin, 0.0, 0.0]}
 
 
 def _geoms(model: mujoco.MjModel, pair: int) -> tuple[int, int]:
@@ -166,27 +226,37 @@ def _may_touch(first: Solid, second: Solid) -> bool:
     return bool(a.collide_bitmask & b.collide_bitmask)
 
 
-def _law(
-    first: Solid, second: Solid, time_step: float
-) -> tuple[dict[str, Any], tuple[float, float] | None] | None:
-    """Options of the pair, and stiffness and damping of a spring; None for a rigid contact."""
-    e = min(_bounce_of(first.collision), _bounce_of(second.collision))
-    if e > 0.0:
-        omega = math.pi / (_BOUNCE_STEPS * time_step)
-        ratio = damping_ratio_for(min(e, 1.0), time_step)
-        d = 0.999
-        options = {
-            "solref": [-(omega**2), -2.0 * ratio * omega],
-            "solimp": [d, d, 0.001, 0.5, 2.0],
-        }
-        return options, None
+def _spring_between(first: Solid, second: Solid, time_step: float) -> tuple[float, float] | None:
+    """Stiffness and damping of a contact; None for one that is as good as rigid."""
     a, b = first.collision.surface.contact, second.collision.surface.contact
-    stiffness = 1.0 / (1.0 / max(a.kp, 1e-9) + 1.0 / max(b.kp, 1e-9))
+    (kp1, kd1), (kp2, kd2) = _stiffness_of(a, time_step), _stiffness_of(b, time_step)
+    stiffness = 1.0 / (1.0 / max(kp1, 1e-9) + 1.0 / max(kp2, 1e-9))
     mass = min(first.mass, second.mass)
     period = 2.0 * math.pi * math.sqrt(mass / stiffness)
     if stiffness > _STIFFEST or period < _FEWEST_STEPS_A_PERIOD * time_step:
         return None
-    return {}, (stiffness, a.kd + b.kd)
+    return stiffness, kd1 + kd2
+
+
+def _stiffness_of(contact: Contact, time_step: float) -> tuple[float, float]:
+    """Stiffness and damping of one surface, from its ERP and CFM if it gives those.
+
+    With erp = h kp / (h kp + kd) and cfm = 1 / (h kp + kd), ODE's manual, kp is erp / (h cfm)
+    and kd is (1 - erp) / cfm.
+    """
+    if contact.soft_cfm > 0.0 and contact.kp > _STIFFEST:
+        kp = contact.soft_erp / (time_step * contact.soft_cfm)
+        return kp, max(0.0, 1.0 - contact.soft_erp) / contact.soft_cfm
+    return contact.kp, contact.kd
+
+
+def _restitution(first: Solid, second: Solid) -> float:
+    e = min(_bounce_of(first.collision), _bounce_of(second.collision))
+    return min(e, 1.0)
+
+
+def _bounces(solid: Solid) -> bool:
+    return _bounce_of(solid.collision) > 0.0
 
 
 def _bounce_of(collision: Collision) -> float:
@@ -196,42 +266,6 @@ def _bounce_of(collision: Collision) -> float:
     return bounce.restitution_coefficient
 
 
-def _is_soft(collision: Collision) -> bool:
-    return collision.surface.contact.kp <= _STIFFEST
-
-
-@functools.cache
-def damping_ratio_for(restitution: float, time_step: float) -> float:
-    """The damping ratio with which a stepped spring contact bounces by a coefficient.
-
-    Found by bisection on the very recursion that the engine makes: semi-implicit Euler with
-    a force that only pushes, averaged over where in a step the contact begins.
-    """
-    if restitution >= 1.0:
-        return 0.0
-    low, high = 0.0, 2.0
-    for _ in range(40):
-        middle = (low + high) / 2.0
-        if _stepped_restitution(middle, time_step) > restitution:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2.0
-
-
-def _stepped_restitution(ratio: float, time_step: float) -> float:
-    """Root mean square of the coefficient over phases, for an impact at a usual speed.
-
-    Lengths are in distances that the body falls in a step, times in steps. Gravity acts
-    once the contact no longer pushes, while the body is still in it.
-    """
-    omega = math.pi / _BOUNCE_STEPS
-    gravity = 9.8 * time_step / _USUAL_SPEED
-    depth = -(np.arange(64) + 0.5) / 64.0
-    speed = -np.ones(64)
-    for _ in range(6 * _BOUNCE_STEPS):
-        force = -2.0 * ratio * omega * speed - omega**2 * depth
-        inside = depth < 0.0
-        speed = speed + np.where(inside, np.maximum(force, -gravity), 0.0)
-        depth = depth + speed
-    return float(np.sqrt((np.clip(speed, 0.0, None) ** 2).mean()))
+def _is_soft(solid: Solid) -> bool:
+    contact = solid.collision.surface.contact
+    return contact.kp <= _STIFFEST or contact.soft_cfm > 0.0

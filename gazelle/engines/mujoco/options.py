@@ -12,6 +12,9 @@ from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead
 
 _LINE_SEARCH_ITERATIONS = 20
 
+# SDF's friction models. A pyramid's sides bear more or less than a cone by the direction.
+_CONES = {"cone_model": mujoco.mjtCone.mjCONE_ELLIPTIC}
+
 SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 
 
@@ -21,7 +24,7 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     option.timestep = time_step
     # Semi-implicit Euler as ODE integrates; joint damping stays implicit (eulerdamp).
     option.integrator = mujoco.mjtIntegrator.mjINT_EULER
-    option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    option.cone = _CONES.get(world.profile.ode.friction_model, mujoco.mjtCone.mjCONE_PYRAMIDAL)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
     option.iterations = max(1, world.profile.ode.iters)

@@ -165,16 +165,19 @@ def _write_motor(target: _Target, name: str, values: Floats) -> None:
 
 
 def _write_friction(target: _Target, name: str, values: Floats) -> None:
-    friction = target.batch.expand("geom_friction")
-    friction[:, target.geoms(name), 0] = np.minimum(values, LARGEST_FRICTION)
+    friction, geoms = target.batch.expand("geom_friction"), target.geoms(name)
+    friction[:, geoms, 0] = np.minimum(values, LARGEST_FRICTION)
     # The slipperier of two surfaces decides: the finer their order, the better.
     slipperiness = (LARGEST_FRICTION - friction[:, :, 0]) * 1e6
     target.batch.expand("geom_priority")[:] = slipperiness.astype(np.int32)
     model = target.batch.model
-    if model.npair:
+    touched = np.isin(model.pair_geom1, geoms) | np.isin(model.pair_geom2, geoms)
+    own = values[:, 0] != model.geom_friction[geoms[0], 0] if geoms else []
+    if touched.any() and np.any(own):
+        # A world that has a coefficient of its own has it in all directions.
         ends = friction[:, model.pair_geom1, 0], friction[:, model.pair_geom2, 0]
-        both = target.batch.expand("pair_friction")
-        both[:, :, 0] = both[:, :, 1] = np.minimum(*ends)
+        changed = np.ix_(own, touched, np.arange(2))
+        target.batch.expand("pair_friction")[changed] = np.minimum(*ends)[changed[:2]]
 
 
 def _write_gravity(target: _Target, _: str, values: Floats) -> None:

@@ -5,12 +5,11 @@ The derivations and their limits are written down in ``docs/physics.md``.
 
 from __future__ import annotations
 
-import warnings
+import math
 from collections.abc import Iterable
 from typing import Any
 
 from gazelle.description import Collision
-from gazelle.errors import EngineWarning
 
 # Files say "never slip" with 1e5 and more. At 100 nothing slips on slopes of up to 89 degrees.
 LARGEST_FRICTION = 100.0
@@ -35,17 +34,36 @@ _TIME_CONSTANT_STEPS = 3.0
 
 
 def friction_of(collision: Collision) -> float:
-    """The sliding friction coefficient that is used for a collision."""
+    """The sliding friction coefficient of a collision, along its first direction."""
+    return min(collision.surface.friction.mu, LARGEST_FRICTION)
+
+
+def second_friction_of(collision: Collision) -> float:
+    """That along its second direction; the same where nothing slips in either."""
     friction = collision.surface.friction
-    if friction.mu != friction.mu2 and min(friction.mu, friction.mu2) < _NEVER_SLIPS:
-        warnings.warn(
-            EngineWarning(
-                f"collision '{collision.name}': friction differs by direction "
-                f"(mu {friction.mu:g}, mu2 {friction.mu2:g}); mu is used for both"
-            ),
-            stacklevel=2,
-        )
-    return min(friction.mu, LARGEST_FRICTION)
+    if min(friction.mu, friction.mu2) >= _NEVER_SLIPS:
+        return friction_of(collision)
+    return min(friction.mu2, LARGEST_FRICTION)
+
+
+def torsional_friction_of(collision: Collision) -> float:
+    """Largest torque about the normal of a contact over its force [m].
+
+    That of a round patch of radius a under Hertz's pressure, 3 pi / 16 mu a, as in Gazebo's
+    tutorial on torsional friction. A patch that grows with the depth is not known here.
+    """
+    torsional = collision.surface.friction.torsional
+    if torsional is None or not torsional.use_patch_radius:
+        return 0.0
+    return 3.0 * math.pi / 16.0 * torsional.coefficient * torsional.patch_radius
+
+
+def rigid_terms(time_step: float) -> dict[str, list[float]]:
+    """How a rigid contact corrects what is wrong, in MuJoCo's words."""
+    return {
+        "solref": [_TIME_CONSTANT_STEPS * time_step, _DAMPING_RATIO],
+        "solimp": list(_IMPEDANCE),
+    }
 
 
 def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
@@ -77,11 +95,7 @@ def surface_options(
 ) -> dict[str, Any]:
     """Arguments of ``add_geom`` that hold the surface."""
     surface = collision.surface
-    mu = friction_of(collision)
-    torsional = surface.friction.torsional
-    spin = 0.0
-    if torsional is not None and torsional.use_patch_radius:
-        spin = torsional.coefficient * torsional.patch_radius
+    mu, spin = friction_of(collision), torsional_friction_of(collision)
     mask = 0 if surface.contact.collide_without_contact else surface.contact.collide_bitmask
     return {
         "friction": [mu, spin, 0.0],
@@ -89,6 +103,5 @@ def surface_options(
         "priority": ranks[mu],
         "contype": mask & 0xFFFF,
         "conaffinity": mask & 0xFFFF,
-        "solref": [_TIME_CONSTANT_STEPS * time_step, _DAMPING_RATIO],
-        "solimp": list(_IMPEDANCE),
+        **rigid_terms(time_step),
     }

@@ -1,0 +1,155 @@
+"""What a surface's words do: friction by direction and about the normal, softness, thresholds."""
+
+import math
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import (
+    Bounce,
+    Contact,
+    Friction,
+    Pose,
+    Surface,
+    TorsionalFriction,
+)
+from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
+from gazelle.errors import EngineWarning
+
+G = 9.8
+
+
+def with_surface(model, surface, **changes):
+    link = model.links[0]
+    collisions = tuple(replace(c, surface=surface) for c in link.collisions)
+    return replace(model, links=(replace(link, collisions=collisions),), **changes)
+
+
+def tilted(angle, heading=0.0):
+    """Gravity on a plane that falls by an angle towards a heading."""
+    down = math.sin(angle)
+    return (G * down * math.cos(heading), G * down * math.sin(heading), -G * math.cos(angle))
+
+
+def slid(surface, angle, heading=0.0, ground=None, model="pyramid_model"):
+    """How far a flat block slides down a slope in a second, after a tenth [m]."""
+    block = with_surface(scenes.box(size=(0.4, 0.4, 0.05), pose=Pose(z=0.025)), surface)
+    world = scenes.world(ground or scenes.ground(), block, gravity=tilted(angle, heading))
+    profile = replace(world.profile, ode=replace(world.profile.ode, friction_model=model))
+    engine = make_engine("mujoco", with_profile(world, profile))
+    engine.step(100)
+    start = engine.model_placement("box").position[0]
+    engine.step(1000)
+    return float(np.linalg.norm((engine.model_placement("box").position[0] - start)[:2]))
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.6, math.pi / 4.0])
+@pytest.mark.parametrize("mu", [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0])
+def test_a_block_slips_at_the_friction_angle(mu, heading):
+    """Within 2 %: at 98 % of it the block holds, at 102 % it goes about as far as mechanics says."""
+    surface, model = scenes.rubber(mu), "pyramid_model" if heading == 0.0 else "cone_model"
+    assert slid(surface, 0.98 * math.atan(mu), heading, model=model) < 0.002
+    steep = 1.02 * math.atan(mu)
+    pull = G * (math.sin(steep) - mu * math.cos(steep))
+    far = pull * (1.1**2 - 0.1**2) / 2.0
+    assert slid(surface, steep, heading, model=model) > 0.8 * far
+
+
+def test_between_its_corners_a_pyramid_holds_down_to_seven_tenths():
+    mu = 0.5
+    assert slid(scenes.rubber(mu), math.atan(0.69 * mu), math.pi / 4.0) < 0.002
+    assert slid(scenes.rubber(mu), math.atan(0.73 * mu), math.pi / 4.0) > 0.02
+
+
+@pytest.mark.parametrize(("mu", "mu2"), [(0.5, 0.1), (0.1, 0.5)])
+def test_without_fdir1_friction_differs_along_y_and_x_on_level_ground_as_in_ode(mu, mu2):
+    surface = Surface(Friction(mu, mu2))
+    angle = math.atan(0.3)
+    along_x, along_y = slid(surface, angle), slid(surface, angle, math.pi / 2.0)
+    slippery, rough = (along_x, along_y) if mu2 < mu else (along_y, along_x)
+    assert rough < 0.002
+    pull = G * (math.sin(angle) - 0.1 * math.cos(angle))
+    assert slippery == pytest.approx(pull * (1.1**2 - 0.1**2) / 2.0, rel=0.02)
+
+
+def test_fdir1_of_the_ground_turns_the_directions():
+    surface = Surface(Friction(0.5, 0.1, fdir1=(1.0, 0.0, 0.0)))
+    floor = with_surface(scenes.ground(), surface)
+    angle = math.atan(0.3)
+    assert slid(scenes.rubber(5.0), angle, ground=floor) < 0.002
+    assert slid(scenes.rubber(5.0), angle, math.pi / 2.0, ground=floor) > 0.5
+
+
+def test_an_fdir1_that_turns_with_its_body_is_warned_about_once_and_mu_used():
+    surface = Surface(Friction(0.5, 0.1, fdir1=(0.0, 0.0, 1.0)))
+    with pytest.warns(EngineWarning, match=r"fdir1 turns with the link; 0.5 is used") as caught:
+        moved = slid(surface, math.atan(0.3))
+    assert len(caught) == 1
+    assert moved < 0.002
+
+
+def test_directions_do_not_matter_where_nothing_slips():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert (
+            slid(Surface(Friction(100.0, 50.0, fdir1=(1.0, 0.0, 0.0))), math.radians(60.0)) < 0.01
+        )
+
+
+def test_the_friction_of_one_world_stays_in_it_and_off_other_pairs():
+    first = with_surface(scenes.box("first", pose=Pose(z=0.1)), Surface(Friction(0.5, 0.1)))
+    second = with_surface(scenes.box("second", pose=Pose(2.0, z=0.1)), Surface(Friction(0.5, 0.1)))
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), first, second), nworld=2)
+    engine.set_parameter("collision_friction", "first::link::c", [0.02], np.array([1]))
+    pairs = engine._batch.expand("pair_friction")
+    assert np.allclose(pairs[0, :, :2], (0.5, 0.1))
+    assert sorted(pairs[1, :, :2].tolist()) == [[0.02, 0.02], [0.02, 0.02], [0.5, 0.1]]
+
+
+def test_torsional_friction_stops_a_spinning_ball_as_hertz_says():
+    torsional = TorsionalFriction(coefficient=0.5, patch_radius=0.02)
+    surface = Surface(Friction(1.0, 1.0, torsional=torsional))
+    ball = with_surface(scenes.ball(mass=2.0, pose=Pose(z=0.1)), surface)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
+    engine.step(200)
+    engine.set_model_motion("ball", (0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
+    engine.step(500)
+    rate = 3.0 * math.pi / 16.0 * 0.5 * 0.02 * 2.0 * G / (0.4 * 2.0 * 0.1**2)
+    assert engine.link_motion("ball::link").angular[0, 2] == pytest.approx(
+        20.0 - 0.5 * rate, rel=0.02
+    )
+
+
+def test_without_a_patch_radius_a_ball_spins_on():
+    surface = Surface(Friction(1.0, 1.0, torsional=TorsionalFriction(patch_radius=0.0)))
+    ball = with_surface(scenes.ball(pose=Pose(z=0.1)), surface)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
+    engine.set_model_motion("ball", (0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
+    engine.step(1000)
+    assert engine.link_motion("ball::link").angular[0, 2] == pytest.approx(20.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("cfm", "erp", "mass"), [(0.01, 0.2, 1.0), (0.05, 0.5, 2.0), (1e-3, 0.1, 5.0)]
+)
+def test_a_soft_surface_gives_way_as_its_cfm_and_erp_say(cfm, erp, mass):
+    """ODE at rest: erp / h * depth = cfm * force."""
+    soft = Surface(Friction(0.5, 0.5), Contact(soft_cfm=cfm, soft_erp=erp))
+    ball = with_surface(scenes.ball(radius=0.3, mass=mass, pose=Pose(z=0.3)), soft)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
+    engine.step(4000)
+    depth = 0.3 - engine.model_placement("ball").position[0, 2]
+    assert depth == pytest.approx(0.001 * cfm / erp * mass * G, rel=0.05)
+
+
+def test_a_threshold_that_nothing_reaches_means_no_bounce():
+    bouncy = Surface(bounce=Bounce(0.9, 200.0))
+    ball = with_surface(scenes.ball(pose=Pose(z=0.6)), bouncy)
+    floor = with_surface(scenes.ground(), bouncy)
+    engine = make_engine("mujoco", scenes.world(floor, ball))
+    engine.step(700)
+    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-3)
