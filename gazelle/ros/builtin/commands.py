@@ -26,6 +26,12 @@ def param(arguments: Sequence[str]) -> int:
     return run_command("param", arguments)
 
 
+def call_command(name: str, arguments: Sequence[str]) -> int:
+    """Run a command of Gazelle's as a process of its own; returns its exit code."""
+    command = [sys.executable, "-m", "gazelle.cli.main", name, *arguments]
+    return subprocess.call(command)  # noqa: S603  # our own program
+
+
 def run_command(tool: str, arguments: Sequence[str]) -> int:
     """Run a command of Gazelle's without what roslaunch adds to a node's command line."""
     plain, mappings = names.split_arguments(arguments)

@@ -253,8 +253,14 @@ class Launch:
 
     @property
     def idle(self) -> bool:
-        """Whether no node runs, and none will."""
-        return not self._due and not any(each.running for each in list(self.processes))
+        """Whether no node runs, and none will: the end of all was seen, and none is to come again."""
+        with self._lock:
+            return not self._due and self._reported.issuperset(self.processes)
+
+    @property
+    def has_master(self) -> bool:
+        """Whether it started the master."""
+        return self._master is not None
 
     @property
     def failed(self) -> bool:

@@ -1,0 +1,85 @@
+"""roslaunch's interface: launch files and nodes from a script.
+
+Nodes run on this machine only, and are Gazelle's processes: child launchers on other machines are not here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gazelle.ros.compat.roslaunch import (
+    config,
+    core,
+    nodeprocess,
+    parent,
+    pmon,
+    rlutil,
+    scriptapi,
+    substitution_args,
+    xmlloader,
+)
+from gazelle.ros.compat.roslaunch.config import ROSLaunchConfig
+from gazelle.ros.compat.roslaunch.core import Machine, Master, Node, Param, RLException, Test
+from gazelle.ros.compat.roslaunch.nodeprocess import (
+    DEFAULT_TIMEOUT_SIGINT,
+    DEFAULT_TIMEOUT_SIGTERM,
+)
+from gazelle.ros.compat.roslaunch.pmon import Process
+from gazelle.ros.compat.roslaunch.scriptapi import ROSLaunch
+from gazelle.ros.compat.roslaunch.xmlloader import XmlLoader, XmlParseException
+from gazelle.ros.compat.rosmaster.master import DEFAULT_MASTER_PORT
+from gazelle.ros.compat.rosmaster.master_api import NUM_WORKERS
+
+__all__ = [
+    "DEFAULT_MASTER_PORT",
+    "DEFAULT_TIMEOUT_SIGINT",
+    "DEFAULT_TIMEOUT_SIGTERM",
+    "NAME",
+    "NUM_WORKERS",
+    "Machine",
+    "Master",
+    "Node",
+    "Param",
+    "Process",
+    "RLException",
+    "ROSLaunch",
+    "ROSLaunchConfig",
+    "Test",
+    "XmlLoader",
+    "XmlParseException",
+    "config",
+    "configure_logging",
+    "core",
+    "main",
+    "nodeprocess",
+    "parent",
+    "pmon",
+    "rlutil",
+    "scriptapi",
+    "substitution_args",
+    "xmlloader",
+]
+
+NAME = "roslaunch"
+
+
+def configure_logging(uuid: str) -> None:
+    """Accepted: Gazelle's launcher needs no set-up of its logs."""
+    del uuid
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    """Run the command ``roslaunch`` with a command line, by default this process's.
+
+    It returns when the launch has ended, as roslaunch's does.
+
+    Raises:
+        SystemExit: It failed; the code is that of the command.
+    """
+    import sys
+
+    from gazelle.ros.builtin.commands import call_command
+
+    code = call_command("launch", (sys.argv if argv is None else argv)[1:])
+    if code:
+        sys.exit(code)
