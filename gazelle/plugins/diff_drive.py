@@ -155,6 +155,7 @@ class DiffDrive(ModelPlugin):
             place.quaternion,
             rotate(back, motion.linear),
             rotate(back, motion.angular),
+            _POSE_VARIANCE,
         )
 
     def _from_wheels(self) -> Odometry:

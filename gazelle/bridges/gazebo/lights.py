@@ -8,7 +8,8 @@ from typing import Any
 from gazelle.bridges.conversions import point, quaternion
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
-from gazelle.description import Attenuation, Light, Pose
+from gazelle.description import Light, Pose
+from gazelle.ros import load_message
 
 
 class LightServices:
@@ -37,9 +38,8 @@ class LightServices:
         light = self._find(request.light_name)
         if light is None:
             return no("getLightProperties: Requested light " + request.light_name + " not found!")
-        red, green, blue, alpha = light.diffuse
         return {
-            "diffuse": {"r": red, "g": green, "b": blue, "a": alpha},
+            "diffuse": load_message("std_msgs/ColorRGBA")(*light.diffuse),
             "attenuation_constant": light.attenuation.constant,
             "attenuation_linear": light.attenuation.linear,
             "attenuation_quadratic": light.attenuation.quadratic,
@@ -48,10 +48,9 @@ class LightServices:
 
     def set(self, request: Any) -> Answer:
         """``set_light_properties``."""
-        if self._find(request.light_name) is None:
-            return no("setLightProperties: Requested light " + request.light_name + " not found!")
         light = self._find(request.light_name)
-        attenuation = Attenuation() if light is None else light.attenuation
+        if light is None:
+            return no("setLightProperties: Requested light " + request.light_name + " not found!")
         pose = request.pose
         self._simulation.set_light(
             request.light_name,
@@ -59,7 +58,7 @@ class LightServices:
             diffuse=_colour(request.diffuse),
             specular=_colour(request.specular),
             attenuation=replace(
-                attenuation,
+                light.attenuation,
                 constant=request.attenuation_constant,
                 linear=request.attenuation_linear,
                 quadratic=request.attenuation_quadratic,

@@ -1,0 +1,174 @@
+"""State, properties, wrenches and efforts of links and joints over ROS."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gazelle.ros import Duration, Time, load_message
+
+BALL = """<sdf version="1.6"><model name="{name}"><link name="core">
+<inertial><mass>2</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
+<gravity>0</gravity></link></model></sdf>"""
+
+
+@pytest.fixture
+def ball(graph):
+    pose = load_message("geometry_msgs/Pose")()
+    pose.position.z = 5.0
+    graph.client.call(
+        "spawn_sdf_model",
+        "SpawnModel",
+        model_name="ball",
+        model_xml=BALL.format(name="ball"),
+        initial_pose=pose,
+    )
+    return graph.sim.robots["ball"]
+
+
+def wrench(fx=0.0, tz=0.0):
+    message = load_message("geometry_msgs/Wrench")()
+    message.force.x, message.torque.z = fx, tz
+    return message
+
+
+def test_a_links_state_is_found_by_scoped_and_by_plain_name(graph, ball):
+    for name in ("ball::core", "core"):
+        got = graph.client.call("get_link_state", "GetLinkState", link_name=name)
+        assert got.success
+        assert got.link_state.pose.position.z == pytest.approx(5.0)
+    missing = graph.client.call("get_link_state", "GetLinkState", link_name="ball::nose")
+    assert missing.status_message.startswith("GetLinkState: link not found, did you forget")
+
+
+def test_a_links_state_is_set(graph, ball):
+    state = load_message("gazebo_msgs/LinkState")()
+    state.link_name = "ball::core"
+    state.pose.position.x, state.pose.orientation.w = 2.0, 1.0
+    state.twist.linear.y = 0.5
+    answer = graph.client.call("set_link_state", "SetLinkState", link_state=state)
+    assert answer.status_message == "SetLinkState: success"
+    graph.sim.step(1000)
+    assert (ball.pose.x, ball.pose.y) == pytest.approx((2.0, 0.5), abs=1e-6)
+    state.link_name = "nobody::core"
+    answer = graph.client.call("set_link_state", "SetLinkState", link_state=state)
+    assert answer.status_message == "SetLinkState: link does not exist"
+
+
+def test_a_links_mass_and_inertia_are_read_and_changed(graph, ball):
+    got = graph.client.call("get_link_properties", "GetLinkProperties", link_name="ball::core")
+    assert (got.mass, got.ixx, got.gravity_mode) == pytest.approx((2.0, 1.0, False))
+    answer = graph.client.call(
+        "set_link_properties",
+        "SetLinkProperties",
+        link_name="ball::core",
+        mass=4.0,
+        ixx=2.0,
+        iyy=2.0,
+        izz=2.0,
+        gravity_mode=True,
+    )
+    assert answer.status_message == "SetLinkProperties: properties set"
+    graph.sim.step(100)
+    assert ball.twist.linear[2] == pytest.approx(-0.98, rel=1e-3)
+
+
+def test_a_wrench_acts_for_its_time_and_no_longer(graph, ball):
+    answer = graph.client.call(
+        "apply_body_wrench",
+        "ApplyBodyWrench",
+        body_name="ball::core",
+        wrench=wrench(fx=4.0),
+        duration=Duration(0, 500_000_000),
+    )
+    assert (answer.success, answer.status_message) == (True, "")
+    graph.sim.step(2000)
+    assert ball.twist.linear[0] == pytest.approx(4.0 / 2.0 * 0.5, rel=1e-3)
+
+
+def test_a_wrench_that_lasts_is_ended_by_the_service_for_that(graph, ball):
+    graph.client.call(
+        "apply_body_wrench",
+        "ApplyBodyWrench",
+        body_name="ball::core",
+        wrench=wrench(fx=2.0),
+        duration=Duration(-1, 0),
+    )
+    graph.sim.step(1000)
+    graph.client.call("clear_body_wrenches", "BodyRequest", body_name="ball::core")
+    graph.sim.step(1000)
+    assert ball.twist.linear[0] == pytest.approx(1.0, rel=1e-3)
+
+
+def test_a_wrench_given_in_a_frame_is_turned_with_it(graph, ball):
+    ball.set_pose((0.0, 0.0, 5.0), yaw=math.pi / 2)
+    graph.client.call(
+        "apply_body_wrench",
+        "ApplyBodyWrench",
+        body_name="ball::core",
+        reference_frame="ball::core",
+        wrench=wrench(fx=2.0),
+        duration=Duration(1, 0),
+    )
+    graph.sim.step(1000)
+    assert ball.twist.linear[:2] == pytest.approx([0.0, 1.0], abs=2e-3)
+
+
+def test_a_wrench_that_begins_later_waits(graph, ball):
+    graph.client.call(
+        "apply_body_wrench",
+        "ApplyBodyWrench",
+        body_name="ball::core",
+        wrench=wrench(fx=2.0),
+        start_time=Time(1, 0),
+        duration=Duration(1, 0),
+    )
+    graph.sim.step(1000)
+    assert ball.twist.linear[0] == 0.0
+    graph.sim.step(1000)
+    assert ball.twist.linear[0] == pytest.approx(1.0, rel=1e-3)
+
+
+def test_bodies_and_frames_that_are_not_there_are_named(graph, ball):
+    answer = graph.client.call("apply_body_wrench", "ApplyBodyWrench", body_name="nobody")
+    assert answer.status_message == "ApplyBodyWrench: body does not exist"
+    answer = graph.client.call(
+        "apply_body_wrench", "ApplyBodyWrench", body_name="ball::core", reference_frame="nowhere"
+    )
+    assert answer.status_message == "ApplyBodyWrench: reference_frame not found"
+
+
+def test_a_joint_is_read_turned_and_let_go(graph):
+    wheel = graph.sim.robots["r1"].joints["wheel_left_joint"]
+    got = graph.client.call(
+        "get_joint_properties", "GetJointProperties", joint_name="wheel_left_joint"
+    )
+    assert (got.success, got.type, list(got.damping)) == (True, 0, [])
+    assert got.position[0] == pytest.approx(wheel.position)
+    answer = graph.client.call(
+        "apply_joint_effort",
+        "ApplyJointEffort",
+        joint_name="wheel_left_joint",
+        effort=0.05,
+        duration=Duration(-1, 0),
+    )
+    assert answer.status_message == "ApplyJointEffort: effort set"
+    before = wheel.position
+    graph.sim.step(100)
+    assert wheel.position != before
+    graph.client.call("clear_joint_forces", "JointRequest", joint_name="wheel_left_joint")
+    answer = graph.client.call("apply_joint_effort", "ApplyJointEffort", joint_name="none")
+    assert answer.status_message == "ApplyJointEffort: joint not found"
+
+
+def test_the_damping_of_a_joint_is_set(graph):
+    config = load_message("gazebo_msgs/ODEJointProperties")(damping=[0.7])
+    answer = graph.client.call(
+        "set_joint_properties",
+        "SetJointProperties",
+        joint_name="wheel_left_joint",
+        ode_joint_config=config,
+    )
+    assert answer.status_message == "SetJointProperties: properties set"
+    found = graph.sim.engine.parameter("joint_damping", "r1::wheel_left_joint")
+    assert np.allclose(found, 0.7)
