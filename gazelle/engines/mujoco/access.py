@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from contextlib import AbstractContextManager
 
 import mujoco
 import numpy as np
@@ -44,6 +45,10 @@ class StateAccess(ABC):
     @abstractmethod
     def _now(self) -> Layout:
         """The layout of what runs, once pending changes have been made."""
+
+    @abstractmethod
+    def _forced(self) -> AbstractContextManager[None]:
+        """Let the forces of this moment act while it lasts."""
 
     # -- links -------------------------------------------------------------------------
 
@@ -90,7 +95,7 @@ class StateAccess(ABC):
         """How a link's motion changes in the next physics step [m/s², rad/s²]."""
         before = self.link_motion(link, worlds)
         state, warnings = self._batch.state.copy(), self._batch.warning.copy()
-        with self._layout.limits.held_back(self._state):
+        with self._forced():
             self._batch.step(ids=worlds)
         self._stale = True
         after = self.link_motion(link, worlds)

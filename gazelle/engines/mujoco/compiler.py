@@ -18,6 +18,7 @@ from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.options import add_force_probe, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
     friction_of,
     friction_ranks,
@@ -120,6 +121,7 @@ class Draft:
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
         tune_springs(compiled, self.springs)
+        tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
         self._solve_at_once(compiled)
         return compiled
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch, SimulationError
+from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
@@ -18,10 +18,10 @@ from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.compiler import Compiled, Motor, Recipe, compile_world
 from gazelle.engines.mujoco.editing import with_inertial
+from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.parameters import ParameterStore, check
-from gazelle.engines.mujoco.reactions import ForceAccess
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
@@ -40,7 +40,7 @@ def _quiet() -> None:
     config.set()
 
 
-class MujocoEngine(ForceAccess):
+class MujocoEngine(ForcedSteps):
     """Many copies of one world in MuJoCo; see ``gazelle.engines.engine.Engine``.
 
     Args:
@@ -132,24 +132,6 @@ class MujocoEngine(ForceAccess):
             bad = np.asarray(self._state.faults.any(axis=1))
             bad[sorted(failed)] = True
             self._give_up(np.flatnonzero(bad), count)
-
-    def _advance(self, count: int) -> set[int]:
-        """Step all worlds; returns those in which MuJoCo gave up."""
-        limits = self._layout.limits
-        if not limits.govern(self._state):
-            return self._step_batch(count)
-        failed: set[int] = set()
-        for _ in range(count):
-            with limits.held_back(self._state):
-                failed |= self._step_batch(1)
-        return failed
-
-    def _step_batch(self, count: int) -> set[int]:
-        try:
-            self._batch.step(nstep=count)
-        except SimulationError as error:
-            return {int(world) for world in error.ids}
-        return set()
 
     def _give_up(self, worlds: Worlds, count: int) -> None:
         """Reset worlds that broke down, and say so.

@@ -101,6 +101,7 @@ class Layout:
         attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
         reactions: Joints that hold a body, by scoped name.
         limits: Of efforts on joints.
+        windy: MuJoCo's bodies of the links that wind pushes, by scoped name.
     """
 
     links: Mapping[str, LinkSlot]
@@ -111,6 +112,7 @@ class Layout:
     attachments: Mapping[str, int]
     reactions: Mapping[str, ReactionSlot]
     limits: EffortLimits
+    windy: Mapping[str, int]
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -179,8 +181,14 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
     collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
     held = {name: model.equality(name).id for name in attachments}
     columns = {name: tuple(slot.velocity for slot in slots) for name, slots in joints.items()}
-    limits = effort_limits(itertools.chain.from_iterable(compiled.bodies.values()), columns)
-    return Layout(links, joints, models, motors, collisions, held, reactions, limits)
+    every = list(itertools.chain.from_iterable(compiled.bodies.values()))
+    limits = effort_limits(every, columns)
+    windy = {
+        body.name: links[body.name].body
+        for body in every
+        if body.link.enable_wind and body.root not in ("static", "kinematic")
+    }
+    return Layout(links, joints, models, motors, collisions, held, reactions, limits, windy)
 
 
 def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:

@@ -58,7 +58,7 @@ class ForceAccess(BodyAccess):
             state = batch.state.copy()
             flags &= ~SENSORS_OFF
             try:
-                with self._layout.limits.held_back(self._state):
+                with self._forced():
                     batch.forward()
             finally:
                 flags |= SENSORS_OFF

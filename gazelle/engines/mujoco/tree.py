@@ -117,6 +117,8 @@ def _parts_of(model: Model) -> dict[str, _Part]:
     for placed in model.walk():
         for link in placed.model.links:
             collide = placed.model.self_collide if link.self_collide is None else link.self_collide
+            if placed.model.enable_wind and not link.enable_wind:
+                link = replace(link, enable_wind=True)  # noqa: PLW2901
             parts[f"{placed.scope}::{link.name}"] = _Part(link, placed.pose * link.pose, collide)
     return parts
 

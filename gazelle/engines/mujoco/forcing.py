@@ -1,0 +1,76 @@
+"""Steps with forces that depend on how fast things move: wind, and efforts held back.
+
+MuJoCo is told forces once for all steps of a call. Where such a force acts, the physics is
+stepped one step at a time; where none does, which is nearly always, nothing is different.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+from mujoco.batch import SimulationError
+
+from gazelle.description import World
+from gazelle.engines.engine import Floats
+from gazelle.engines.mujoco.reactions import ForceAccess
+from gazelle.engines.mujoco.wind import wind_strength
+
+
+class ForcedSteps(ForceAccess):
+    """The part of ``gazelle.engines.engine.Engine`` that steps."""
+
+    @property
+    @abstractmethod
+    def world(self) -> World:
+        """The world that runs."""
+
+    def _advance(self, count: int) -> set[int]:
+        """Step all worlds; returns those in which MuJoCo gave up."""
+        if not self._layout.limits.govern(self._state) and not self._is_windy():
+            return self._step_batch(count)
+        failed: set[int] = set()
+        for _ in range(count):
+            with self._forced():
+                failed |= self._step_batch(1)
+            self._stale = True
+        return failed
+
+    def _step_batch(self, count: int) -> set[int]:
+        try:
+            self._batch.step(nstep=count)
+        except SimulationError as error:
+            return {int(world) for world in error.ids}
+        return set()
+
+    @contextmanager
+    def _forced(self) -> Iterator[None]:
+        """Let the forces of this moment act while it lasts; the state keeps what was commanded."""
+        with self._layout.limits.held_back(self._state), self._blown():
+            yield
+
+    def _is_windy(self) -> bool:
+        return bool(self._layout.windy) and any(self.world.wind)
+
+    @contextmanager
+    def _blown(self) -> Iterator[None]:
+        """Let the wind push the links that it is enabled for, in proportion to their mass."""
+        if not self._is_windy():
+            yield
+            return
+        pushed = self._state.xfrc_applied
+        commanded = pushed.copy()
+        for link, body in self._layout.windy.items():
+            pushed[:, body, :3] += self._drag(link, body)
+        try:
+            yield
+        finally:
+            pushed[:] = commanded
+
+    def _drag(self, link: str, body: int) -> Floats:
+        strength = wind_strength(self.world) * self._of_worlds("body_mass")[:, body, None]
+        past = np.asarray(self.world.wind) - self.link_motion(link).linear
+        drag: Floats = strength * past
+        return drag

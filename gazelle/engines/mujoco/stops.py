@@ -1,0 +1,59 @@
+"""Soft stops of joints: limits that give way as a spring and damper.
+
+SDF's ``<stiffness>`` and ``<dissipation>`` of a limit are of the stop's spring. Its default of
+1e8 stands for a stop that does not give; so is every stop whose spring would be too stiff for
+the physics step to follow.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import mujoco
+
+from gazelle.description import JointAxis
+from gazelle.engines.mujoco.tree import Body
+
+# A spring is followed when its period with what it moves takes at least so many steps.
+_FEWEST_STEPS_A_PERIOD = 10.0
+
+# SDF's default, which no file means as a spring.
+_RIGID = 1e8
+
+# MuJoCo's bounds of an impedance.
+_LEAST, _MOST = 1e-4, 0.9999
+
+
+def tune_stops(model: mujoco.MjModel, bodies: Iterable[Body]) -> None:
+    """Give limits with a spring the terms of ODE's implicit spring and damper.
+
+    They are those of a springy contact (see ``contacts.tune_springs``): erp = h k / (h k + c)
+    and cfm = 1 / (h k + c) become a reference acceleration of -v / h - erp / h² * overshoot and
+    a regularisation R = cfm / h, which is the impedance d by R = (1 - d) / d times the inverse
+    inertia at the joint. That of the initial pose is taken; at rest the deflection is torque /
+    stiffness in every pose, since R is a constant of the model.
+    """
+    for body in bodies:
+        if body.joint is None:
+            continue
+        for index, axis in enumerate(body.joint.axes):
+            name = body.joint_name if index == 0 else f"{body.joint_name}#{index}"
+            joint = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name)
+            if joint >= 0 and model.jnt_limited[joint]:
+                _tune(model, joint, axis)
+
+
+def _tune(model: mujoco.MjModel, joint: int, axis: JointAxis) -> None:
+    if axis.stiffness >= _RIGID:
+        return
+    h = float(model.opt.timestep)
+    mobility = float(model.dof_invweight0[model.jnt_dofadr[joint]])
+    stiffest = (2.0 * math.pi / (_FEWEST_STEPS_A_PERIOD * h)) ** 2
+    if not 0.0 < axis.stiffness * mobility <= stiffest:
+        return
+    give = 1.0 / (h * axis.stiffness + max(axis.dissipation, 0.0))
+    erp = h * axis.stiffness * give
+    d = min(max(1.0 / (1.0 + give / h / mobility), _LEAST), _MOST)
+    model.jnt_solimp[joint] = (d, d, 0.001, 0.5, 2.0)
+    model.jnt_solref[joint] = (-d * erp / h**2, -d / h)

@@ -1,0 +1,114 @@
+"""Stops, springs, damping and friction of joints against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Model, Pose
+from gazelle.engines import make_engine
+
+Y = (0.0, 1.0, 0.0)
+
+
+def wheel(moment=0.02, mass=1.0, kind="revolute", nworld=1, step=0.001, **axis):
+    links = (Link("w", inertial=Inertial(mass, Pose(), Inertia(moment, moment, moment))),)
+    joint = Joint("j", kind, "world", "w", axes=(JointAxis(Y, **axis),))
+    world = scenes.world(Model("m", links=links, joints=(joint,)), gravity=(0, 0, 0), step=step)
+    return make_engine("mujoco", world, nworld)
+
+
+def angle(engine):
+    return engine.joint_position("m::j")[:, 0]
+
+
+@pytest.mark.parametrize("step", [0.001, 0.004])
+@pytest.mark.parametrize(("stiffness", "dissipation"), [(20.0, 1.0), (200.0, 0.5), (5.0, 0.1)])
+def test_a_soft_stop_gives_way_by_torque_over_stiffness(stiffness, dissipation, step):
+    if stiffness / 0.02 > (2.0 * math.pi / (10.0 * step)) ** 2:
+        pytest.skip("too stiff for this step: rigid")
+    engine = wheel(lower=-0.5, upper=0.5, stiffness=stiffness, dissipation=dissipation, step=step)
+    engine.set_joint_effort("m::j", 2.0)
+    engine.step(round(8.0 / step))
+    assert angle(engine)[0] - 0.5 == pytest.approx(2.0 / stiffness, rel=0.05)
+    engine.set_joint_effort("m::j", -2.0)
+    engine.step(round(8.0 / step))
+    assert -0.5 - angle(engine)[0] == pytest.approx(2.0 / stiffness, rel=0.05)
+
+
+def test_a_soft_stop_of_an_arm_gives_way_the_same_wherever_the_load_is():
+    """Two links: the inertia at the shoulder changes by a factor of ten with the elbow."""
+    upper = Link("u", inertial=Inertial(0.5, Pose(), Inertia(0.01, 0.01, 0.01)))
+    fore = Link("f", pose=Pose(x=0.5), inertial=Inertial(1.0, Pose(0.4), Inertia(0.01, 0.01, 0.01)))
+    joints = (
+        Joint(
+            "j",
+            "revolute",
+            "world",
+            "u",
+            axes=(JointAxis(Y, lower=-1.0, upper=0.2, stiffness=50.0, dissipation=3.0),),
+        ),
+        Joint("e", "revolute", "u", "f", axes=(JointAxis(Y, friction=50.0),)),
+    )
+    model = Model("m", links=(upper, fore), joints=joints)
+    for bend in (0.0, 2.6):
+        engine = make_engine("mujoco", scenes.world(model, gravity=(0, 0, 0)))
+        engine.set_joint_position("m::e", bend)
+        engine.set_joint_effort("m::j", 4.0)
+        engine.step(8000)
+        assert angle(engine)[0] - 0.2 == pytest.approx(4.0 / 50.0, rel=0.05)
+
+
+def test_sdf_default_stops_do_not_give():
+    engine = wheel(lower=-0.5, upper=0.5)
+    engine.set_joint_effort("m::j", 2.0)
+    engine.step(2000)
+    assert angle(engine)[0] == pytest.approx(0.5, abs=2e-3)
+
+
+def test_a_soft_stop_swings_at_its_own_frequency_and_loses_what_it_dissipates():
+    moment, stiffness = 0.02, 20.0
+    engine = wheel(moment, lower=-3.0, upper=0.0, stiffness=stiffness, dissipation=0.0)
+    engine.set_joint_velocity("m::j", 1.0)
+    half = math.pi * math.sqrt(moment / stiffness)
+    steps = 0
+    while angle(engine)[0] >= 0.0 and steps < 1000:
+        engine.step()
+        steps += 1
+    assert steps * 0.001 == pytest.approx(half, rel=0.05)
+
+
+def test_a_spring_holds_against_an_effort_at_reference_plus_effort_over_stiffness():
+    engine = wheel(spring_stiffness=8.0, spring_reference=0.3, damping=0.4)
+    engine.set_joint_effort("m::j", 1.6)
+    engine.step(4000)
+    assert angle(engine)[0] == pytest.approx(0.3 + 1.6 / 8.0, rel=1e-4)
+
+
+def test_a_spring_swings_with_its_period():
+    engine = wheel(0.02, kind="continuous", spring_stiffness=2.0)
+    engine.set_joint_position("m::j", 0.5)
+    period = 2.0 * math.pi * math.sqrt(0.02 / 2.0)
+    engine.step(round(period / 2 / 0.001))
+    assert angle(engine)[0] == pytest.approx(-0.5, rel=1e-3)
+
+
+def test_damping_slows_exponentially():
+    engine = wheel(0.02, kind="continuous", damping=0.05)
+    engine.set_joint_velocity("m::j", 3.0)
+    engine.step(400)
+    expected = 3.0 * math.exp(-0.05 / 0.02 * 0.4)
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=2e-3)
+
+
+def test_friction_holds_below_and_slows_evenly_above():
+    engine = wheel(0.02, kind="continuous", nworld=2, friction=0.1)
+    engine.set_joint_effort("m::j", [[0.09], [0.14]])
+    engine.step(1000)
+    speed = engine.joint_velocity("m::j")[:, 0]
+    assert abs(speed[0]) < 0.02
+    assert speed[1] == pytest.approx(0.04 / 0.02, rel=0.01)
+    engine.set_joint_effort("m::j", np.zeros((2, 1)))
+    engine.step(200)
+    assert engine.joint_velocity("m::j")[1, 0] == pytest.approx(speed[1] - 5.0 * 0.2, rel=0.02)
