@@ -35,9 +35,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     dump = commands.add("dump", "write as YAML", _dump)
     dump.add_argument("file", nargs="?", metavar="FILE", help="default: standard output")
     dump.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    commands.add("delete", "delete", _delete).add_argument("name", metavar="/NAME")
-    for each in (setting, load):
-        each.add_argument("-v", "--verbose", action="store_true", help="say what is set")
+    delete = commands.add("delete", "delete", _delete)
+    delete.add_argument("name", metavar="/NAME")
+    for each in (get, setting, load, dump, delete):
+        each.add_argument("-v", "--verbose", action="store_true", help="say what is done")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -65,6 +66,8 @@ def _get(args: argparse.Namespace) -> int:
 
     with _graph() as graph:
         value = get_parameter(graph, args.name)
+        if args.verbose:
+            sys.stdout.write(f"getting parameter [{graph.resolve(args.name)}]\n")
     sys.stdout.write(pretty(value) if args.pretty else as_yaml(value))
     return 0
 
@@ -106,6 +109,9 @@ def _dump(args: argparse.Namespace) -> int:
 
     with _graph() as graph:
         text = dump_parameters(graph, args.space)
+        if args.verbose:
+            space = graph.resolve(args.space or "/")
+            sys.stdout.write(f"dumping namespace [{space}] to file [{args.file or ''}]\n")
     if args.file:
         Path(args.file).write_text(text, encoding="utf-8")
     else:
@@ -118,4 +124,6 @@ def _delete(args: argparse.Namespace) -> int:
 
     with _graph() as graph:
         delete_parameter(graph, args.name)
+        if args.verbose:
+            sys.stdout.write(f"deleted parameter [{graph.resolve(args.name)}]\n")
     return 0

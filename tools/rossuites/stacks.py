@@ -69,7 +69,7 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
     """
     programs = folder / "bin"
     programs.mkdir(parents=True)
-    _python(programs, folder / "packages" if stack.clients else None)
+    _python(folder, ours=stack.clients)
     paths = [folder / "generated"]
     if stack.master:
         paths.insert(0, Path(__file__).parent / "substitute")
@@ -80,6 +80,9 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
     # Tests ask where roslaunch lives; it is the real one that runs them.
     (folder / "installed").mkdir()
     (folder / "installed/roslaunch").symlink_to("/usr/share/roslaunch", target_is_directory=True)
+    # One test of rospy's wants it, and a user's environment would have it.
+    (folder / "borrowed").mkdir()
+    (folder / "borrowed/psutil").symlink_to("/usr/lib/python3/dist-packages/psutil")
     kept = {key: os.environ[key] for key in ("HOME", "LANG", "TMPDIR") if key in os.environ}
     return kept | {
         "PATH": f"{programs}:/usr/bin:/bin:/usr/sbin:/sbin",
@@ -103,15 +106,19 @@ done
 exec "{GAZELLE}" master --no-rosout --port "$port\""""
 
 
-def _python(programs: Path, packages: Path | None) -> None:
+def _python(folder: Path, *, ours: bool) -> None:
     """The interpreter: Gazelle's for files of the suites, Debian's for all others."""
-    real = 'exec /usr/bin/python3 "$@"'
-    ours = f"""case "$1" in
-{packages}/*) unset PYTHONPATH; echo "$1" >>"$ROS_HOME/{USED}"; exec "{GAZELLE}" exec "$@";;
+    text = 'exec /usr/bin/python3 "$@"'
+    if ours:
+        text = f"""case "$1" in
+{folder}/packages/*)
+    export PYTHONPATH="{folder}/borrowed"
+    echo "$1" >>"$ROS_HOME/{USED}"
+    exec "{GAZELLE}" exec "$@";;
 esac
-"""
+{text}"""
     for name in ("python", "python3"):
-        _script(programs / name, real if packages is None else ours + real)
+        _script(folder / "bin" / name, text)
 
 
 def _script(path: Path, text: str) -> None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 import sys
 import threading
+from collections.abc import Sequence
 from typing import Any
 
+from gazelle.ros.compat import commands
 from gazelle.ros.errors import RosError
 from gazelle.ros.tools import nodes
 from gazelle.ros.tools.graph import Graph
@@ -119,3 +121,15 @@ def cleanup_master_blacklist(master: Any, blacklist: list[str]) -> None:
     """Take nodes off the master."""
     del master
     nodes.unregister(_graph(), blacklist)
+
+
+def rosnodemain(argv: Sequence[str] | None = None) -> None:
+    """Do what the command rosnode does; see `gazelle.ros.compat.commands.run`.
+
+    Args:
+        argv: The command line, by default this process's.
+
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("node", argv)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from gazelle.ros import names
+from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.msproxy import MasterProxy
 from gazelle.ros.errors import RosError
 from gazelle.ros.launch.errors import LaunchError
@@ -174,3 +176,21 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
         Path(filename).write_text(text, encoding="utf-8")
     else:
         sys.stdout.write(text)
+
+
+def yamlmain(argv: Sequence[str] | None = None) -> None:
+    """Do what the command rosparam does; see `gazelle.ros.compat.commands.run`.
+
+    Args:
+        argv: The command line, by default this process's.
+
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("param", argv)
+
+
+def _fullusage() -> None:
+    """Say what there is, and end the process."""
+    yamlmain(["rosparam", "--help"])
+    raise SystemExit(0)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.exceptions import ServiceException
 from gazelle.ros.compat.rospy.guest import user
 from gazelle.ros.compat.rospy.service import ServiceProxy
@@ -132,3 +134,15 @@ def call_service(
         return request, ServiceProxy(service_name, kind)(request)
     except (RosError, ServiceException, ValueError) as error:
         raise ROSServiceException(str(error)) from None
+
+
+def rosservicemain(argv: Sequence[str] | None = None) -> None:
+    """Do what the command rosservice does; see `gazelle.ros.compat.commands.run`.
+
+    Args:
+        argv: The command line, by default this process's.
+
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("service", argv)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.rostime import get_rostime, is_rostime_initialized
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.rospy.topics import Publisher
@@ -211,3 +212,15 @@ class ROSTopicHz:
                 f"average rate: {rate:.3f}\n\tmin: {least:.3f}s max: {most:.3f}s "
                 f"std dev: {spread:.5f}s window: {count}"
             )
+
+
+def rostopicmain(argv: Sequence[str] | None = None) -> None:
+    """Do what the command rostopic does; see `gazelle.ros.compat.commands.run`.
+
+    Args:
+        argv: The command line, by default this process's.
+
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("topic", argv)
