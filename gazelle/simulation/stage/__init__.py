@@ -1,0 +1,6 @@
+"""Stage worlds that run: fleets of robots in the plane."""
+
+from gazelle.simulation.stage.layout import Ranger, StageRobot
+from gazelle.simulation.stage.simulation import StageSimulation
+
+__all__ = ["Ranger", "StageRobot", "StageSimulation"]

@@ -1,0 +1,229 @@
+"""A Stage world as bodies, walls and scanners of the planar engine."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from gazelle.description import (
+    PlacedStageModel,
+    StageModel,
+    StagePose,
+    StagePosition,
+    StageRanger,
+    StageSensor,
+    StageWorld,
+)
+from gazelle.engines.planar.fans import Fan, Mount
+from gazelle.engines.planar.fleet import Body, Drive
+from gazelle.engines.planar.shapes import Part, Table
+from gazelle.errors import SimulationWarning
+from gazelle.simulation.stage.walls import parts_of, table_of
+
+_FINEST = 1e-6
+"""Least field of view [rad] and reach [m] of a fan."""
+
+Key = tuple[int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Ranger:
+    """A ranger on a robot.
+
+    Attributes:
+        name: Its whole name.
+        model: What the file says.
+        sensors: What each of its sensors says.
+        places: Of each sensor the index of its scanner, and its place in that.
+        pose: In the robot's frame, its height included.
+    """
+
+    name: str
+    model: StageModel
+    sensors: tuple[StageSensor, ...]
+    places: tuple[tuple[int, int], ...]
+    pose: StagePose
+
+
+@dataclass(frozen=True, slots=True)
+class StageRobot:
+    """A robot of a Stage world.
+
+    Attributes:
+        index: Its place in all arrays.
+        name: Its name in the file.
+        model: What the file says.
+        rangers: Those mounted on it directly or on what it carries, in file order.
+    """
+
+    index: int
+    name: str
+    model: StageModel
+    rangers: tuple[Ranger, ...] = ()
+
+    @property
+    def position(self) -> StagePosition:
+        """Its drive and localization."""
+        return self.model.position or StagePosition()
+
+
+@dataclass(slots=True)
+class Layout:
+    """What a fleet is made of.
+
+    Attributes:
+        bodies: One a robot.
+        robots: In file order.
+        statics: All that does not drive.
+        fans: Of each scanner.
+        mounts: Of each scanner, one a sensor.
+        noises: Of each scanner: constant [m] and proportional standard deviation of each sensor.
+    """
+
+    bodies: list[Body] = field(default_factory=list)
+    robots: list[StageRobot] = field(default_factory=list)
+    statics: Table | None = None
+    fans: list[Fan] = field(default_factory=list)
+    mounts: list[list[Mount]] = field(default_factory=list)
+    noises: list[list[tuple[float, float]]] = field(default_factory=list)
+
+
+def layout_of(world: StageWorld) -> Layout:
+    """Robots are the top-level position models; all else stands still."""
+    maker = _Maker()
+    still: list[PlacedStageModel] = []
+    for model in world.models:
+        if model.position is None:
+            still += model.walk()
+        else:
+            maker.robot(model)
+    maker.layout.statics = table_of(still)
+    return maker.layout
+
+
+@dataclass(frozen=True, slots=True)
+class _View:
+    """A sensor of robots of one macro: its scanner, and x, y, heading and height on the robot."""
+
+    scanner: int
+    place: tuple[float, float, float, float]
+    noise: tuple[float, float]
+
+
+@dataclass(slots=True)
+class _Shape:
+    """What robots of one macro have in common."""
+
+    parts: tuple[Part, ...]
+    drive: Drive
+    rangers: list[tuple[PlacedStageModel, tuple[StageSensor, ...], list[_View]]]
+
+
+@dataclass(slots=True)
+class _Maker:
+    layout: Layout = field(default_factory=Layout)
+    shapes: dict[Key, _Shape] = field(default_factory=dict)
+    fans: dict[Fan, int] = field(default_factory=dict)
+
+    def robot(self, model: StageModel) -> None:
+        """Add a robot with its rangers."""
+        index = len(self.layout.robots)
+        key = (id(model.blocks), id(model.children), id(model.device))
+        shape = self.shapes.get(key)
+        if shape is None:
+            shape = self.shapes[key] = self.shape(model)
+        pose = model.pose
+        self.layout.bodies.append(
+            Body(shape.parts, (pose.x, pose.y, pose.yaw), pose.z, shape.drive)
+        )
+        name = model.name.removeprefix("/")
+        rangers = tuple(
+            self.ranger(index, name, placed, sensors, views)
+            for placed, sensors, views in shape.rangers
+        )
+        self.layout.robots.append(StageRobot(index, name, model, rangers))
+
+    def ranger(
+        self,
+        robot: int,
+        name: str,
+        placed: PlacedStageModel,
+        sensors: tuple[StageSensor, ...],
+        views: list[_View],
+    ) -> Ranger:
+        """Add the sensors of a ranger to the scanners with their fans."""
+        places = []
+        for view in views:
+            mounts = self.layout.mounts[view.scanner]
+            places.append((view.scanner, len(mounts)))
+            mounts.append(Mount(robot, *view.place))
+            self.layout.noises[view.scanner].append(view.noise)
+        _, _, own = placed.name.partition(".")
+        whole = f"{name}.{own}" if own else placed.name
+        return Ranger(whole, placed.model, sensors, tuple(places), placed.pose)
+
+    def shape(self, model: StageModel) -> _Shape:
+        """What is on a robot, in its frame."""
+        own = list(replace(model, pose=StagePose()).walk())
+        _warn_of_riders(own[1:])
+        rangers = []
+        for placed in own:
+            device = placed.model.device
+            if isinstance(device, StageRanger):
+                views = [self.view(placed, sensor) for sensor in device.sensors]
+                rangers.append((placed, device.sensors, views))
+        parts = tuple(_all_parts(own))
+        return _Shape(parts, _drive_of(model.position or StagePosition()), rangers)
+
+    def view(self, placed: PlacedStageModel, sensor: StageSensor) -> _View:
+        """Where a sensor is, and the scanner with its beams."""
+        fan = _fan_of(sensor)
+        which = self.fans.setdefault(fan, len(self.fans))
+        if which == len(self.layout.fans):
+            self.layout.fans.append(fan)
+            self.layout.mounts.append([])
+            self.layout.noises.append([])
+        at = placed.pose.then(StagePose(*sensor.pose))
+        place = (at.x, at.y, at.yaw, at.z + sensor.size[2] / 2.0)
+        return _View(which, place, (sensor.noise[0], sensor.noise[1]))
+
+
+def _all_parts(own: list[PlacedStageModel]) -> Iterator[Part]:
+    for placed in own:
+        yield from parts_of(placed)
+
+
+def _warn_of_riders(carried: list[PlacedStageModel]) -> None:
+    for placed in carried:
+        if placed.model.position is not None:
+            warnings.warn(
+                f"'{placed.name}' is mounted on a robot, and does not drive by itself",
+                SimulationWarning,
+                stacklevel=2,
+            )
+        device = placed.model.device
+        if isinstance(device, StageRanger) and any(s.noise[2] for s in device.sensors):
+            warnings.warn(
+                f"noise of the angles of '{placed.name}' is left out",
+                SimulationWarning,
+                stacklevel=2,
+            )
+
+
+def _drive_of(position: StagePosition) -> Drive:
+    """Stage bounds velocities; its bounds of acceleration hold in a mode that nobody can ask for."""
+    (x0, x1), (y0, y1), _, (a0, a1) = position.velocity_bounds
+    return Drive(
+        position.drive,
+        slowest=(x0, y0, a0),
+        fastest=(x1, y1, a1),
+        wheelbase=position.wheelbase,
+    )
+
+
+def _fan_of(sensor: StageSensor) -> Fan:
+    """Beams from edge to edge, counter-clockwise; a negative angle means as much as its opposite."""
+    fov = min(max(abs(sensor.fov), _FINEST), 2.0 * math.pi)
+    return Fan.spread(fov, sensor.samples, max(sensor.range[1], _FINEST))

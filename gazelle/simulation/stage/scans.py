@@ -1,0 +1,89 @@
+"""What rangers measure: distances with noise, and how bright that is which they met."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.fans import Fan, Mount, Scanner
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.streams import Stream
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class RangeNoise:
+    """White noise of the sensors of one scanner.
+
+    Attributes:
+        constant: Standard deviation [m], shape (sensors,).
+        share: Standard deviation as a share of the distance, shape (sensors,).
+    """
+
+    constant: Floats
+    share: Floats
+
+
+class Eyes:
+    """All rangers with one fan, in all worlds.
+
+    Args:
+        fleet: What they see.
+        fan: The beams.
+        mounts: Where they are.
+        noise: Of each.
+        seed: The run's seed.
+        name: Of their random numbers.
+    """
+
+    def __init__(
+        self,
+        fleet: Fleet,
+        fan: Fan,
+        mounts: list[Mount],
+        noise: RangeNoise,
+        *,
+        seed: int,
+        name: str,
+    ) -> None:
+        self.fan = fan
+        self._fleet, self._noise = fleet, noise
+        self._scanner = Scanner(fleet, fan, mounts, named=True)
+        self._shape = (fleet.nworld, len(mounts), fan.count)
+        self._stream = Stream(seed, name, fleet.nworld)
+
+    def scan(self) -> Floats:
+        """Distances [m], shape (nworld, sensors, samples); the array is used again."""
+        ranges = self._scanner.scan()
+        noise = self._noise
+        if not (noise.constant.any() or noise.share.any()):
+            return ranges
+        spread = noise.constant[:, None] + noise.share[:, None] * ranges
+        drawn = self._stream.normal(self._shape[1] * self._shape[2]).reshape(self._shape)
+        measured: Floats = np.where(ranges < self.fan.reach, ranges + spread * drawn, ranges)
+        return np.clip(measured, 0.0, self.fan.reach, out=measured)
+
+    def returns(self, sensor: int, world: int = 0) -> Floats:
+        """``ranger_return`` of what each beam of a sensor met in the last scan; 0 for nothing.
+
+        Args:
+            sensor: Its place in the scanner.
+            world: Which world.
+        """
+        names = np.abs(self._scanner.names[world * self._shape[1] + sensor])
+        found = np.zeros(len(names))
+        still = (names > 0.0) & (names < c.NAMES)
+        rows = self._fleet.scene.table.rows
+        found[still] = rows[names[still].astype(np.int64) - 1, c.GLOW]
+        moving = names >= c.NAMES
+        indices = np.mod(names[moving], c.NAMES).astype(np.int64)
+        found[moving] = self._fleet.looks[indices, c.GLOW]
+        return found
+
+    def rewind(self) -> None:
+        """Draw the same random numbers again."""
+        self._stream.rewind()

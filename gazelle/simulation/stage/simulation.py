@@ -1,0 +1,368 @@
+"""A running Stage world, or many copies of it in step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle import formats
+from gazelle.description import StageWorld, World
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.errors import SimulationError, did_you_mean
+from gazelle.formats.stage import is_stage, load_stage
+from gazelle.formats.xml import read_bytes
+from gazelle.simulation.clock import Clock
+from gazelle.simulation.pacing import run_paced
+from gazelle.simulation.requests import RequestQueue
+from gazelle.simulation.stage.controllers import Controller, make_controllers
+from gazelle.simulation.stage.layout import StageRobot, layout_of
+from gazelle.simulation.stage.odometry import Odometry
+from gazelle.simulation.stage.scans import Eyes, RangeNoise
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+Listener = Callable[[], None]
+
+_CAR = "car"
+
+
+class StageSimulation:
+    """Stage's robots in the planar engine: commands in, poses, odometry and scans out.
+
+    Robots are the top-level position models in file order; all arrays have the axes
+    (nworld, nrobot, ...). All that changes the state from another thread goes through
+    ``requests``.
+
+    Args:
+        world: What a Stage file says, or the file.
+        nworld: Copies.
+        seed: Decides all random numbers; world i's do not depend on ``nworld``.
+        threads: Native threads; all processors if None. Results do not depend on it.
+        euler: Move as Stage does, straight ahead and then turning, not along the exact arc.
+        controllers: Whether the controllers that the file names (``wander``, ``lasernoise``)
+            run.
+
+    Attributes:
+        stage: What the file says.
+        robots: In file order.
+        fleet: The engine.
+        clock: Simulated time.
+        requests: Where other threads have things done, between two steps.
+        paused: Whether ``run`` waits.
+        noise: Of the sensors of each scanner.
+
+    Raises:
+        FormatError: The file cannot be read, or is not Stage's.
+        EngineError: The world cannot be simulated.
+    """
+
+    def __init__(
+        self,
+        world: StageWorld | World | str | Path,
+        *,
+        nworld: int = 1,
+        seed: int = 0,
+        threads: int | None = None,
+        euler: bool = False,
+        controllers: bool = True,
+    ) -> None:
+        self.stage = _stage_of(world)
+        self.seed, self.nworld = seed, nworld
+        layout = layout_of(self.stage)
+        self.robots = tuple(layout.robots)
+        self._names = {robot.name: robot for robot in self.robots}
+        self.fleet = Fleet(
+            layout.bodies,
+            () if layout.statics is None else layout.statics,
+            nworld=nworld,
+            time_step=self.stage.interval_sim,
+            euler=euler,
+            threads=threads,
+        )
+        self.clock = Clock(self.stage.interval_sim)
+        self.requests = RequestQueue()
+        self.paused = self.stage.paused
+        self._fans, self._mounts = layout.fans, layout.mounts
+        self.noise = [
+            RangeNoise(*np.array(each, np.float64).reshape(-1, 2).T.copy())
+            for each in layout.noises
+        ]
+        self._eyes: dict[int, Eyes] = {}
+        self._seen: dict[int, Floats] = {}
+        self._odometry = Odometry(layout.robots, nworld, seed)
+        positions = [robot.position for robot in self.robots]
+        self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
+        self._wheelbase = np.array([p.wheelbase for p in positions])
+        self._before = self.fleet.pose.copy()
+        self._listeners: list[Listener] = []
+        self._controllers: list[Controller] = make_controllers(self) if controllers else []
+        self._closed = False
+
+    # -- what there is -----------------------------------------------------------------
+
+    @property
+    def time_step(self) -> float:
+        """Of a step [s]: the world's ``interval_sim``."""
+        return self.stage.interval_sim
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self.clock.now
+
+    def robot(self, name: str) -> StageRobot:
+        """A robot by the name that the file gives it.
+
+        Raises:
+            SimulationError: There is none.
+        """
+        found = self._names.get(name)
+        if found is None:
+            raise SimulationError(
+                f"there is no robot '{name}'", hint=did_you_mean(name, self._names)
+            )
+        return found
+
+    @property
+    def commands(self) -> Floats:
+        """Wanted velocities x, y [m/s] and yaw [rad/s], to be written, shape (nworld, nrobot, 3).
+
+        Those of a car are its speed, nothing, and its steering angle [rad].
+        """
+        return self.fleet.command
+
+    @property
+    def poses(self) -> Floats:
+        """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
+        return self.fleet.pose
+
+    @property
+    def velocities(self) -> Floats:
+        """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
+        driven = self.fleet.velocity
+        if not self._cars.any():
+            return driven
+        velocity = driven.copy()
+        speed, angle = driven[:, self._cars, 0], driven[:, self._cars, 2]
+        velocity[:, self._cars, 0] = speed * np.cos(angle)
+        velocity[:, self._cars, 2] = speed * np.sin(angle) / self._wheelbase[self._cars]
+        return velocity
+
+    @property
+    def true_velocities(self) -> Floats:
+        """How the poses changed in the last step, in the world's axes [m/s, rad/s]."""
+        change = np.subtract(self.fleet.pose, self._before)
+        change[..., 2] = np.arctan2(np.sin(change[..., 2]), np.cos(change[..., 2]))
+        rate: Floats = change / self.time_step
+        return rate
+
+    @property
+    def odometry(self) -> Floats:
+        """Where the robots believe they are, by their ``localization``; as ``poses``."""
+        if not self._odometry.needed:
+            return self.fleet.pose
+        used = self._odometry.used[None, :, None]
+        found: Floats = np.where(used, self._odometry.pose, self.fleet.pose)
+        return found
+
+    @property
+    def stalled(self) -> NDArray[np.bool_]:
+        """Whether a robot's last move was not made, as it would have hit something."""
+        return self.fleet.stalled
+
+    # -- rangers -----------------------------------------------------------------------
+
+    @property
+    def scanners(self) -> int:
+        """Number of scanners: groups of sensors with the same beams."""
+        return len(self._fans)
+
+    def scan(self, scanner: int = 0) -> Floats:
+        """What all sensors of a scanner measure now [m], shape (nworld, sensors, samples).
+
+        ``Ranger.places`` says which scanner and which row are a sensor's. Each is measured
+        once a step, however often it is asked for.
+
+        Args:
+            scanner: Its index.
+
+        Raises:
+            SimulationError: There is no such scanner.
+        """
+        if not 0 <= scanner < len(self._fans):
+            raise SimulationError(f"there is no scanner {scanner}; there are {len(self._fans)}")
+        if scanner not in self._seen:
+            self._seen[scanner] = self._eye(scanner).scan()
+        return self._seen[scanner]
+
+    def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
+        """What one sensor of a robot measures now [m], shape (samples,).
+
+        Raises:
+            SimulationError: There is no such robot, ranger or sensor.
+        """
+        robot = self.robot(name)
+        try:
+            scanner, place = robot.rangers[ranger].places[sensor]
+        except IndexError:
+            raise SimulationError(
+                f"'{name}' has no ranger {ranger} with a sensor {sensor}"
+            ) from None
+        return self.scan(scanner)[world, place].copy()
+
+    def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
+        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
+        self.scan(scanner)
+        return self._eye(scanner).returns(place, world)
+
+    def _eye(self, scanner: int) -> Eyes:
+        if scanner not in self._eyes:
+            self._eyes[scanner] = Eyes(
+                self.fleet,
+                self._fans[scanner],
+                self._mounts[scanner],
+                self.noise[scanner],
+                seed=self.seed,
+                name=f"ranger/{scanner}",
+            )
+        return self._eyes[scanner]
+
+    # -- time --------------------------------------------------------------------------
+
+    def step(self, count: int = 1) -> None:
+        """Advance by steps of ``interval_sim``, also while paused.
+
+        Raises:
+            SimulationError: The simulation is closed, or ``count`` is negative.
+        """
+        if self._closed:
+            raise SimulationError("the simulation is closed")
+        if count < 0:
+            raise SimulationError(f"cannot go back by {-count} steps")
+        with self.requests.lock:
+            self.requests.drain()
+            while count > 0:
+                piece = 1 if self._watched else min(count, 64)
+                self._advance(piece)
+                count -= piece
+                self.requests.drain()
+
+    @property
+    def _watched(self) -> bool:
+        """Whether something happens after every single step."""
+        return bool(self._controllers or self._listeners or self._odometry.needed)
+
+    def _advance(self, count: int) -> None:
+        for controller in self._controllers:
+            controller.update()
+        if count > 1:
+            self.fleet.step(count - 1)
+        self._before[:] = self.fleet.pose
+        self.fleet.step()
+        if self._odometry.needed:
+            self._odometry.advance(self.velocities, self.time_step)
+        self.clock.advance(count)
+        self._seen.clear()
+        for listener in list(self._listeners):
+            listener()
+
+    def run(self, seconds: float, *, rate: float | None = None) -> None:
+        """Advance by simulated time.
+
+        Args:
+            seconds: How long [s].
+            rate: Simulated seconds a wall second at most; None for as fast as possible.
+        """
+        run_paced(lambda piece: self.step(self.clock.steps_in(piece)), seconds, rate)
+
+    def pause(self) -> None:
+        """Let those who keep it running wait; ``step`` still steps."""
+        self.paused = True
+
+    def unpause(self) -> None:
+        """Go on."""
+        self.paused = False
+
+    def subscribe(self, listener: Listener) -> Callable[[], None]:
+        """Have something called after every step, between two steps; returns what ends it."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener) if listener in self._listeners else None
+
+    # -- changes -----------------------------------------------------------------------
+
+    def set_pose(self, name: str, pose: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Put a robot somewhere, whatever is there; its odometry does not notice.
+
+        Args:
+            name: Of the robot.
+            pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: There is no such robot, or a value is not finite.
+        """
+        values = np.asarray(pose, np.float64)
+        if not np.isfinite(values).all():
+            raise SimulationError(f"the pose of '{name}' is not finite: {values}")
+        robot = self.robot(name)
+        self.fleet.place(robot.index, values, worlds)
+        rows = slice(None) if worlds is None else worlds
+        self.fleet.stalled[rows, robot.index] = False
+        self._before[rows, robot.index] = self.fleet.pose[rows, robot.index]
+        self._seen.clear()
+
+    def reset_positions(self, worlds: Worlds | None = None) -> None:
+        """Put all robots back to where they were at first, standing, their odometry at zero."""
+        self.fleet.reset(worlds)
+        self._odometry.reset(worlds)
+        rows = slice(None) if worlds is None else worlds
+        self._before[rows] = self.fleet.pose[rows]
+        self._seen.clear()
+
+    def reset(self) -> None:
+        """Start over: robots, time, and random numbers."""
+        self.reset_positions()
+        for eye in self._eyes.values():
+            eye.rewind()
+        for controller in self._controllers:
+            controller.reset()
+        self.clock.now_ns = 0
+
+    def close(self) -> None:
+        """End the threads of the engine."""
+        self._closed = True
+        self.fleet.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @property
+    def named(self) -> Mapping[str, StageRobot]:
+        """The robots by name; of several of one name the last."""
+        return self._names
+
+
+def _stage_of(world: StageWorld | World | str | Path) -> StageWorld:
+    if isinstance(world, StageWorld):
+        return world
+    file = None if isinstance(world, World) else Path(world)
+    if file is not None and file.is_file() and is_stage(read_bytes(file), file.suffix):
+        return load_stage(file)
+    loaded = world if isinstance(world, World) else formats.load(world)
+    if loaded.stage is None:
+        place = loaded.source.file if loaded.source is not None else None
+        raise SimulationError("this is no world of Stage", file=place, hint="use Simulation")
+    return loaded.stage

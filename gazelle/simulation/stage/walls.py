@@ -1,0 +1,115 @@
+"""What of Stage's bodies stops rays and robots, as the planar engine takes it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import PlacedStageModel, StageBitmap, StagePose
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.shapes import Part, Table, primitives_of
+from gazelle.formats.terrain import rectangles
+
+Floats = NDArray[np.float64]
+
+
+def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
+    """The blocks of one model, and the walls of its bitmap as rectangles."""
+    frame, returns = placed.body_pose, placed.model.returns
+    for block in placed.model.blocks:
+        yield Part(
+            _turned(frame, block.points),
+            low=frame.z + block.z[0],
+            high=frame.z + block.z[1],
+            glow=returns.ranger,
+            solid=returns.obstacle,
+        )
+    bitmap = placed.model.bitmap
+    if bitmap is None:
+        return
+    width, depth = bitmap.cell_size
+    x, y = bitmap.low
+    for left, low, right, high in rectangles(bitmap.cells).tolist():
+        x0, x1, y0, y1 = x + left * width, x + right * width, y + low * depth, y + high * depth
+        yield Part(
+            _turned(frame, ((x0, y0), (x1, y0), (x1, y1), (x0, y1))),
+            low=frame.z + bitmap.z[0],
+            high=frame.z + bitmap.z[1],
+            glow=returns.ranger,
+            solid=returns.obstacle,
+        )
+
+
+def table_of(models: Iterable[PlacedStageModel]) -> Table:
+    """The primitives of models that stand still; of bitmaps only their outlines."""
+    parts: list[Part] = []
+    rows: list[Floats] = []
+    for placed in models:
+        bitmap = placed.model.bitmap
+        if bitmap is not None:
+            rows.append(_outline_rows(placed, bitmap))
+        parts += [
+            Part(
+                _turned(placed.body_pose, block.points),
+                low=placed.body_pose.z + block.z[0],
+                high=placed.body_pose.z + block.z[1],
+                glow=placed.model.returns.ranger,
+                solid=placed.model.returns.obstacle,
+            )
+            for block in placed.model.blocks
+        ]
+    plain = primitives_of(parts)
+    all_rows = np.vstack([plain.rows, *rows])
+    return Table(all_rows, np.zeros(len(all_rows), np.int64))
+
+
+def outline(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The longest segments around the true cells, those on their left; x0, y0, x1, y1.
+
+    In cells from the lower left corner of the first, shape (n, 4).
+    """
+    level = _runs(cells)
+    upright = _runs(np.ascontiguousarray(cells.T))[:, [1, 0, 3, 2]]
+    # seen from the other side left and right change places
+    return np.vstack([level, upright[:, [2, 3, 0, 1]]])
+
+
+def _runs(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The edges between rows, joined where they go on."""
+    framed = np.pad(cells, 1).astype(np.int8)
+    change = np.diff(framed, axis=0)  # 1: a wall begins above the edge, -1: it ends
+    found = []
+    for sign in (1, -1):
+        steps = np.diff((change == sign).view(np.int8), axis=1)
+        rows, starts = np.nonzero(steps == 1)
+        ends = np.nonzero(steps == -1)[1]
+        first, last = (starts, ends) if sign == 1 else (ends, starts)
+        found.append(np.stack([first, rows, last, rows], axis=1))
+    return np.vstack(found).astype(np.int64)
+
+
+def _outline_rows(placed: PlacedStageModel, bitmap: StageBitmap) -> Floats:
+    lines = outline(bitmap.cells)
+    width, depth = bitmap.cell_size
+    frame, returns = placed.body_pose, placed.model.returns
+    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    rows = np.zeros((len(lines), c.PRIMITIVE))
+    for at in (0, 2):
+        x = bitmap.low[0] + width * lines[:, at]
+        y = bitmap.low[1] + depth * lines[:, at + 1]
+        rows[:, c.X0 + at] = frame.x + cos * x - sin * y
+        rows[:, c.Y0 + at] = frame.y + sin * x + cos * y
+    rows[:, c.LOW], rows[:, c.HIGH] = frame.z + bitmap.z[0], frame.z + bitmap.z[1]
+    rows[:, c.GLOW] = returns.ranger
+    rows[:, c.KIND] = c.SEGMENT if returns.obstacle else c.SEGMENT + c.GHOST
+    return rows
+
+
+def _turned(
+    frame: StagePose, points: Iterable[tuple[float, float]]
+) -> tuple[tuple[float, float], ...]:
+    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    return tuple((frame.x + cos * x - sin * y, frame.y + sin * x + cos * y) for x, y in points)
