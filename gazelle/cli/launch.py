@@ -3,6 +3,7 @@
   gazelle launch turtlebot3_gazebo turtlebot3_world.launch model:=waffle
   gazelle launch ./my.launch gui:=false
   gazelle launch my.launch --ros-args
+  gazelle launch --test my_package my.test
 
 Packages are looked up on ROS_PACKAGE_PATH. Python nodes run as 'gazelle exec'
 runs them, so that 'import rospy' works with no ROS installed. A master is
@@ -51,6 +52,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument("--no-summary", action="store_true", help="do not show parameters and nodes")
     runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
     runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
+    tests = parser.add_argument_group("test, as rostest does")
+    tests.add_argument("--test", action="store_true", help="run the tests of the files")
+    tests.add_argument("--text", action="store_true", help="tests write to the screen")
+    tests.add_argument("--results", metavar="DIR", help="write JUnit results below this folder")
+    tests.add_argument("--reuse-master", action="store_true", help="use the master that runs")
     for option in _NO_EFFECT:
         runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
     parser.set_defaults(parser=parser)
@@ -72,7 +78,31 @@ def run(args: argparse.Namespace) -> int:
         import os
 
         Path(args.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
+    if args.test:
+        return _test(args, plan, packages)
     return _launch(args, plan, packages)
+
+
+def _test(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int:
+    from gazelle.ros.launch import testing
+
+    package, name = testing.report_name(Path(plan.files[0]))
+    folder = Path(args.results) if args.results else testing.results_folder()
+    report = testing.TestReport(f"{package}.{name}")
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    testing.run_tests(
+        plan,
+        report,
+        (folder / package).resolve(),
+        say=_say,
+        reuse_master=args.reuse_master,
+        text=args.text,
+        packages=packages,
+    )
+    report.write(folder / package / f"{name}.xml")
+    _say(report.summary())
+    _say(f"results are in {folder / package / name}.xml")
+    return 0 if report.passed else 1
 
 
 def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
@@ -149,7 +179,7 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     if args.required:
         plan.nodes = [replace(each, required=True, respawn=False) for each in plan.nodes]
     if plan.tests:
-        _say(f"{len(plan.tests)} tests are not run; nodes only")
+        _say(f"{len(plan.tests)} tests are not run; --test runs them")
     launch = Launch(plan, options, say=_say, packages=packages)
 
     def end(number: int, _frame: object) -> None:

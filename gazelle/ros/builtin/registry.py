@@ -60,6 +60,10 @@ _OWN = {
             "record": "gazelle.ros.builtin.bags:record",
             "play": "gazelle.ros.builtin.bags:play",
         }),
+        BuiltinPackage("rostest", {
+            name: f"gazelle.ros.builtin.rostest_nodes:{name}"
+            for name in ("hztest", "paramtest", "publishtest", "advertisetest")
+        }),
         BuiltinPackage("rostopic", {"rostopic": "gazelle.ros.builtin.commands:topic"}),
         BuiltinPackage("rosservice", {"rosservice": "gazelle.ros.builtin.commands:service"}),
         BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),

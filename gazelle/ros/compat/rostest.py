@@ -52,3 +52,12 @@ def is_publisher(topic: str, publisher_id: str) -> bool:
 def _is_in(place: int, topic: str, node: str) -> bool:
     state = dict(get_master().getSystemState()[place])
     return node in state.get(topic, [])
+
+
+def rostestmain() -> None:
+    """Run the command ``rostest`` with this process's arguments, and end it."""
+    import sys
+
+    from gazelle.ros.builtin.commands import call_command
+
+    sys.exit(call_command("launch", ["--test", *sys.argv[1:]]))
