@@ -14,23 +14,25 @@ from gazelle.engines.engine import (
     Placement,
 )
 from gazelle.engines.reactions import Contacts, Wrench
-from gazelle.errors import EngineError, did_you_mean
-
-ENGINES = ("mujoco",)
+from gazelle.engines.registry import EngineFactory, find
+from gazelle.engines.registry import names as engine_names
+from gazelle.engines.registry import register as register_engine
 
 __all__ = [
     "CHANGES",
-    "ENGINES",
     "PARAMETERS",
     "Call",
     "Contacts",
     "DivergenceError",
     "Engine",
+    "EngineFactory",
     "Hits",
     "Motion",
     "Placement",
     "Wrench",
+    "engine_names",
     "make_engine",
+    "register_engine",
 ]
 
 
@@ -45,7 +47,7 @@ def make_engine(
     """An engine by name.
 
     Args:
-        name: ``mujoco``.
+        name: ``mujoco``, or one of ``engine_names``.
         world: What to simulate.
         nworld: Number of copies.
         time_step: Physics step [s]; the world's own if None.
@@ -54,8 +56,4 @@ def make_engine(
     Raises:
         EngineError: There is no such engine, or it cannot simulate the world.
     """
-    if name not in ENGINES:
-        raise EngineError(f"there is no engine '{name}'", hint=did_you_mean(name, ENGINES))
-    from gazelle.engines.mujoco import MujocoEngine
-
-    return MujocoEngine(world, nworld, time_step=time_step, threads=threads)
+    return find(name)(world, nworld, time_step=time_step, threads=threads)

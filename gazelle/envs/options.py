@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypedDict, TypeVar
 
 from gazelle.description import Model, World
-from gazelle.engines import ENGINES
+from gazelle.engines import engine_names
 from gazelle.errors import TaskError, did_you_mean
 
 RENDER_MODES = ("rgb_array",)
@@ -62,9 +62,10 @@ class TaskSettings:
     time_step: float | None = None
 
     def __post_init__(self) -> None:
-        if self.engine not in ENGINES:
+        if self.engine not in engine_names():
             raise TaskError(
-                f"there is no engine '{self.engine}'", hint=did_you_mean(str(self.engine), ENGINES)
+                f"there is no engine '{self.engine}'",
+                hint=did_you_mean(str(self.engine), engine_names()),
             )
         if self.render_mode is not None:
             check_name("render mode", self.render_mode, RENDER_MODES)

@@ -102,6 +102,17 @@ class PhysicsProperties:
         self.set(real_time_factor=value)
 
     @property
+    def target_rate(self) -> float | None:
+        """Real-time factor that the file asks for; None means as fast as possible.
+
+        As in Gazebo classic it is the update rate times the time step, whatever
+        ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A door
+        that runs in real time gives it to ``Simulation.run`` as ``rate``; Python's own
+        default is as fast as possible.
+        """
+        return self.update_rate * self.time_step or None
+
+    @property
     def gravity(self) -> Vector3:
         """Gravity of all worlds [m/s²]; ``Simulation.parameters`` has that of each."""
         return self._simulation.world.gravity

@@ -1,0 +1,77 @@
+"""Find an engine by its name.
+
+MuJoCo comes with Gazelle. Any package adds another by an entry point of the group
+``gazelle.engines``, named as in ``Simulation(..., engine="name")``, that gives a class or
+function to be called as ``make_engine`` is, less the name. A program adds its own with
+``register``. What it gives must do all that ``Engine`` says; nothing else of Gazelle changes.
+"""
+
+from __future__ import annotations
+
+import functools
+from importlib.metadata import EntryPoint, entry_points
+from typing import Protocol
+
+from gazelle.description import World
+from gazelle.engines.engine import Engine
+from gazelle.errors import EngineError, did_you_mean
+
+_GROUP = "gazelle.engines"
+
+
+class EngineFactory(Protocol):
+    """Makes an engine; see ``make_engine`` for the arguments."""
+
+    def __call__(
+        self, world: World, nworld: int, *, time_step: float | None, threads: int | None
+    ) -> Engine:
+        """An engine that runs copies of a world."""
+
+
+_registered: dict[str, EngineFactory] = {}
+
+
+def register(name: str, factory: EngineFactory) -> None:
+    """Let an engine be had by a name; it goes before one of that name that is installed."""
+    _registered[name] = factory
+
+
+def names() -> tuple[str, ...]:
+    """All engines that can be had."""
+    return tuple(sorted({*_BUILT_IN, *_registered, *_entry_points()}))
+
+
+def find(name: str) -> EngineFactory:
+    """What makes the engine of a name.
+
+    Raises:
+        EngineError: There is none, or its package cannot be imported.
+    """
+    if name in _registered:
+        return _registered[name]
+    if name in _BUILT_IN:
+        return _BUILT_IN[name]
+    known = _entry_points()
+    if name not in known:
+        raise EngineError(f"there is no engine '{name}'", hint=did_you_mean(name, names()))
+    try:
+        factory: EngineFactory = known[name].load()
+    except (ImportError, AttributeError) as error:
+        raise EngineError(
+            f"the engine '{name}' ({known[name].value}) cannot be loaded: {error}"
+        ) from error
+    return factory
+
+
+@functools.cache
+def _entry_points() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=_GROUP)}
+
+
+def _mujoco(world: World, nworld: int, *, time_step: float | None, threads: int | None) -> Engine:
+    from gazelle.engines.mujoco import MujocoEngine
+
+    return MujocoEngine(world, nworld, time_step=time_step, threads=threads)
+
+
+_BUILT_IN: dict[str, EngineFactory] = {"mujoco": _mujoco}
