@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros import net
-from gazelle.ros.errors import Md5MismatchError, NodeClosedError, report
+from gazelle.ros.errors import Md5MismatchError, NodeClosedError, RosError, report
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.tcpros import headers
-from gazelle.ros.tcpros.frames import frame
+from gazelle.ros.tcpros.frames import LENGTH, frame
 from gazelle.ros.tcpros.outbound import OutboundLink
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ class Publication:
         self._sequence = 0
         self._last: Any = None
         self._loop: EventLoop = node.loop
-        self._has_header = bool(getattr(message_class, "_has_header", False))
+        self.has_header = bool(getattr(message_class, "_has_header", False))
         self.remote: tuple[OutboundLink, ...] = ()
         self.local: tuple[LocalLink, ...] = ()
 
@@ -75,7 +75,7 @@ class Publication:
 
     def publish(self, message: Any) -> None:
         """Send a message to everybody who listens."""
-        if self._has_header:
+        if self.has_header:
             with self._lock:
                 self._sequence += 1
                 message.header.seq = self._sequence
@@ -93,6 +93,18 @@ class Publication:
                 self._publish_local(local, message, data[4:])
         elif local:
             self._publish_local(local, message, None)
+
+    def publish_bytes(self, data: bytes) -> None:
+        """Send a message that is serialised already; not for types with a header or latched."""
+        remote, local = self.remote, self.local
+        self.messages += 1
+        if remote:
+            framed = LENGTH.pack(len(data)) + data
+            self.bytes += len(framed)
+            for link in remote:
+                link.send(framed)
+        for neighbour in local:
+            neighbour.send(None, data)
 
     def _latch(self, message: Any) -> None:
         """Send and keep a message; whoever connects at the same time gets it once."""
@@ -246,6 +258,19 @@ class Publisher:
         if self._closed:
             raise NodeClosedError(f"the publisher of {self.name} is closed")
         self._publication.publish(message)
+
+    def publish_bytes(self, data: bytes) -> None:
+        """Publish a message that is serialised already, of a type without a header.
+
+        Raises:
+            NodeClosedError: The publisher is closed.
+            RosError: The topic is latched, or its messages have headers.
+        """
+        if self._closed:
+            raise NodeClosedError(f"the publisher of {self.name} is closed")
+        if self._publication.latching or self._publication.has_header:
+            raise RosError(f"{self.name} is latched or has headers: publish messages")
+        self._publication.publish_bytes(data)
 
     @property
     def num_connections(self) -> int:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import functools
+import struct
 import time
+from collections.abc import Sequence
 from typing import Any
 
-from gazelle.bridges.conversions import set_pose, set_twist
+import numpy as np
+
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.entities import State
 from gazelle.ros import Publisher, load_message
@@ -13,6 +17,7 @@ from gazelle.simulation import Plugin
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0
+_COUNT = struct.Struct("<I")
 
 
 class ClockBeat(Plugin):
@@ -82,28 +87,34 @@ class StatesBeat(Plugin):
         entities = self._context.entities
         if self._models.has_listener:
             robots = self._context.simulation.robots
-            self._send(self._models, {name: entities.model_state(r) for name, r in robots.items()})
+            states = [entities.model_state(robot) for robot in robots.values()]
+            self._models.publish_bytes(packed(tuple(robots), states))
         if self._links.has_listener:
-            self._send(
-                self._links, {link.name: entities.link_state(link) for link in entities.links()}
-            )
+            links = entities.links()
+            names = tuple(link.name for link in links)
+            states = [entities.link_state(link) for link in links]
+            self._links.publish_bytes(packed(names, states))
 
     def close(self) -> None:
         """Stop."""
         self._models.close()
         self._links.close()
 
-    def _send(self, publisher: Publisher, states: dict[str, State]) -> None:
-        pose, twist = load_message("geometry_msgs/Pose"), load_message("geometry_msgs/Twist")
-        message = publisher.message_class()
-        for name, state in states.items():
-            place, motion = pose(), twist()
-            set_pose(place, state.position, state.quaternion)
-            set_twist(motion, state.linear, state.angular)
-            message.name.append(name)
-            message.pose.append(place)
-            message.twist.append(motion)
-        publisher.publish(message)
+
+def packed(names: tuple[str, ...], states: Sequence[State]) -> bytes:
+    """A ``ModelStates`` or ``LinkStates``, serialised: it goes out at every step."""
+    count = _COUNT.pack(len(states))
+    poses = [(*state.position, *state.quaternion) for state in states]
+    twists = [(*state.linear, *state.angular) for state in states]
+    doubles = np.array(poses, "<f8"), np.array(twists, "<f8")
+    return b"".join((_names(names), count, doubles[0].tobytes(), count, doubles[1].tobytes()))
+
+
+@functools.lru_cache(maxsize=8)
+def _names(names: tuple[str, ...]) -> bytes:
+    """An array of strings, serialised."""
+    encoded = [name.encode() for name in names]
+    return b"".join([_COUNT.pack(len(names)), *(_COUNT.pack(len(e)) + e for e in encoded)])
 
 
 class PerformanceBeat(Plugin):

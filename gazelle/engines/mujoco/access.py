@@ -65,9 +65,8 @@ class StateAccess(ABC):
             return Placement(position, xyzw_from_wxyz(q))
         if slot.root == "static":
             count = self._nworld if worlds is None else len(worlds)
-            return Placement(
-                np.tile(slot.pose.position, (count, 1)), np.tile(slot.pose.quaternion, (count, 1))
-            )
+            position, turn = np.array([slot.pose.position]), np.array([slot.pose.quaternion])
+            return Placement(position.repeat(count, axis=0), turn.repeat(count, axis=0))
         self._refresh()
         position = self._batch.xpos[rows, slot.body].copy()
         return Placement(position, xyzw_from_wxyz(self._batch.xquat[rows, slot.body]))
