@@ -61,11 +61,11 @@ class LinkHandle:
 
         Raises:
             EngineError: The link is held to the world by a joint.
+            SimulationError: Both a quaternion and a heading are given.
         """
-        if quaternion is None:
-            quaternion = from_yaw(np.asarray(0.0 if yaw is None else yaw, np.float64))
+        turned = orientation_of(quaternion, yaw)
         self._simulation.requests.call(
-            lambda: self._engine.set_link_placement(self.name, position, quaternion, worlds)
+            lambda: self._engine.set_link_placement(self.name, position, turned, worlds)
         )
 
     def set_twist(
@@ -278,6 +278,19 @@ class JointHandle:
             "motor_effort": _column(motor_effort),
         }
         _set_parameters(self._simulation, self.name, given, worlds)
+
+
+def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> ArrayLike:
+    """A quaternion (x, y, z, w), or that of a heading [rad]; upright if neither is given.
+
+    Raises:
+        SimulationError: Both are given.
+    """
+    if quaternion is None:
+        return from_yaw(np.asarray(0.0 if yaw is None else yaw, np.float64))
+    if yaw is not None:
+        raise SimulationError("give a quaternion or a yaw, not both")
+    return quaternion
 
 
 def _set_parameters(

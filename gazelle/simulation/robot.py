@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.rotations import from_yaw, yaw_of
-from gazelle.simulation.handles import JointHandle, LinkHandle
+from gazelle.rotations import yaw_of
+from gazelle.simulation.handles import JointHandle, LinkHandle, orientation_of
 from gazelle.simulation.models import mounts, sensor_model
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.sensors import SensorUnit
@@ -131,13 +131,15 @@ class Robot(Ports):
             quaternion: (x, y, z, w), shape (4,) or (n, 4); upright if None.
             yaw: Heading [rad] instead of a quaternion, shape () or (n,).
             worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: Both a quaternion and a heading are given.
         """
-        if quaternion is None:
-            quaternion = from_yaw(np.asarray(0.0 if yaw is None else yaw, np.float64))
+        turned = orientation_of(quaternion, yaw)
 
         def work() -> None:
             engine = self.simulation.engine
-            engine.set_model_placement(self.name, position, quaternion, worlds)
+            engine.set_model_placement(self.name, position, turned, worlds)
             engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), worlds)
 
         self.simulation.requests.call(work)
