@@ -50,6 +50,11 @@ class Solid:
     center: Floats
     inertia: Floats
 
+    def is_body(self) -> bool:
+        """Whether it has a volume, and all its numbers are finite."""
+        finite = math.isfinite(self.volume) and bool(np.isfinite(self.inertia).all())
+        return finite and self.volume > 0.0
+
     def placed(self, pose: Pose) -> Solid:
         """The same body in the frame that a pose is given in."""
         turn = pose.matrix()[:3, :3]
@@ -69,8 +74,14 @@ def solid_of(shape: Geometry) -> Solid | None:
         FormatError: A mesh cannot be read.
     """
     maker = _MAKERS.get(type(shape))
-    found = None if maker is None else maker(shape)
-    return found if found is not None and found.volume > 0.0 else None
+    if maker is None:
+        return None
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = maker(shape)
+    except OverflowError:  # a size that no number can hold the cube of
+        return None
+    return found if found is not None and found.is_body() else None
 
 
 def joined(solids: Iterable[Solid]) -> Solid | None:

@@ -62,6 +62,13 @@ def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
 
 def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
     """Principal moments of a solid of even density, smallest first [kg m²]; None if unknown."""
+    try:
+        return _solid_moments(shape, mass)
+    except OverflowError:  # a size that no number can hold the square of
+        return None
+
+
+def _solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
     if isinstance(shape, Box):
         x, y, z = (side * side for side in shape.size)
         found = (y + z) / 12.0, (x + z) / 12.0, (x + y) / 12.0
@@ -99,13 +106,15 @@ def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[
         return
     expected = solid_moments(link.collisions[0].geometry, inertial.mass)
     actual = principal_moments(inertial.inertia)
-    if expected is None or not math.isfinite(actual[0]) or min(actual) <= 0.0:
+    if expected is None or min(actual) <= 0.0:
+        return
+    if not all(map(math.isfinite, (*expected, *actual))):
         return
     ratios = [a / e for a, e in zip(actual, expected, strict=True) if e > 0.0]
     if not ratios or (max(ratios) <= _FACTOR and min(ratios) >= 1.0 / _FACTOR):
         return
-    worst = max(ratios, key=lambda ratio: abs(math.log(ratio)))
-    times = f"{worst:.3g} times" if worst > 1.0 else f"1/{1.0 / worst:.3g} of"
+    worst = max(ratios, key=lambda ratio: abs(math.log(max(ratio, 1e-300))))
+    times = f"{worst:.3g} times" if worst > 1.0 else f"1/{1.0 / max(worst, 1e-300):.3g} of"
     yield Finding(
         "inertia-off",
         f"link '{name}': its inertia is {times} that of a solid of its shape and mass "

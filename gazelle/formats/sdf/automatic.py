@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from gazelle.description import Collision, Inertial, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
@@ -37,8 +39,9 @@ def automatic_inertial(
         solid = solid_of(collision.geometry)
         if solid is not None:
             parts.append(solid.placed(collision.pose).scaled(_density(child, usual)))
-    whole = joined(parts)
-    if whole is None:
+    with np.errstate(over="ignore", invalid="ignore"):
+        whole = joined(parts)
+    if whole is None or not whole.is_body():
         reading.note(
             "the inertia cannot be computed: no collision of the link has a volume; "
             "the default of 1 kg is used",
