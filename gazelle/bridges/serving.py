@@ -95,19 +95,38 @@ def serve_ros(
     Raises:
         MasterUnreachableError: There is no master, and none can be started at that address.
     """
-    uri = master_uri or net.default_master_uri()
-    master = None
-    try:
-        node = Node(name, master_uri=uri, host=host)
-    except MasterUnreachableError:
-        master = _start_master(uri)
-        node = Node(name, master_uri=master.uri, host=host)
+    node, master = join_graph(name, master_uri, host)
     try:
         return RosDoor(simulation, node, master, world=world, monotonic_clock=monotonic_clock)
     except BaseException:
         node.close()
         if master is not None:
             master.close()
+        raise
+
+
+def join_graph(
+    name: str, master_uri: str | None = None, host: str | None = None
+) -> tuple[Node, Master | None]:
+    """A node, and the master that was started for it if none answered on this machine.
+
+    Args:
+        name: Of the node.
+        master_uri: Of the master; by default ``ROS_MASTER_URI``, else this machine's port 11311.
+        host: The name other nodes reach it by; loopback by default.
+
+    Raises:
+        MasterUnreachableError: There is no master, and none can be started at that address.
+    """
+    uri = master_uri or net.default_master_uri()
+    try:
+        return Node(name, master_uri=uri, host=host), None
+    except MasterUnreachableError:
+        master = _start_master(uri)
+    try:
+        return Node(name, master_uri=master.uri, host=host), master
+    except BaseException:
+        master.close()
         raise
 
 
