@@ -32,6 +32,8 @@ class StateAccess(ABC):
     _nworld: int
     _stale: bool
     """Whether the placement of links that are not roots has to be computed."""
+    _placed: bool
+    """Whether something was put elsewhere since the last step."""
 
     @property
     @abstractmethod
@@ -178,6 +180,7 @@ class StateAccess(ABC):
         self, slot: LinkSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
         rows = rows_of(worlds)
+        self._placed = True
         # Normalised, or rounding errors would grow with every relative move.
         wxyz = wxyz_from_xyzw(unit(quaternion))
         if slot.mocap is not None:
@@ -230,6 +233,7 @@ class StateAccess(ABC):
         self, joint: str, position: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Put a joint somewhere [m or rad], shape (axes,) or (n, axes)."""
+        self._placed = True
         slots = self._now().joint(joint)
         self._write(self._state.qpos, [s.position for s in slots], position, worlds)
 

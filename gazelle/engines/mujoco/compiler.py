@@ -257,7 +257,7 @@ class _Builder:
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""
-        solid = [body for body in bodies if body.link.collisions]
+        solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
             if not (first.self_collide and second.self_collide):
                 self._spec.add_exclude(bodyname1=first.name, bodyname2=second.name)

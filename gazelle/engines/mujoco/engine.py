@@ -21,6 +21,7 @@ from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
+from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, check
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
@@ -89,6 +90,9 @@ class MujocoEngine(ForcedSteps):
         self._before = batch.state.copy()
         self._recipe, self._compiled, self._pending = recipe, compiled, None
         self._batch, self._layout = batch, layout
+        self._overlaps = Overlaps(compiled, recipe.world, self._nworld)
+        self._overlaps.begin(batch)
+        self._placed = False
         self._state = StateViews.of(batch)
         self._stale = True
 
@@ -126,12 +130,25 @@ class MujocoEngine(ForcedSteps):
         self._now()
         self._stale = True
         np.copyto(self._before, self._batch.state)
-        failed = self._advance(count)
+        failed = self._let_out(count) if self._overlaps.any else self._advance(count)
+        self._placed = False
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
         if len(failed) or np.count_nonzero(self._state.faults):
             bad = np.asarray(self._state.faults.any(axis=1))
             bad[sorted(failed)] = True
             self._give_up(np.flatnonzero(bad), count)
+
+    def _let_out(self, count: int) -> set[int]:
+        """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
+        if self._placed:
+            self._overlaps.find(self._batch)
+        failed: set[int] = set()
+        while count > 0:
+            piece = min(count, PIECE) if self._overlaps.any else count
+            self._overlaps.rise(self._batch, piece * self.time_step)
+            failed |= self._advance(piece)
+            count -= piece
+        return failed
 
     def _give_up(self, worlds: Worlds, count: int) -> None:
         """Reset worlds that broke down, and say so.
@@ -156,6 +173,7 @@ class MujocoEngine(ForcedSteps):
         if self._sleepy:
             self._batch.reset(worlds, stage=_NO_STAGE)  # wakes all that sleeps
         self._batch.state[rows_of(worlds)] = self._initial
+        self._overlaps.reset(self._batch, worlds)
         self._stale = True
 
     # -- change ------------------------------------------------------------------------
@@ -246,6 +264,7 @@ class MujocoEngine(ForcedSteps):
         batch, layout = self._batch, self._layout
         self._run(recipe, compiled)
         carry_over(batch, layout, self._batch, self._layout)
+        self._overlaps.find(self._batch)
 
     def _prepare(self, pair: Attachment) -> Layout:
         """The layout of what runs, in which two links can be held together."""
@@ -340,6 +359,7 @@ class MujocoEngine(ForcedSteps):
         if self._sleepy:
             self._batch.reset(stage=_NO_STAGE)
         self._batch.state[:] = state
+        self._overlaps.find(self._batch)
         self._stale = True
 
     def peek(self) -> Floats:

@@ -40,11 +40,12 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A link with its pose in the world."""
+    """A link with its pose in the world, and whether its own model never moves."""
 
     link: Link
     pose: Pose
     self_collide: bool
+    static: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,18 +109,24 @@ def _walk(
         pose = part.pose if above is None else parts[above].pose.inverse() * part.pose
         scoped, joint = joints.get(name, ("", None))
         root: RootKind | None = "free" if joint is None else None
+        if part.static:
+            root = "static"
         yield Body(name, part.link, above, pose, joint, scoped, root, part.self_collide)
         pending.extend((child, name) for child in reversed(children[name]))
 
 
 def _parts_of(model: Model) -> dict[str, _Part]:
     parts: dict[str, _Part] = {}
+    fixed = [f"{placed.scope}::" for placed in model.walk() if placed.model.static]
     for placed in model.walk():
+        static = any(f"{placed.scope}::".startswith(scope) for scope in fixed)
         for link in placed.model.links:
             collide = placed.model.self_collide if link.self_collide is None else link.self_collide
             if placed.model.enable_wind and not link.enable_wind:
                 link = replace(link, enable_wind=True)  # noqa: PLW2901
-            parts[f"{placed.scope}::{link.name}"] = _Part(link, placed.pose * link.pose, collide)
+            parts[f"{placed.scope}::{link.name}"] = _Part(
+                link, placed.pose * link.pose, collide, static
+            )
     return parts
 
 
@@ -137,6 +144,10 @@ def _sort_joints(
             _require(child, joint, "child", parts)
             if parent != "world":
                 _require(parent, joint, "parent", parts)
+            if parts[child].static:
+                continue
+            if parent != "world" and parts[parent].static:
+                parent = "world"
             full = replace(joint, parent=parent, child=child, axes=_scoped_mimic(joint, placed))
             if joint.type == "gearbox" or child in carrying:
                 closures.append(Closure(scoped, full, joint.pose))

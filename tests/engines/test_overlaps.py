@@ -1,0 +1,132 @@
+"""What a file puts into something else comes out slowly, and nothing else is disturbed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import Contact, Friction, Joint, JointAxis, Model, Pose, Surface
+from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
+
+UP = (0.0, 0.0, 0.0, 1.0)
+
+
+def sunk(model, depth, **contact):
+    link = model.links[0]
+    surface = Surface(Friction(1.0, 1.0), Contact(**contact))
+    collisions = tuple(replace(c, surface=surface) for c in link.collisions)
+    pose = Pose(z=-depth) * model.pose
+    return replace(model, pose=pose, links=(replace(link, collisions=collisions),))
+
+
+def ground(max_vel=100.0):
+    return sunk(scenes.ground(), 0.0, max_vel=max_vel)
+
+
+def heights(engine, name, seconds, every=0.1):
+    track = []
+    for _ in range(round(seconds / every)):
+        engine.step(round(every / engine.time_step))
+        track.append(engine.model_placement(name).position[0, 2])
+    return np.array(track)
+
+
+@pytest.mark.parametrize("make", [scenes.box, scenes.ball])
+def test_a_body_in_the_ground_rises_at_max_vel_and_then_stands(make):
+    body = sunk(make(pose=Pose(z=0.1)), 0.05, max_vel=0.1)
+    name = body.name
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    track = heights(engine, name, 1.0)
+    assert np.allclose(track[:4], 0.05 + 0.1 * np.arange(1, 5) / 10.0, atol=3e-3)
+    assert np.allclose(track[6:], 0.1, atol=5e-4)
+
+
+def test_the_slower_of_two_surfaces_and_of_the_world_decides():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.05, max_vel=100.0)
+    slow = make_engine("mujoco", scenes.world(ground(0.02), body))
+    assert heights(slow, "box", 1.0)[-1] == pytest.approx(0.07, abs=2e-3)
+    world = scenes.world(ground(), body)
+    ode = replace(world.profile.ode, contact_max_correcting_vel=0.02)
+    slow = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
+    assert heights(slow, "box", 1.0)[-1] == pytest.approx(0.07, abs=2e-3)
+
+
+def test_by_default_nothing_is_thrown():
+    body = scenes.box(pose=Pose(z=-0.5))
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), body))
+    for _ in range(100):
+        engine.step(10)
+        assert np.abs(engine.link_motion("box::link").linear).max() < 0.05
+
+
+def test_what_bounces_or_springs_is_let_out_too():
+    body = sunk(scenes.ball(radius=0.3, pose=Pose(z=0.3)), 0.1, kp=3000.0, kd=100.0, max_vel=0.1)
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    track = heights(engine, "ball", 2.0)
+    assert np.diff(track).max() < 0.02
+    assert track[-1] == pytest.approx(0.3 - 9.8 / 3000.0, abs=5e-4)
+
+
+def test_shallow_overlaps_are_left_to_the_contact():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.0009, max_vel=0.001)
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    assert heights(engine, "box", 0.5)[-1] == pytest.approx(0.1, abs=1e-4)
+
+
+def test_a_surface_layer_or_least_depth_of_the_file_says_what_is_shallow():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.004, max_vel=0.001, min_depth=0.005)
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    assert heights(engine, "box", 0.5)[-1] == pytest.approx(0.1, abs=1e-4)
+
+
+def test_a_reset_starts_again_and_a_restored_state_goes_on():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.05, max_vel=0.1)
+    engine = make_engine("mujoco", scenes.world(ground(), body), nworld=2)
+    engine.step(300)
+    saved = engine.snapshot()
+    engine.step(1000)
+    engine.reset(np.array([1]))
+    engine.step(100)
+    z = engine.model_placement("box").position[:, 2]
+    assert z == pytest.approx([0.1, 0.06], abs=2e-3)
+    engine.restore(saved)
+    engine.step(100)
+    assert engine.model_placement("box").position[:, 2] == pytest.approx(0.09, abs=3e-3)
+
+
+def test_spawning_leaves_what_has_come_out_as_it_is():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.05, max_vel=1.0)
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    engine.step(500)
+    engine.spawn(sunk(scenes.box("other", pose=Pose(1.0, z=0.1)), 0.03, max_vel=0.1))
+    engine.step(200)
+    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.model_placement("other").position[0, 2] == pytest.approx(0.09, abs=2e-3)
+
+
+def test_what_is_placed_elsewhere_overlaps_no_more():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.05, max_vel=0.001)
+    engine = make_engine("mujoco", scenes.world(ground(), body))
+    engine.step(10)
+    engine.set_model_placement("box", (0.0, 0.0, 0.1), UP)
+    engine.step(500)
+    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+
+
+def test_a_nested_model_that_is_static_holds_what_hangs_on_it():
+    floor = replace(scenes.ground(), name="floor")
+    post = scenes.box("post", pose=Pose(3.0, z=1.0), static=True)
+    arm = scenes.box("arm", pose=Pose(3.5, z=1.0))
+    axes = (JointAxis(xyz=(0.0, 1.0, 0.0)),)
+    hinge = Joint("hinge", "revolute", "post::link", "arm::link", Pose(x=-0.5), axes=axes)
+    place = Model("place", models=(floor, post, arm), joints=(hinge,))
+    box = scenes.box(pose=Pose(z=0.1))
+    engine = make_engine("mujoco", scenes.world(place, box))
+    engine.step(300)
+    assert engine.link_placement("place::post::link").position[0, 2] == 1.0
+    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.link_placement("place::arm::link").position[0, 2] < 0.99
+    arm_at = engine.link_placement("place::arm::link").position[0]
+    assert np.linalg.norm(arm_at - (3.0, 0.0, 1.0)) == pytest.approx(0.5, abs=1e-9)
