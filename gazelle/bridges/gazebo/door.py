@@ -18,6 +18,7 @@ from gazelle.bridges.gazebo.models import ModelServices
 from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
 from gazelle.bridges.gazebo.world import WorldServices
+from gazelle.bridges.loggers import serve_loggers
 from gazelle.ros import Node, load_message, load_service
 from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.stepping import make_scheduled
@@ -169,7 +170,7 @@ class GazeboDoor:
         self._offer_own(world)
         self._listen(models, links)
         reconfigure = PhysicsReconfigure(self.context, world)
-        self._closing.append(reconfigure.close)
+        self._closing += [reconfigure.close, serve_loggers(self._node)]
 
     def _offer_empty(self, world: WorldServices) -> None:
         for name, handler in {

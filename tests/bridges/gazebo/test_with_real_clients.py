@@ -1,0 +1,174 @@
+"""Debian's real rospy and tools beside the Gazebo door."""
+
+from __future__ import annotations
+
+import subprocess
+import threading
+
+import pytest
+import yaml
+from missing import skip_or_fail
+from real_messages import generate_real_classes
+from ros.real import INSTALLED, PYTHON, environment
+
+pytestmark = pytest.mark.ros
+
+EVERY_SERVICE = """
+import rospy, sys
+from gazebo_msgs.srv import *
+from gazebo_msgs.msg import *
+from std_srvs.srv import Empty
+from geometry_msgs.msg import *
+rospy.init_node("real", anonymous=True)
+BALL = '''<sdf version="1.6"><model name="x"><link name="core"><inertial><mass>2</mass></inertial>
+<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>'''
+LAMP = '''<sdf version="1.6"><light type="point" name="lamp"><pose>0 0 3 0 0 0</pose></light></sdf>'''
+URDF = '''<?xml version="1.0"?><robot name="r"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>'''
+def call(name, kind, *args, **kw):
+    rospy.wait_for_service("/gazebo/" + name, 5.0)
+    answer = rospy.ServiceProxy("/gazebo/" + name, kind)(*args, **kw)
+    print(name, "|", getattr(answer, "success", ""), "|", getattr(answer, "status_message", ""), flush=True)
+    return answer
+pose = Pose(); pose.position.z = 2.0; pose.orientation.w = 1.0
+call("pause_physics", Empty)
+call("spawn_sdf_model", SpawnModel, "ball", BALL, "", pose, "world")
+call("spawn_sdf_model", SpawnModel, "ball", BALL, "", pose, "world")
+call("spawn_urdf_model", SpawnModel, "robot", URDF, "", pose, "")
+call("spawn_sdf_model", SpawnModel, "lamp", LAMP, "", pose, "")
+call("get_light_properties", GetLightProperties, "lamp")
+call("set_light_properties", SetLightProperties, light_name="lamp")
+call("delete_light", DeleteLight, "lamp")
+call("get_model_properties", GetModelProperties, "ball")
+assert call("get_model_state", GetModelState, "ball", "").pose.position.z == 2.0
+call("get_model_state", GetModelState, "nobody", "")
+call("get_world_properties", GetWorldProperties)
+call("get_joint_properties", GetJointProperties, "wheel_left_joint")
+call("get_joint_properties", GetJointProperties, "none")
+assert call("get_link_properties", GetLinkProperties, "ball::core").mass == 2.0
+call("get_link_state", GetLinkState, "ball::core", "world")
+p = call("get_physics_properties", GetPhysicsProperties)
+assert p.pause and p.ode_config.sor_pgs_iters == 150
+call("set_physics_properties", SetPhysicsProperties, p.time_step, p.max_update_rate, p.gravity, p.ode_config)
+call("set_link_properties", SetLinkProperties, "ball::core", Pose(), True, 3.0, 1.0, 0, 0, 1.0, 0, 1.0)
+call("set_model_state", SetModelState, ModelState("ball", pose, Twist(), "world"))
+call("set_model_configuration", SetModelConfiguration, "r1", "", ["wheel_left_joint"], [0.5])
+call("set_joint_properties", SetJointProperties, "wheel_left_joint", ODEJointProperties(damping=[0.1]))
+call("set_link_state", SetLinkState, LinkState("ball::core", pose, Twist(), "world"))
+call("apply_body_wrench", ApplyBodyWrench, body_name="ball::core", duration=rospy.Duration(0.1))
+call("apply_joint_effort", ApplyJointEffort, "wheel_left_joint", 0.01, rospy.Time(0), rospy.Duration(0.1))
+call("clear_joint_forces", JointRequest, "wheel_left_joint")
+call("clear_body_wrenches", BodyRequest, "ball::core")
+call("unpause_physics", Empty)
+states = rospy.wait_for_message("/gazebo/model_states", ModelStates, 5.0)
+assert "ball" in states.name and len(states.pose) == len(states.twist) == len(states.name)
+links = rospy.wait_for_message("/gazebo/link_states", LinkStates, 5.0)
+assert "r1::base_footprint" in links.name
+rospy.wait_for_message("/gazebo/performance_metrics", PerformanceMetrics, 10.0)
+call("delete_model", DeleteModel, "ball")
+call("delete_model", DeleteModel, "ball")
+call("reset_simulation", Empty)
+call("reset_world", Empty)
+print("END", flush=True)
+"""
+ANSWERS = """
+pause_physics |  |
+spawn_sdf_model | True | SpawnModel: Successfully spawned entity
+spawn_sdf_model | False | SpawnModel: Failure - entity already exists.
+spawn_urdf_model | True | SpawnModel: Successfully spawned entity
+spawn_sdf_model | True | SpawnModel: Successfully spawned entity
+get_light_properties | True |
+set_light_properties | True |
+delete_light | True | DeleteLight: lamp successfully deleted
+get_model_properties | True | GetModelProperties: got properties
+get_model_state | True | GetModelState: got properties
+get_model_state | False | GetModelState: model does not exist
+get_world_properties | True | GetWorldProperties: got properties
+get_joint_properties | True | GetJointProperties: got properties
+get_joint_properties | False | GetJointProperties: joint not found
+get_link_properties | True | GetLinkProperties: got properties
+get_link_state | True | GetLinkState: got state
+get_physics_properties | True | GetPhysicsProperties: got properties
+set_physics_properties | True | physics engine updated
+set_link_properties | True | SetLinkProperties: properties set
+set_model_state | True | SetModelState: set model state done
+set_model_configuration | True | SetModelConfiguration: success
+set_joint_properties | True | SetJointProperties: properties set
+set_link_state | True | SetLinkState: success
+apply_body_wrench | True |
+apply_joint_effort | True | ApplyJointEffort: effort set
+clear_joint_forces |  |
+clear_body_wrenches |  |
+unpause_physics |  |
+delete_model | True | DeleteModel: successfully deleted model
+delete_model | False | DeleteModel: model does not exist
+reset_simulation |  |
+reset_world |  |
+END
+"""
+
+
+@pytest.fixture(scope="module")
+def classes(tmp_path_factory):
+    if not INSTALLED:
+        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+    packages = {"gazebo_msgs", "gazelle_msgs"}
+    return generate_real_classes(packages, tmp_path_factory.mktemp("genpy"))
+
+
+@pytest.fixture
+def background(graph):
+    """The world running in real time beside the test."""
+    thread = threading.Thread(target=graph.door.run)
+    thread.start()
+    yield graph
+    graph.door.stop()
+    thread.join()
+
+
+def run(uri, classes, *command):
+    finished = subprocess.run(
+        command,
+        env=environment(uri) | {"PYTHONPATH": str(classes)},
+        capture_output=True,
+        text=True,
+        timeout=90,
+        check=False,
+    )
+    assert finished.returncode == 0, finished.stdout + finished.stderr
+    return finished.stdout
+
+
+def test_a_real_client_gets_gazebos_answers_from_every_service(background, classes):
+    said = run(background.master.uri, classes, PYTHON, "-c", EVERY_SERVICE)
+    lines = [line.rstrip() for line in said.strip().splitlines()]
+    assert lines == ANSWERS.strip().splitlines()
+
+
+def test_the_real_tools_see_the_types_of_services_and_topics(background, classes):
+    uri = background.master.uri
+    assert run(uri, classes, "rosservice", "type", "/gazebo/spawn_sdf_model").strip() == (
+        "gazebo_msgs/SpawnModel"
+    )
+    called = run(uri, classes, "rosservice", "call", "/gazebo/get_world_properties")
+    assert "r1" in called
+    echoed = run(uri, classes, "rostopic", "echo", "-n1", "/gazebo/model_states/name")
+    assert "r1" in echoed
+
+
+def test_everything_that_gazebos_own_checker_looks_for_is_there(graph, corpus):
+    folder = corpus / "ros-simulation__gazebo_ros_pkgs/gazebo_ros/test/ros_network"
+    wanted = yaml.safe_load((folder / "gazebo_network_api.yaml").read_text(encoding="utf-8"))
+    master = graph.client.node.master
+    types = dict(master.topic_types())
+    publishers, subscribers, services = master.system_state()
+    found = {*publishers, *subscribers}
+    for each in wanted["topics"]:
+        if each["topic"] == "/rosout":
+            continue
+        assert each["topic"] in found
+        assert types[each["topic"]] == each["type"]
+    offered = set(services)
+    for each in wanted["services"]:
+        if each["service"].startswith("/gazebo/"):
+            assert each["service"] in offered
