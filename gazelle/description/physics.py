@@ -53,6 +53,8 @@ class Physics:
         auto_disable: Whether bodies at rest go to sleep; None leaves it to the engine.
         speculative_contacts: Whether contacts are looked for on the way of the coming step,
             so that fast bodies do not pass through thin ones; None leaves it to the engine.
+        integrator: ``euler`` (semi-implicit, as ODE) or ``rk4`` (fourth order, four times the
+            work); None leaves it to the engine.
         extras: Elements of other engines kept whole: bullet, dart, simbody.
     """
 
@@ -66,5 +68,6 @@ class Physics:
     ode: Ode = field(default_factory=Ode)
     auto_disable: bool | None = None
     speculative_contacts: bool | None = None
+    integrator: str | None = None
     extras: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)

@@ -22,6 +22,7 @@ _OF_PROFILE = {
     "max_contacts": "max_contacts",
     "auto_disable": "auto_disable",
     "speculative_contacts": "speculative_contacts",
+    "integrator": "integrator",
 }
 _OF_SOLVER = {
     "iterations": "iters",
@@ -237,6 +238,15 @@ class PhysicsProperties:
     @speculative_contacts.setter
     def speculative_contacts(self, value: bool | None) -> None:
         self.set(speculative_contacts=value)
+
+    @property
+    def integrator(self) -> str | None:
+        """``euler``, as ODE, or ``rk4``; None means ``euler``. See docs/physics.md."""
+        return self.profile.integrator
+
+    @integrator.setter
+    def integrator(self, value: str | None) -> None:
+        self.set(integrator=value)
 
     # -- change ------------------------------------------------------------------------
 

@@ -9,8 +9,15 @@ import mujoco
 
 from gazelle.description import World
 from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead
+from gazelle.errors import EngineError, did_you_mean
 
 _LINE_SEARCH_ITERATIONS = 20
+
+_INTEGRATORS = {
+    # Semi-implicit Euler as ODE integrates; joint damping is implicit (eulerdamp).
+    "euler": mujoco.mjtIntegrator.mjINT_EULER,
+    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
+}
 
 # SDF's friction models. A pyramid's sides bear more or less than a cone by the direction.
 _CONES = {"cone_model": mujoco.mjtCone.mjCONE_ELLIPTIC}
@@ -22,8 +29,7 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     """Set what holds for the whole world."""
     option = spec.option
     option.timestep = time_step
-    # Semi-implicit Euler as ODE integrates; joint damping stays implicit (eulerdamp).
-    option.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    option.integrator = _integrator(world.profile.integrator)
     option.cone = _CONES.get(world.profile.ode.friction_model, mujoco.mjtCone.mjCONE_PYRAMIDAL)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
@@ -40,6 +46,20 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     spec.compiler.degree = False
     spec.compiler.discardvisual = False
     spec.compiler.fusestatic = False
+
+
+def _integrator(name: str | None) -> mujoco.mjtIntegrator:
+    """MuJoCo's integrator of a name.
+
+    Raises:
+        EngineError: There is none.
+    """
+    known = name or "euler"
+    if known not in _INTEGRATORS:
+        raise EngineError(
+            f"there is no integrator '{name}'", hint=did_you_mean(known, _INTEGRATORS)
+        )
+    return _INTEGRATORS[known]
 
 
 def add_force_probe(spec: mujoco.MjSpec) -> None:
