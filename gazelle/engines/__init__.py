@@ -47,7 +47,7 @@ def make_engine(
     """An engine by name.
 
     Args:
-        name: ``mujoco``, or one of ``engine_names``.
+        name: ``mujoco``, ``planar``, or another of ``engine_names``.
         world: What to simulate.
         nworld: Number of copies.
         time_step: Physics step [s]; the world's own if None.

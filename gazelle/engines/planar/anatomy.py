@@ -1,0 +1,124 @@
+"""Models of a description as bodies and statics of a fleet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from gazelle.description import Model, Pose
+from gazelle.engines.planar.cuts import Levels, parts_of
+from gazelle.engines.planar.fleet import Body, Drive
+from gazelle.engines.planar.shapes import Part
+from gazelle.engines.planar.skeleton import Skeleton, skeleton_of
+
+STEP = 0.01
+"""How high a step is that robots still drive over [m]."""
+
+_DROP = 0.5  # from how high a robot is put on the ground [m]
+_HEIGHTS = (STEP, 0.5)  # at which robots bump, if there are none yet [m]
+
+
+@dataclass(frozen=True, slots=True)
+class Anatomy:
+    """A model and how it is in the plane.
+
+    Attributes:
+        model: What it is.
+        skeleton: Its links.
+        yaw: Heading of its frame at first [rad].
+        z: Height of its frame [m].
+        tilt: How its frame leans.
+        still: Whether it never moves: it is part of the statics.
+        loose: Whether it moves by itself: driven, or pushed off once.
+    """
+
+    model: Model
+    skeleton: Skeleton
+    yaw: float
+    z: float
+    tilt: Pose
+    still: bool
+    loose: bool
+
+
+def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:
+    """Look at a model.
+
+    Raises:
+        EngineError: A joint names a link that is not there.
+    """
+    pose = model.pose
+    yaw = pose.yaw
+    tilt = Pose(yaw=-yaw) * Pose.from_quaternion((0.0, 0.0, 0.0), pose.quaternion)
+    skeleton = skeleton_of(model, tilt, kinematic=kinematic)
+    loose = not (model.static or kinematic or skeleton.held)
+    z = _grounded(model, skeleton, tilt) if loose else pose.z
+    return Anatomy(model, skeleton, yaw, z, tilt, model.static and not kinematic, loose)
+
+
+def _grounded(model: Model, skeleton: Skeleton, tilt: Pose) -> float:
+    """Height at which a model stands on its wheels; where it was put if it has none."""
+    bottoms = [
+        (tilt * skeleton.bones[_child(skeleton, name)].rest).z - wheel.radius
+        for name, wheel in skeleton.wheels.items()
+    ]
+    if not bottoms or abs(model.pose.z + min(bottoms)) > _DROP:
+        return model.pose.z
+    return -min(bottoms)
+
+
+def _child(skeleton: Skeleton, joint: str) -> str:
+    return next(
+        name
+        for name, bone in skeleton.bones.items()
+        if bone.hinge is not None and bone.hinge.name == joint
+    )
+
+
+def levels_of(models: Iterable[Anatomy], more: Iterable[float]) -> Levels:
+    """The heights at which to cut: of all lidars and of all that drives, and ``more`` rays."""
+    rays, lows, highs = set(more), [], []
+    for each in models:
+        frame = Pose(z=each.z) * each.tilt
+        for bone in each.skeleton.bones.values():
+            for sensor in bone.link.sensors:
+                if sensor.lidar is not None:
+                    rays.add(round((frame * bone.rest * sensor.pose).z, 4))
+            if each.loose and each.skeleton.wheels:
+                for collision in bone.link.collisions:
+                    lows.append(STEP)
+                    highs.append((frame * bone.rest * collision.pose).z)
+    low, high = min(lows, default=_HEIGHTS[0]), max(highs, default=_HEIGHTS[1])
+    return Levels(tuple(sorted(rays)), low, max(high, low + STEP))
+
+
+def statics_of(each: Anatomy, levels: Levels) -> list[Part]:
+    """The parts of a model that never moves, in the world."""
+    return [
+        part
+        for bone in each.skeleton.bones.values()
+        for collision in bone.link.collisions
+        for part in parts_of(
+            collision, each.model.pose * bone.rest * collision.pose, levels, moving=False
+        )
+    ]
+
+
+def body_of(each: Anatomy, levels: Levels) -> Body:
+    """A model that moves as a body of a fleet."""
+    own = levels.lowered(each.z)
+    parts = [
+        _lifted(part)
+        for bone in each.skeleton.bones.values()
+        for collision in bone.link.collisions
+        for part in parts_of(collision, each.tilt * bone.rest * collision.pose, own, moving=True)
+    ]
+    place = (each.model.pose.x, each.model.pose.y, each.yaw)
+    return Body(tuple(parts), place, each.z, Drive("omni") if each.loose else None)
+
+
+def _lifted(part: Part) -> Part:
+    """A part that does not bump into what its body can drive over."""
+    if not part.solid or part.high - part.low <= 2.0 * STEP:
+        return part
+    return replace(part, low=part.low + STEP)

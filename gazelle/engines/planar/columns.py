@@ -1,0 +1,94 @@
+"""What the columns of the arrays mean that kernels work on.
+
+A row of a primitive, of a body or of a piece is 64 bytes: one line of a processor's cache.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+# Primitives, what rays meet: a segment from (X0, Y0) to (X1, Y1), solid on its left if on any
+# side, or, where KIND has CIRCLE, a circle about (X0, Y0) of radius X1 [m].
+X0: Final = 0
+Y0: Final = 1
+X1: Final = 2
+Y1: Final = 3
+LOW: Final = 4  # lowest height [m]
+HIGH: Final = 5  # highest height [m]
+GLOW: Final = 6  # what a laser gets back; negative: invisible
+KIND: Final = 7
+PRIMITIVE: Final = 8
+
+SEGMENT: Final = 0.0
+CIRCLE: Final = 1.0
+GHOST: Final = 2.0  # added to KIND where nothing bumps into it
+
+# Bodies. Heading and its cosine and sine are kept together.
+X: Final = 0
+Y: Final = 1
+YAW: Final = 2
+COS: Final = 3
+SIN: Final = 4
+Z: Final = 5
+BODY: Final = 8
+
+# Convex pieces, what bodies bump with: polygons counter-clockwise, or circles.
+CENTRE_X: Final = 0
+CENTRE_Y: Final = 1
+BOUND: Final = 2  # radius about the centre that holds it all [m]
+PIECE_LOW: Final = 3
+PIECE_HIGH: Final = 4
+FIRST: Final = 5  # of its corners
+COUNT: Final = 6  # 0 for a circle
+PIECE: Final = 8
+
+# Drives: kind, wheelbase, then bounds of velocity and acceleration along x, y and about z.
+DRIVE_KIND: Final = 0
+WHEELBASE: Final = 1
+SLOWEST: Final = 2
+FASTEST: Final = 5
+BRAKE: Final = 8
+PUSH: Final = 11
+DRIVE: Final = 14
+
+PASSIVE: Final = -1.0
+DIFFERENTIAL: Final = 0.0
+OMNIDIRECTIONAL: Final = 1.0
+CAR: Final = 2.0
+
+# What a body is, the same in all worlds: its family, whose members ignore each other, its
+# primitives and its pieces, from the first to before the last.
+FAMILY: Final = 0
+FIRST_LOOK: Final = 1
+LAST_LOOK: Final = 2
+FIRST_PIECE: Final = 3
+LAST_PIECE: Final = 4
+RADIUS: Final = 5  # of all of it about the body's origin [m]
+KIND_OF_BODY: Final = 8
+
+# A sensor's place in its world: position, cosine and sine of its heading, height.
+S_X: Final = 0
+S_Y: Final = 1
+S_COS: Final = 2
+S_SIN: Final = 3
+S_Z: Final = 4
+SENSOR: Final = 5
+
+# A fan: angle of the first beam [rad], beams a radian, reach [m], one over the distance at which
+# beams begin [1/m], and how far angles may be wrong [rad].
+START: Final = 0
+RATE: Final = 1
+REACH: Final = 2
+NEAR: Final = 3
+SLACK: Final = 4
+FAN: Final = 5
+
+# What a beam met: 0 for nothing; 1 + index of a static primitive; NAMES * (1 + body) + index
+# of its primitive. Negative if met from inside.
+NAMES: Final = 67108864.0
+
+# What becomes of a body in a step.
+STILL: Final = 0
+MOVING: Final = 1
+BLOCKED: Final = 2
+UNDECIDED: Final = 3

@@ -1,0 +1,263 @@
+"""The planar engine: a batch of worlds seen from above, moved by native kernels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.description import Model, World
+from gazelle.engines.engine import Call, Floats, Worlds
+from gazelle.engines.laws import with_profile
+from gazelle.engines.planar.access import PlanarAccess, rows_of
+from gazelle.engines.planar.build import Layout, Recipe, build
+from gazelle.engines.planar.cuts import LEVEL
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.refusals import Refusals
+from gazelle.errors import EngineError, did_you_mean
+
+# Columns of a snapshot for each body: pose and height, command, velocity, stall.
+_BODY = 11
+
+
+class PlanarEngine(Refusals, PlanarAccess):
+    """Many copies of one world in a plane; see ``gazelle.engines.engine.Engine``.
+
+    Bases are kinematic: they go as their wheels roll, or as they were told to, and stop at
+    what they would run into. Nothing falls, and nothing is pushed.
+
+    Args:
+        world: What to simulate; collision shapes are cut at the height of lidars and bases.
+        nworld: Number of copies.
+        time_step: Physics step [s]; the world's ``max_step_size`` if None.
+        threads: Native threads; all processors if None. The results do not depend on it.
+
+    Raises:
+        EngineError: The world cannot be simulated.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        nworld: int = 1,
+        *,
+        time_step: float | None = None,
+        threads: int | None = None,
+    ) -> None:
+        step = world.profile.max_step_size if time_step is None else time_step
+        if not step > 0.0:
+            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        if step != world.profile.max_step_size:
+            world = with_profile(world, replace(world.profile, max_step_size=step))
+        self._threads = threads
+        recipe = Recipe(world, step, {})
+        self._run(recipe, *build(recipe, nworld, threads))
+
+    def _run(self, recipe: Recipe, fleet: Fleet, layout: Layout) -> None:
+        """Go on with a fleet, from its initial state."""
+        self._recipe, self._fleet, self._layout = recipe, fleet, layout
+        shape = (fleet.nworld, layout.axes)
+        self._angles, self._rates = np.zeros(shape), np.zeros(shape)
+        self._targets = np.full(shape, math.nan)
+        for joint in recipe.motors:
+            self._targets[:, layout.joints[joint][0]] = 0.0
+        self._casters = {}
+
+    @property
+    def nworld(self) -> int:
+        """Number of worlds."""
+        return self._fleet.nworld
+
+    @property
+    def time_step(self) -> float:
+        """Physics step [s]."""
+        return self._recipe.time_step
+
+    @property
+    def world(self) -> World:
+        """The world that runs, with what was spawned and without what was deleted."""
+        return self._recipe.world
+
+    @property
+    def link_names(self) -> tuple[str, ...]:
+        """Scoped names, ``model::link``."""
+        return tuple(self._layout.owners)
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Scoped names, ``model::joint``, of joints that can move."""
+        return tuple(self._layout.joints)
+
+    @property
+    def fleet(self) -> Fleet:
+        """What moves the bodies; it is replaced when models come or go."""
+        return self._fleet
+
+    @property
+    def bodies(self) -> dict[str, int]:
+        """Index in the fleet of each model that can move."""
+        return dict(self._layout.bodies)
+
+    # -- time --------------------------------------------------------------------------
+
+    def step(self, count: int = 1) -> None:
+        """Advance every world by ``count`` physics steps."""
+        driven = ~np.isnan(self._targets)
+        np.copyto(self._rates, self._targets, where=driven)
+        command = self._fleet.command
+        for each in self._layout.rollings:
+            command[:, each.body] = self._targets[:, each.columns] @ each.matrix.T
+        self._fleet.step(count)
+        if self._layout.axes:
+            self._angles += self._rates * (self.time_step * count)
+            np.clip(self._angles, *self._layout.limits, out=self._angles)
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Put worlds back to their initial state: poses, rest, no commands."""
+        self._fleet.reset(worlds)
+        rows = rows_of(worlds)
+        self._angles[rows], self._rates[rows] = 0.0, 0.0
+        self._targets[rows] = np.where(np.isnan(self._targets[rows]), math.nan, 0.0)
+
+    # -- change ------------------------------------------------------------------------
+
+    def spawn(self, model: Model) -> None:
+        """Add a model to every world, at rest at its ``pose``; all else stays as it is."""
+        world = self.world
+        if model.name in self._layout.models:
+            raise EngineError(f"there is a model '{model.name}' already", source=model.source)
+        self._change(replace(self._recipe, world=replace(world, models=(*world.models, model))))
+
+    def delete(self, model: str) -> None:
+        """Take a model out of every world; all else stays as it is."""
+        world, known = self.world, self._layout.models
+        if model not in known:
+            raise EngineError(f"there is no model '{model}'", hint=did_you_mean(model, known))
+        kept = tuple(each for each in world.models if each.name != model)
+        gone = known[model].skeleton.hinges
+        motors = {name: most for name, most in self._recipe.motors.items() if name not in gone}
+        self._change(
+            replace(
+                self._recipe,
+                world=replace(world, models=kept),
+                motors=motors,
+                kinematic=self._recipe.kinematic - {model},
+            )
+        )
+
+    def add_motor(self, joint: str, max_effort: float) -> None:
+        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
+        axes = self._axes(joint)
+        if axes.stop - axes.start != 1:
+            raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
+        if not max_effort > 0.0:
+            raise EngineError(f"the largest effort of a motor must be positive, not {max_effort:g}")
+        self._change(replace(self._recipe, motors={**self._recipe.motors, joint: max_effort}))
+
+    def make_kinematic(self, model: str) -> None:
+        """Let a model move only by ``set_model_placement``."""
+        self._model(model)
+        if model not in self._recipe.kinematic:
+            kinematic = self._recipe.kinematic | {model}
+            self._change(replace(self._recipe, kinematic=kinematic))
+
+    def update_world(self, world: World) -> None:
+        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        step = world.profile.max_step_size
+        if not step > 0.0:
+            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        models = self.world.models
+        self._recipe = replace(self._recipe, world=replace(world, models=models), time_step=step)
+        self._fleet.time_step = step
+
+    def _cut_at(self, height: float) -> None:
+        """Cut shapes at one more height [m], for rays."""
+        known = [*self._recipe.rays, *self._layout.levels.rays]
+        if all(abs(level - height) > LEVEL / 2.0 for level in known):
+            self._change(replace(self._recipe, rays=self._recipe.rays | {round(height, 4)}))
+
+    def _change(self, recipe: Recipe) -> None:
+        """Go on with other models, with all states that both have."""
+        fleet, layout = self._fleet, self._layout
+        angles, rates, targets = self._angles, self._rates, self._targets
+        made = build(recipe, fleet.nworld, self._threads)
+        self._run(recipe, *made)
+        for name, body in self._layout.bodies.items():
+            if name in layout.bodies:
+                self._fleet.take_over(body, fleet, layout.bodies[name])
+        for name, (first, count) in self._layout.joints.items():
+            if name in layout.joints:
+                here, there = slice(first, first + count), layout.joints[name][0]
+                old = slice(there, there + count)
+                self._angles[:, here], self._rates[:, here] = angles[:, old], rates[:, old]
+                held = ~np.isnan(targets[:, old]) & ~np.isnan(self._targets[:, here])
+                np.copyto(self._targets[:, here], targets[:, old], where=held)
+        fleet.close()
+
+    # -- saving ------------------------------------------------------------------------
+
+    def history(self) -> list[Call]:
+        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+        calls = [Call("make_kinematic", (name,)) for name in sorted(self._recipe.kinematic)]
+        return calls + [Call("add_motor", pair) for pair in self._recipe.motors.items()]
+
+    def adopt(self, history: Sequence[Call]) -> None:
+        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
+        kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
+        motors = dict(call.arguments for call in history if call.method == "add_motor")
+        self._change(replace(self._recipe, kinematic=frozenset(kinematic), motors=motors))
+
+    def snapshot(self) -> Floats:
+        """The whole dynamic state, shape (nworld, size)."""
+        fleet = self._fleet
+        rows = np.zeros((fleet.nworld, fleet.nbody, _BODY))
+        rows[:, :, :3], rows[:, :, 3] = fleet.pose, fleet.heights
+        rows[:, :, 4:7], rows[:, :, 7:10] = fleet.command, fleet.velocity
+        rows[:, :, 10] = fleet.stalled
+        targets = np.nan_to_num(self._targets, nan=0.0)
+        flat = rows.reshape(fleet.nworld, -1)
+        return np.concatenate((flat, self._angles, self._rates, targets), axis=1)
+
+    def peek(self) -> Floats:
+        """The same as ``snapshot``."""
+        return self.snapshot()
+
+    def restore(self, state: Floats) -> None:
+        """Put back what ``snapshot`` gave; the models must be the same."""
+        fleet, axes = self._fleet, self._layout.axes
+        size = fleet.nbody * _BODY
+        shape = (fleet.nworld, size + 3 * axes)
+        if state.shape != shape:
+            raise EngineError(
+                f"the saved state has the shape {state.shape}, the worlds that run need {shape}",
+                hint="restore into a simulation with the same models and number of worlds",
+            )
+        rows = state[:, :size].reshape(fleet.nworld, fleet.nbody, _BODY)
+        fleet.put(rows[:, :, :3], rows[:, :, 3])
+        fleet.command[:], fleet.velocity[:] = rows[:, :, 4:7], rows[:, :, 7:10]
+        fleet.stalled[:] = rows[:, :, 10] != 0.0
+        joints = state[:, size:].reshape(fleet.nworld, 3, axes)
+        self._angles[:], self._rates[:] = joints[:, 0], joints[:, 1]
+        self._targets[:] = np.where(np.isnan(self._targets), math.nan, joints[:, 2])
+
+    # -- parameters --------------------------------------------------------------------
+
+    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
+        """Gravity, as the world has it, shape (n, 3); the plane knows no other parameter."""
+        if kind != "gravity":
+            raise self.refuse(f"the parameter {kind}")
+        count = self.nworld if worlds is None else len(worlds)
+        return np.tile(self.world.gravity, (count, 1))
+
+    def set_parameter(
+        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Refused: no physical parameter acts in the plane."""
+        raise self.refuse(f"the parameter {kind}")
+
+    def close(self) -> None:
+        """Free threads."""
+        self._fleet.close()

@@ -1,0 +1,318 @@
+"""Many worlds with the same bodies in a plane, moved by native kernels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar import kernels_step
+from gazelle.engines.planar.crew import Crew
+from gazelle.engines.planar.kernels_grid import relink
+from gazelle.engines.planar.scene import scene_of
+from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
+from gazelle.errors import EngineError
+
+Floats = NDArray[np.float64]
+DriveKind = Literal["diff", "omni", "car"]
+
+_KINDS = {"diff": c.DIFFERENTIAL, "omni": c.OMNIDIRECTIONAL, "car": c.CAR}
+_CELL = 1.0  # side of the grid's cells if none is wanted [m]
+_SHARE = 64  # bodies that are worth a thread
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What moves a body.
+
+    Attributes:
+        kind: ``diff`` goes forward and turns, ``omni`` also goes sideways, ``car`` steers: its
+            command is the speed of its front wheel and, as turning, the steering angle.
+        slowest: Least velocity along x and y and about z [m/s, rad/s].
+        fastest: Greatest.
+        brake: Least acceleration [m/s², rad/s²].
+        push: Greatest.
+        wheelbase: Between the axles of a car [m].
+    """
+
+    kind: DriveKind = "diff"
+    slowest: tuple[float, float, float] = (-math.inf, -math.inf, -math.inf)
+    fastest: tuple[float, float, float] = (math.inf, math.inf, math.inf)
+    brake: tuple[float, float, float] = (-math.inf, -math.inf, -math.inf)
+    push: tuple[float, float, float] = (math.inf, math.inf, math.inf)
+    wheelbase: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """Something that can be moved, with the same parts in every world.
+
+    Attributes:
+        parts: In its own frame.
+        pose: Where it is at first: x, y [m], heading [rad].
+        z: Height of its frame [m].
+        drive: What moves it; None for nothing but ``Fleet.place``.
+        family: Bodies of one family neither see nor bump each other; None for its own.
+    """
+
+    parts: tuple[Part, ...]
+    pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    z: float = 0.0
+    drive: Drive | None = None
+    family: int | None = None
+
+
+class Fleet:
+    """Bodies that drive among statics, in many copies of one world.
+
+    A step that would make a body overlap something leaves it where it is, ``stalled``; bodies
+    move one after another in their order, so none ever overlap if they did not at first.
+    Results do not depend on the number of threads.
+
+    Args:
+        bodies: The same in all worlds.
+        statics: What stands still, the same in all worlds.
+        nworld: Number of worlds.
+        time_step: Of a step [s].
+        euler: Whether a step goes straight and then turns, as in Stage, not along an arc.
+        cell: Side of the grid's cells [m].
+        threads: How many share the work; all processors if None.
+
+    Raises:
+        EngineError: A shape, drive or number cannot be.
+    """
+
+    def __init__(
+        self,
+        bodies: Sequence[Body],
+        statics: Sequence[Part] | Table = (),
+        *,
+        nworld: int = 1,
+        time_step: float = 0.1,
+        euler: bool = False,
+        cell: float = _CELL,
+        threads: int | None = None,
+    ) -> None:
+        if nworld < 1:
+            raise EngineError(f"nworld must be at least 1, not {nworld}")
+        if not time_step > 0.0 or not math.isfinite(time_step):
+            raise EngineError(f"the time step must be positive, not {time_step:g} s")
+        self.nworld, self.nbody = nworld, len(bodies)
+        self.time_step, self.euler = time_step, euler
+        self.crew = Crew(threads)
+        self._describe(bodies)
+        first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
+        heights = np.array([body.z for body in bodies], np.float64)
+        self._initial = _rows_of(first, heights)
+        extent = first[:, :2] if len(bodies) else np.zeros((1, 2))
+        side = max(cell, 2.0 * self._widest)
+        self.scene = scene_of(statics, extent, side, nbody=self.nbody, nworld=nworld)
+        self._make_state()
+
+    def _describe(self, bodies: Sequence[Body]) -> None:
+        """Fill the tables of what the bodies are; equal parts are stored once."""
+        self.kinds = np.zeros((self.nbody, c.KIND_OF_BODY))
+        self.drives = np.zeros((self.nbody, c.DRIVE))
+        shapes: dict[tuple[Part, ...], int] = {}
+        drives: dict[Drive | None, Floats] = {}
+        for k, body in enumerate(bodies):
+            self.kinds[k, c.FIRST_LOOK] = shapes.setdefault(body.parts, len(shapes))
+            self.kinds[k, c.FAMILY] = -1.0 - k if body.family is None else body.family
+            if body.drive not in drives:
+                drives[body.drive] = _drive_row(body.drive)
+            self.drives[k] = drives[body.drive]
+        tables = [primitives_of(parts) for parts in shapes]
+        pieces = [pieces_of(parts) for parts in shapes]
+        looks = np.cumsum([0, *(len(table.rows) for table in tables)])
+        bumps = np.cumsum([0, *(len(piece.rows) for piece in pieces)])
+        corners = np.cumsum([0, *(len(piece.corners) for piece in pieces)])
+        for piece, first in zip(pieces, corners, strict=False):
+            piece.rows[:, c.FIRST] += first
+        self.looks = np.vstack([np.zeros((0, c.PRIMITIVE)), *(t.rows for t in tables)])
+        self.tags = np.concatenate([np.zeros(0, np.int64), *(t.tags for t in tables)])
+        self.pieces = np.vstack([np.zeros((0, c.PIECE)), *(p.rows for p in pieces)])
+        self.corners = np.vstack([np.zeros((0, 2)), *(p.corners for p in pieces)])
+        sizes = np.array([_radius_of(parts) for parts in shapes])
+        shape = self.kinds[:, c.FIRST_LOOK].astype(int)
+        columns = (looks[:-1], looks[1:], bumps[:-1], bumps[1:], sizes)
+        for column, values in enumerate(columns, c.FIRST_LOOK):
+            self.kinds[:, column] = values[shape] if self.nbody else 0.0
+        self._widest = float(sizes.max()) if len(sizes) else 0.0
+
+    def _make_state(self) -> None:
+        total = self.nworld * self.nbody
+        self.rows = np.tile(self._initial, (self.nworld, 1))
+        self._goal = self.rows.copy()
+        self._command = np.zeros((total, 3))
+        self._velocity = np.zeros((total, 3))
+        self._state = np.zeros(total, np.int8)
+        self._stalled = np.zeros(total, np.bool_)
+        self.head = np.full((self.nworld, self.scene.cells), -1, np.int32)
+        self.follow = np.full(total, -1, np.int32)
+        self.cell = np.full(total, -1, np.int32)
+        self._relink(slice(None))
+
+    # -- state -------------------------------------------------------------------------
+
+    @property
+    def pose(self) -> Floats:
+        """x, y [m] and heading [rad] of every body, to be read, shape (nworld, nbody, 3)."""
+        view = self.rows.reshape(self.nworld, self.nbody, c.BODY)[:, :, :3]
+        view.flags.writeable = False
+        return view
+
+    @property
+    def heights(self) -> Floats:
+        """Heights of the bodies' frames [m], to be written, shape (nworld, nbody)."""
+        return self.rows.reshape(self.nworld, self.nbody, c.BODY)[:, :, c.Z]
+
+    @property
+    def command(self) -> Floats:
+        """Wanted velocities, as ``Drive`` has them, to be written, shape (nworld, nbody, 3)."""
+        return self._command.reshape(self.nworld, self.nbody, 3)
+
+    @property
+    def velocity(self) -> Floats:
+        """Velocities of the drives, in the same meaning, shape (nworld, nbody, 3)."""
+        return self._velocity.reshape(self.nworld, self.nbody, 3)
+
+    @property
+    def stalled(self) -> NDArray[np.bool_]:
+        """Whether the last move of a body was not made, shape (nworld, nbody)."""
+        return self._stalled.reshape(self.nworld, self.nbody)
+
+    @property
+    def widest(self) -> float:
+        """Radius of the largest body about its origin [m]."""
+        return self._widest
+
+    def place(self, body: int, pose: ArrayLike, worlds: NDArray[np.intp] | None = None) -> None:
+        """Put a body somewhere, whatever is there.
+
+        Args:
+            body: Its index.
+            pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
+            worlds: Which worlds; all if None.
+        """
+        rows = slice(body, None, self.nbody) if worlds is None else worlds * self.nbody + body
+        x, y, yaw = np.moveaxis(np.asarray(pose, np.float64), -1, 0)
+        self.rows[rows, c.X], self.rows[rows, c.Y], self.rows[rows, c.YAW] = x, y, yaw
+        self.rows[rows, c.COS], self.rows[rows, c.SIN] = np.cos(yaw), np.sin(yaw)
+        self._relink(rows)
+
+    def put(self, pose: ArrayLike, heights: ArrayLike) -> None:
+        """Put all bodies somewhere.
+
+        Args:
+            pose: x, y [m] and heading [rad], shape (nworld, nbody, 3).
+            heights: Of their frames [m], shape (nworld, nbody).
+        """
+        flat = np.asarray(pose, np.float64).reshape(-1, 3)
+        self.rows[:] = _rows_of(flat, np.asarray(heights, np.float64).ravel())
+        self._relink(slice(None))
+
+    def take_over(self, body: int, other: Fleet, its: int) -> None:
+        """Give a body the state that one of another fleet with as many worlds has."""
+        here, there = slice(body, None, self.nbody), slice(its, None, other.nbody)
+        self.rows[here], self._command[here] = other.rows[there], other._command[there]
+        self._velocity[here], self._stalled[here] = other._velocity[there], other._stalled[there]
+        self._relink(here)
+
+    def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
+        """Put worlds back to how they were made: poses, rest, no commands."""
+        which = np.arange(self.nworld) if worlds is None else worlds
+        rows = (which[:, None] * self.nbody + np.arange(self.nbody)).ravel()
+        self.rows[rows] = np.tile(self._initial, (len(which), 1))
+        self._command[rows], self._velocity[rows], self._stalled[rows] = 0.0, 0.0, False
+        self._relink(rows)
+
+    def _relink(self, rows: slice | NDArray[np.intp]) -> None:
+        """Keep the lists of the grid right for some bodies."""
+        which = np.arange(len(self.rows))[rows]
+        if len(which) == len(self.rows):
+            relink(0, len(self.rows), self.nbody, *self._lists())
+            return
+        for b in which.tolist():
+            relink(b, b + 1, self.nbody, *self._lists())
+
+    def _lists(self) -> tuple[NDArray[np.generic], ...]:
+        return self.scene.grid, self.rows, self.head, self.follow, self.cell
+
+    # -- time --------------------------------------------------------------------------
+
+    def step(self, count: int = 1) -> None:
+        """Advance every world by ``count`` steps."""
+        if self.nworld > 1 or self.crew.size == 1 or self.nbody < 2 * _SHARE:
+            least = max(1, -(-_SHARE // max(self.nbody, 1)))
+            self.crew.share(lambda a, b, _: self._advance(a, b, count), self.nworld, least)
+            return
+        for _ in range(count):
+            self._step_together()
+
+    def _advance(self, first: int, last: int, count: int) -> None:
+        kernels_step.advance(
+            first * self.nbody, last * self.nbody, count, self._widest, self.drives,
+            self._command, self._velocity, self.rows, self._goal, self._state, self._stalled,
+            self.time_step, self.euler, self.kinds, self.pieces, self.corners,
+            *self._statics(), self.head, self.follow, self.cell,
+        )  # fmt: skip
+
+    def _step_together(self) -> None:
+        """A step of one large world, by several threads."""
+        ways = self.crew.share(
+            lambda a, b, _: kernels_step.plan(
+                a, b, self.drives, self._command, self._velocity, self.rows, self._goal,
+                self._state, self.time_step, self.euler, self.kinds, self.pieces, self.corners,
+                *self._statics(),
+            ),
+            self.nbody,
+            _SHARE,
+        )  # fmt: skip
+        reach = self._widest + max(ways)
+        bodies = (self.kinds, self.pieces, self.corners, self.rows, self._goal, self._state)
+        lists = (self.scene.grid, self.head, self.follow)
+        self.crew.share(
+            lambda a, b, _: kernels_step.screen(a, b, reach, *bodies, *lists), self.nbody, _SHARE
+        )
+        kernels_step.settle(0, self.nbody, reach, *bodies, self._stalled, *lists, self.cell)
+
+    def _statics(self) -> tuple[NDArray[np.generic], ...]:
+        scene = self.scene
+        return scene.table.rows, scene.grid, scene.start, scene.items
+
+    def close(self) -> None:
+        """End the threads."""
+        self.crew.close()
+
+
+def _rows_of(pose: Floats, heights: Floats) -> Floats:
+    rows = np.zeros((len(pose), c.BODY))
+    rows[:, c.X], rows[:, c.Y], rows[:, c.YAW] = pose.T
+    rows[:, c.COS], rows[:, c.SIN], rows[:, c.Z] = np.cos(pose[:, 2]), np.sin(pose[:, 2]), heights
+    return rows
+
+
+def _drive_row(drive: Drive | None) -> Floats:
+    row = np.zeros(c.DRIVE)
+    if drive is None:
+        row[c.DRIVE_KIND] = c.PASSIVE
+        return row
+    if drive.kind not in _KINDS:
+        raise EngineError(f"a drive must be one of {', '.join(_KINDS)}, not '{drive.kind}'")
+    if drive.kind == "car" and not drive.wheelbase > 0.0:
+        raise EngineError(f"the wheelbase must be positive, not {drive.wheelbase:g} m")
+    row[c.DRIVE_KIND], row[c.WHEELBASE] = _KINDS[drive.kind], drive.wheelbase
+    row[c.SLOWEST : c.FASTEST], row[c.FASTEST : c.BRAKE] = drive.slowest, drive.fastest
+    row[c.BRAKE : c.PUSH], row[c.PUSH :] = drive.brake, drive.push
+    return row
+
+
+def _radius_of(parts: Sequence[Part]) -> float:
+    return max(
+        (math.hypot(x, y) + part.radius for part in parts for x, y in part.points), default=0.0
+    )

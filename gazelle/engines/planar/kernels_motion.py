@@ -1,0 +1,117 @@
+"""Where bodies would go in a step: limits, drives and the way along an arc."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.engines.planar.columns import (
+    BLOCKED,
+    BRAKE,
+    CAR,
+    COS,
+    DIFFERENTIAL,
+    DRIVE_KIND,
+    FASTEST,
+    MOVING,
+    PASSIVE,
+    PUSH,
+    SIN,
+    SLOWEST,
+    STILL,
+    WHEELBASE,
+    YAW,
+    X,
+    Y,
+    Z,
+)
+from gazelle.engines.planar.compiled import kernel
+
+
+@kernel
+def toward(now, wanted, drives, k, axis, dt):
+    """The velocity along an axis after a step, within the bounds of a drive."""
+    wanted = min(max(wanted, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis])
+    change = wanted - now
+    least, most = drives[k, BRAKE + axis] * dt, drives[k, PUSH + axis] * dt
+    return wanted if least <= change <= most else now + min(max(change, least), most)
+
+
+@kernel
+def go(pose, goal, b, vx, vy, turn, dt, euler):
+    """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
+
+    With ``euler`` the body slides along its old heading and then turns, as Stage has it; else
+    it goes along the arc, which is exact.
+    """
+    angle = turn * dt
+    forward, aside = vx * dt, vy * dt
+    if not euler and angle != 0.0:
+        if abs(angle) > 1e-4:
+            s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / angle
+        else:
+            s, c = 1.0 - angle * angle / 6.0, 0.5 * angle
+        forward, aside = s * forward - c * aside, c * forward + s * aside
+    cos, sin = pose[b, COS], pose[b, SIN]
+    goal[b, X] = pose[b, X] + cos * forward - sin * aside
+    goal[b, Y] = pose[b, Y] + sin * forward + cos * aside
+    yaw = pose[b, YAW]
+    if angle != 0.0:
+        yaw += angle
+        yaw -= 2.0 * math.pi * math.floor(yaw / (2.0 * math.pi) + 0.5)
+        cos, sin = math.cos(yaw), math.sin(yaw)
+    goal[b, YAW], goal[b, COS], goal[b, SIN], goal[b, Z] = yaw, cos, sin, pose[b, Z]
+
+
+@kernel
+def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler):
+    """Decide where the bodies first to last would go; returns the longest way of one [m].
+
+    Args:
+        first: Of the bodies, counted through all worlds.
+        last: The one after the last.
+        drives: What moves each kind of body, shape (nbody, DRIVE).
+        command: Wanted velocity along x and y and about z in the body's frame [m/s, rad/s];
+            of a car the speed of its front wheel, nothing, and its steering angle [rad].
+        velocity: What it is, in the same meaning.
+        pose: Bodies.
+        goal: Where they would be.
+        state: STILL, MOVING, or BLOCKED as it was for one that stands still.
+        dt: [s].
+        euler: Whether to go straight and then turn.
+    """
+    nbody = drives.shape[0]
+    longest = 0.0
+    for b in range(first, last):
+        k = b % nbody
+        kind = drives[k, DRIVE_KIND]
+        state[b] = STILL
+        if kind == PASSIVE:
+            continue
+        vx = toward(velocity[b, 0], command[b, 0], drives, k, 0, dt)
+        vy = toward(velocity[b, 1], command[b, 1], drives, k, 1, dt)
+        turn = toward(velocity[b, 2], command[b, 2], drives, k, 2, dt)
+        vy = 0.0 if kind in (DIFFERENTIAL, CAR) else vy
+        velocity[b, 0], velocity[b, 1], velocity[b, 2] = vx, vy, turn
+        if kind == CAR:
+            vx, turn = vx * math.cos(turn), vx * math.sin(turn) / drives[k, WHEELBASE]
+        if vx == 0.0 and vy == 0.0 and turn == 0.0:
+            continue
+        go(pose, goal, b, vx, vy, turn, dt, euler)
+        state[b] = MOVING
+        longest = max(longest, vx * vx + vy * vy)
+    return math.sqrt(longest) * dt
+
+
+@kernel
+def commit(first, last, pose, goal, state, stalled):
+    """Let the bodies first to last be where they may go; remember who could not."""
+    moved = 0
+    for b in range(first, last):
+        if state[b] == MOVING:
+            for c in range(6):
+                pose[b, c] = goal[b, c]
+            stalled[b] = False
+            moved += 1
+        elif state[b] == BLOCKED:
+            stalled[b] = True
+    return moved

@@ -1,0 +1,75 @@
+"""A step of all bodies: plan, find who is in whose way, settle that in order, and move."""
+
+from __future__ import annotations
+
+from gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
+from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.kernels_bump import obstructed, statics_meet
+from gazelle.engines.planar.kernels_grid import relink
+from gazelle.engines.planar.kernels_motion import commit, propose
+
+
+@kernel
+def plan(
+    first, last, drives, command, velocity, pose, goal, state, dt, euler,
+    kinds, pieces, corners, statics, grid, start, items,
+):  # fmt: skip
+    """Where the bodies first to last would go, if nothing static bars it; the longest way [m]."""
+    longest = propose(first, last, drives, command, velocity, pose, goal, state, dt, euler)
+    nbody = kinds.shape[0]
+    for b in range(first, last):
+        if state[b] == MOVING and statics_meet(
+            b, b % nbody, kinds, pieces, corners, goal, statics, grid, start, items
+        ):
+            state[b] = BLOCKED
+    return longest
+
+
+@kernel
+def screen(
+    first, last, reach, kinds, pieces, corners, pose, goal, state, grid, head, follow
+):  # fmt: skip
+    """Mark bodies whose way depends on what others do, or is barred by one that stands."""
+    nbody = kinds.shape[0]
+    for b in range(first, last):
+        if state[b] == MOVING and obstructed(
+            b, False, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
+        ):
+            state[b] = UNDECIDED
+
+
+@kernel
+def settle(
+    first, last, reach, kinds, pieces, corners, pose, goal, state, stalled, grid, head, follow,
+    cell,
+):  # fmt: skip
+    """Decide the rest in order, and move; the bodies are those of whole worlds."""
+    nbody = kinds.shape[0]
+    for b in range(first, last):
+        if state[b] == UNDECIDED:
+            barred = obstructed(
+                b, True, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head,
+                follow,
+            )  # fmt: skip
+            state[b] = BLOCKED if barred else MOVING
+    if commit(first, last, pose, goal, state, stalled) > 0 and head.shape[1] > 1:
+        relink(first, last, nbody, grid, pose, head, follow, cell)
+
+
+@kernel
+def advance(
+    first, last, count, widest, drives, command, velocity, pose, goal, state, stalled, dt, euler,
+    kinds, pieces, corners, statics, grid, start, items, head, follow, cell,
+):  # fmt: skip
+    """Make ``count`` steps with the bodies first to last, which are those of whole worlds."""
+    for _ in range(count):
+        longest = plan(
+            first, last, drives, command, velocity, pose, goal, state, dt, euler,
+            kinds, pieces, corners, statics, grid, start, items,
+        )  # fmt: skip
+        reach = widest + longest
+        screen(first, last, reach, kinds, pieces, corners, pose, goal, state, grid, head, follow)
+        settle(
+            first, last, reach, kinds, pieces, corners, pose, goal, state, stalled, grid, head,
+            follow, cell,
+        )  # fmt: skip

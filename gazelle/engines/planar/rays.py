@@ -1,0 +1,90 @@
+"""Rays that sensors ask for, as fans of beams in the plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines.planar.fans import Fan, Mount, Scanner
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.errors import EngineError
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+_LEVEL = 1e-6
+_EQUAL = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class Caster:
+    """Rays on a body, and where they begin.
+
+    Attributes:
+        scanner: Casts them.
+        begin: Distance of where they begin from where the scanner measures [m].
+        order: Which beam is which ray, shape (rays,).
+    """
+
+    scanner: Scanner
+    begin: float
+    order: NDArray[np.intp]
+
+    def cast(self, worlds: Worlds | None) -> tuple[Floats, NDArray[np.bool_]]:
+        """Distance of what each ray meets [m], infinite for nothing, and whether from inside."""
+        ranges = self.scanner.scan(worlds)
+        count = len(ranges)
+        flat = ranges.reshape(count, -1)[:, self.order]
+        names = self.scanner.names[: count * ranges.shape[1]].reshape(count, -1)[:, self.order]
+        return np.where(names == 0.0, np.inf, flat - self.begin), names < 0.0
+
+
+def caster_of(fleet: Fleet, body: int, origins: Floats, directions: Floats, reach: float) -> Caster:
+    """What casts rays that move with a body.
+
+    Args:
+        fleet: What they meet.
+        body: Its index.
+        origins: In the body's frame [m], shape (rays, 3).
+        directions: Unit vectors in the body's frame, shape (rays, 3).
+        reach: How far there can be something [m].
+
+    Raises:
+        EngineError: The rays do not lie in one level plane.
+    """
+    heights = origins[:, 2]
+    if np.abs(directions[:, 2]).max(initial=0.0) > _LEVEL or np.ptp(heights) > _LEVEL:
+        raise EngineError(
+            "the planar engine casts rays in one level plane only",
+            hint="use the engine mujoco for scanners with several rows, or ones that lean",
+        )
+    z = float(heights[0])
+    angles = np.arctan2(directions[:, 1], directions[:, 0])
+    centre, begin = _centre_of(origins[:, :2], directions[:, :2])
+    steps = np.diff(angles) % (2.0 * math.pi)
+    even = len(angles) > 1 and np.ptp(steps) < _EQUAL and 0.0 < steps.sum() < 2.0 * math.pi + 1e-3
+    if centre is not None and begin is not None and even:
+        fan = Fan(float(angles[0]), float(steps.mean()), len(angles), reach, begin)
+        mounts = [Mount(body, float(centre[0]), float(centre[1]), 0.0, z)]
+    else:
+        begin = 0.0
+        fan = Fan(0.0, 1.0, 1, reach)
+        mounts = [
+            Mount(body, float(x), float(y), float(angle), z)
+            for (x, y), angle in zip(origins[:, :2], angles, strict=True)
+        ]
+    return Caster(Scanner(fleet, fan, mounts, named=True), begin, np.arange(len(angles)))
+
+
+def _centre_of(origins: Floats, directions: Floats) -> tuple[Floats | None, float | None]:
+    """The point that all rays start at one distance from, and the distance."""
+    away, turned = origins - origins[0], directions - directions[0]
+    spread = float((turned * turned).sum())
+    begin = float((away * turned).sum()) / spread if spread > 0.0 else 0.0
+    centre = origins[0] - begin * directions[0]
+    if begin < -_EQUAL or np.abs(centre + begin * directions - origins).max() > _EQUAL:
+        return None, None
+    return centre, max(begin, 0.0)

@@ -1,0 +1,84 @@
+"""What a fleet moves in: static primitives and the grid over them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.kernels_grid import list_statics
+from gazelle.engines.planar.shapes import Part, Table, primitives_of
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int32]
+
+_FEW = 48  # primitives up to which all in one cell are drawn faster than they are looked for
+_MOST_CELLS = 1 << 24  # of all worlds together
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Static primitives, and which of them are in which cell of a grid.
+
+    Attributes:
+        table: The primitives.
+        grid: Corner [m], side of a cell [m], columns and rows, shape (5,).
+        start: First item of each cell, shape (cells + 1,).
+        items: Indices of primitives, cell by cell.
+    """
+
+    table: Table
+    grid: Floats
+    start: Indices
+    items: Indices
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return len(self.start) - 1
+
+
+def scene_of(
+    parts: Sequence[Part] | Table, extent: Floats, side: float, *, nbody: int, nworld: int
+) -> Scene:
+    """Statics with a grid over them and over an extent.
+
+    Args:
+        parts: What stands still.
+        extent: Lower left and upper right corner of where bodies are at first [m], shape (2, 2).
+        side: Wanted side of a cell [m]; larger if there would be too many cells.
+        nbody: Bodies in a world.
+        nworld: Worlds.
+    """
+    table = parts if isinstance(parts, Table) else primitives_of(parts)
+    corners = np.vstack((extent, _corners(table.rows)))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    width, height = np.maximum(high - low, 1e-3)
+    columns, rows = 1, 1
+    if len(table.rows) + nbody > _FEW:
+        side = max(side, math.sqrt(width * height * nworld / _MOST_CELLS))
+        columns, rows = math.ceil(width / side), math.ceil(height / side)
+    grid = np.array([*low, side, columns, rows])
+    start = np.zeros(columns * rows + 1, np.int32)
+    nothing = np.zeros(0, np.int32)
+    list_statics(table.rows, grid, start, nothing)
+    counts = start[:-1].copy()
+    start[1:] = np.cumsum(counts)
+    start[0] = 0
+    items = np.zeros(int(start[-1]), np.int32)
+    if len(items):
+        list_statics(table.rows, grid, start[:-1].copy(), items)
+    return Scene(table, grid, start, items)
+
+
+def _corners(rows: Floats) -> Floats:
+    """Points that bound primitives, shape (n, 2)."""
+    circle = (rows[:, c.KIND].astype(int) & 1) == 1
+    radius = np.where(circle, rows[:, c.X1], 0.0)[:, None]
+    start, end = rows[:, [c.X0, c.Y0]], rows[:, [c.X1, c.Y1]]
+    end = np.where(circle[:, None], start, end)
+    return np.vstack((start - radius, start + radius, end))

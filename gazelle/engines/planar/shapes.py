@@ -1,0 +1,164 @@
+"""Outlines of things in the plane, and the tables that kernels read them from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines.planar import columns as c
+from gazelle.errors import EngineError
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Something that stands on its outline, in the frame of its body or of the world.
+
+    Attributes:
+        points: Corners [m]; of a circle its centre alone.
+        radius: Of a circle [m]; 0 for a polygon or lines.
+        closed: Whether the last corner is joined to the first, solid inside.
+        low: Lowest height [m].
+        high: Highest height [m].
+        glow: What a laser gets back from it; negative: no ray meets it.
+        solid: Whether bodies bump into it.
+        tag: A number of the user's, found again in what rays met.
+    """
+
+    points: tuple[Point, ...]
+    radius: float = 0.0
+    closed: bool = True
+    low: float = -math.inf
+    high: float = math.inf
+    glow: float = 1.0
+    solid: bool = True
+    tag: int = 0
+
+    @classmethod
+    def circle(cls, x: float, y: float, radius: float, **others: float) -> Part:
+        """A circle."""
+        return cls(((x, y),), radius, **others)  # type: ignore[arg-type]
+
+    @classmethod
+    def box(cls, width: float, depth: float, x: float = 0.0, y: float = 0.0) -> Part:
+        """A rectangle about (x, y), ``width`` along x [m]."""
+        w, d = width / 2.0, depth / 2.0
+        return cls(((x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d)))
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Primitives that rays meet, and the tags of the parts they are of.
+
+    Attributes:
+        rows: Shape (n, PRIMITIVE).
+        tags: Shape (n,).
+    """
+
+    rows: Floats
+    tags: NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """Convex pieces that bump, and their corners.
+
+    Attributes:
+        rows: Shape (n, PIECE).
+        corners: Shape (m, 2).
+    """
+
+    rows: Floats
+    corners: Floats
+
+
+@dataclass(slots=True)
+class _Rows:
+    rows: list[Floats] = field(default_factory=list)
+    tags: list[NDArray[np.int64]] = field(default_factory=list)
+
+
+def primitives_of(parts: Iterable[Part]) -> Table:
+    """The segments and circles of parts.
+
+    Raises:
+        EngineError: A part has too few corners, or a value is not finite.
+    """
+    found = _Rows()
+    for part in parts:
+        points = np.asarray(part.points, np.float64).reshape(-1, 2)
+        check(part, points)
+        if part.radius > 0.0:
+            lines = np.array([[*points[0], part.radius, 0.0]])
+        else:
+            ring = ccw(points) if part.closed else points
+            ends = np.roll(ring, -1, axis=0) if part.closed else ring[1:]
+            lines = np.hstack((ring if part.closed else ring[:-1], ends))
+        kind = c.CIRCLE if part.radius > 0.0 else c.SEGMENT
+        kind += 0.0 if part.solid else c.GHOST
+        same = np.tile([part.low, part.high, part.glow, kind], (len(lines), 1))
+        found.rows.append(np.hstack((lines, same)))
+        found.tags.append(np.full(len(lines), part.tag))
+    if not found.rows:
+        return Table(np.zeros((0, c.PRIMITIVE)), np.zeros(0, np.int64))
+    return Table(np.vstack(found.rows), np.concatenate(found.tags).astype(np.int64))
+
+
+def pieces_of(parts: Iterable[Part]) -> Pieces:
+    """The convex pieces of the solid parts; lines that enclose nothing bump with nothing."""
+    rows: list[list[float]] = []
+    corners: list[Floats] = []
+    for part in parts:
+        points = np.asarray(part.points, np.float64).reshape(-1, 2)
+        check(part, points)
+        if not part.solid or (part.radius == 0.0 and not part.closed):
+            continue
+        if part.radius > 0.0:
+            x, y = points[0]
+            rows.append([x, y, part.radius, part.low, part.high, 0.0, 0.0, 0.0])
+            continue
+        for polygon in convex(ccw(points)):
+            middle = (polygon.min(axis=0) + polygon.max(axis=0)) / 2.0
+            bound = float(np.linalg.norm(polygon - middle, axis=1).max())
+            first = sum(map(len, corners))
+            rows.append([*middle, bound, part.low, part.high, first, len(polygon), 0.0])
+            corners.append(polygon)
+    return Pieces(
+        np.array(rows).reshape(-1, c.PIECE),
+        np.vstack(corners) if corners else np.zeros((0, 2)),
+    )
+
+
+def check(part: Part, points: Floats) -> None:
+    """Refuse a part that is no shape.
+
+    Raises:
+        EngineError: It has too few corners, or a value is not finite.
+    """
+    least = 1 if part.radius > 0.0 else 3 if part.closed else 2
+    if len(points) < least or not np.isfinite(points).all() or not math.isfinite(part.radius):
+        raise EngineError(f"an outline needs at least {least} finite corners, not {part.points}")
+
+
+def ccw(points: Floats) -> Floats:
+    """The corners of a polygon counter-clockwise."""
+    ends = np.roll(points, -1, axis=0)
+    twice_area = float((points[:, 0] * ends[:, 1] - points[:, 1] * ends[:, 0]).sum())
+    return points if twice_area >= 0.0 else points[::-1]
+
+
+def convex(points: Floats) -> Sequence[Floats]:
+    """Convex polygons that together cover a polygon, which is counter-clockwise."""
+    before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
+    if (before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] >= -1e-12).all():
+        return [points]
+    from gazelle.formats.polygon import convex_polygons
+
+    outline = tuple((float(x), float(y)) for x, y in points)
+    return [ccw(np.asarray(piece, np.float64)) for piece in convex_polygons((outline,))]

@@ -1,0 +1,94 @@
+"""How a base moves when its wheels turn and roll without slipping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import (
+    Capsule,
+    Collision,
+    Cylinder,
+    Ellipsoid,
+    Link,
+    Mesh,
+    Pose,
+    Sphere,
+)
+from gazelle.engines.planar.solids import solid_of
+
+Floats = NDArray[np.float64]
+
+_SIDEWAYS = 0.5  # how much a wheel that would slip sideways counts against one that rolls
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """A wheel on a base.
+
+    Attributes:
+        joint: Scoped name of its joint.
+        x: Of its middle, in the base's frame [m].
+        y: Of its middle [m].
+        along: Direction in which it rolls when it turns forward, unit vector in the plane.
+        radius: [m].
+    """
+
+    joint: str
+    x: float
+    y: float
+    along: tuple[float, float]
+    radius: float
+
+
+def wheel_of(joint: str, link: Link, pose: Pose, axis: Sequence[float]) -> Wheel | None:
+    """The wheel that a joint turns; None if it has no radius or no level axis.
+
+    Args:
+        joint: Its scoped name.
+        link: The wheel.
+        pose: Of the link in the base's frame.
+        axis: Of the joint in the base's frame.
+    """
+    radius = max((_radius(collision) for collision in link.collisions), default=0.0)
+    flat = math.hypot(axis[0], axis[1])
+    if radius <= 0.0 or flat < 0.9:
+        return None
+    return Wheel(joint, pose.x, pose.y, (axis[1] / flat, -axis[0] / flat), radius)
+
+
+def rolling(wheels: Sequence[Wheel]) -> Floats:
+    """What turns wheel speeds [rad/s] into the base's twist (vx, vy, turning), shape (3, wheels).
+
+    Each wheel rolls along and does not slip sideways; where that cannot be, as with four
+    wheels that cannot steer, the error is least.
+    """
+    rows, speeds = [], np.zeros((2 * len(wheels), len(wheels)))
+    for number, wheel in enumerate(wheels):
+        ax, ay = wheel.along
+        rows.append([ax, ay, ay * wheel.x - ax * wheel.y])
+        rows.append([-_SIDEWAYS * ay, _SIDEWAYS * ax, _SIDEWAYS * (ax * wheel.x + ay * wheel.y)])
+        speeds[2 * number, number] = wheel.radius
+    return np.asarray(np.linalg.pinv(np.array(rows)) @ speeds)
+
+
+def _radius(collision: Collision) -> float:
+    """Of a wheel's shape [m]; 0 if it is none."""
+    shape = collision.geometry
+    if isinstance(shape, Cylinder | Sphere | Capsule):
+        return shape.radius
+    if isinstance(shape, Ellipsoid):
+        return shape.radii[2]
+    if isinstance(shape, Mesh):
+        solid = solid_of(shape, collision.pose)
+        return 0.0 if solid is None else float(np.ptp(solid[0], axis=0).max()) / 2.0
+    return 0.0
+
+
+def grouped(wheels: Mapping[str, Wheel], motors: Sequence[str]) -> tuple[Wheel, ...]:
+    """The wheels that have motors, in the motors' order."""
+    return tuple(wheels[joint] for joint in motors if joint in wheels)
