@@ -38,6 +38,7 @@ class Ranger:
         sensors: What each of its sensors says.
         places: Of each sensor the index of its scanner, and its place in that.
         pose: In the robot's frame, its height included.
+        direct: Whether it is mounted on the robot itself.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Ranger:
     sensors: tuple[StageSensor, ...]
     places: tuple[tuple[int, int], ...]
     pose: StagePose
+    direct: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,7 +164,8 @@ class _Maker:
             self.layout.noises[view.scanner].append(view.noise)
         _, _, own = placed.name.partition(".")
         whole = f"{name}.{own}" if own else placed.name
-        return Ranger(whole, placed.model, sensors, tuple(places), placed.pose)
+        direct = placed.parent is not None and placed.parent.parent is None
+        return Ranger(whole, placed.model, sensors, tuple(places), placed.pose, direct)
 
     def shape(self, model: StageModel) -> _Shape:
         """What is on a robot, in its frame."""

@@ -213,7 +213,8 @@ class StageSimulation:
             raise SimulationError(
                 f"'{name}' has no ranger {ranger} with a sensor {sensor}"
             ) from None
-        return self.scan(scanner)[world, place].copy()
+        found: Floats = self.scan(scanner)[world, place].copy()
+        return found
 
     def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
@@ -306,14 +307,22 @@ class StageSimulation:
         Raises:
             SimulationError: There is no such robot, or a value is not finite.
         """
+        self.set_pose_of(self.robot(name).index, pose, worlds)
+
+    def set_pose_of(self, index: int, pose: ArrayLike, worlds: Worlds | None = None) -> None:
+        """The same for a robot by its index.
+
+        Raises:
+            SimulationError: A value is not finite.
+        """
         values = np.asarray(pose, np.float64)
         if not np.isfinite(values).all():
+            name = self.robots[index].name
             raise SimulationError(f"the pose of '{name}' is not finite: {values}")
-        robot = self.robot(name)
-        self.fleet.place(robot.index, values, worlds)
+        self.fleet.place(index, values, worlds)
         rows = slice(None) if worlds is None else worlds
-        self.fleet.stalled[rows, robot.index] = False
-        self._before[rows, robot.index] = self.fleet.pose[rows, robot.index]
+        self.fleet.stalled[rows, index] = False
+        self._before[rows, index] = self.fleet.pose[rows, index]
         self._seen.clear()
 
     def reset_positions(self, worlds: Worlds | None = None) -> None:

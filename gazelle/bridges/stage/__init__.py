@@ -1,0 +1,6 @@
+"""What stage_ros puts on a ROS graph: topics, frames, services, the clock."""
+
+from gazelle.bridges.stage.door import StageDoor
+from gazelle.bridges.stage.serving import StageServer, serve_stage
+
+__all__ = ["StageDoor", "StageServer", "serve_stage"]

@@ -1,0 +1,213 @@
+"""A Stage world on a ROS 1 graph, as stage_ros puts Stage on it."""
+
+from __future__ import annotations
+
+import threading
+import time
+import warnings
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
+from gazelle.bridges.stage.services import Services
+from gazelle.bridges.stage.watchdog import Watchdog
+from gazelle.description import StageCamera
+from gazelle.errors import SimulationWarning
+from gazelle.ros import Node, Time, load_message
+from gazelle.simulation.clock import Schedule
+from gazelle.simulation.stage import StageSimulation
+
+_SECOND = 1_000_000_000
+_SLICE = 0.005  # wall time between two looks at a pause [s]
+_LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
+_LATE = 0.1  # what is later than this is not caught up with in a burst [s]
+_STEPS = 16  # between two looks when it runs as fast as possible
+
+
+class StageDoor:
+    """What a ROS graph sees of a Stage world; also a context manager.
+
+    Topics, frames, parameters and services are those of stage_ros (wiki.ros.org/stage_ros);
+    the docs list what is added. Everything is published after each step to those who listen,
+    unless ``~publish_rate`` says less often.
+
+    Args:
+        simulation: Runs.
+        node: Called ``stageros``; it stays open when the door is closed.
+        world: Which world of a batch the graph sees and commands.
+        rate: Simulated seconds a wall second that ``run`` keeps to; None for as fast as
+            possible.
+        model_names: Name robots by their models (``stageros -u``).
+
+    Attributes:
+        rate: As above; settable while it runs.
+        naming: Of topics and frames.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        node: Node,
+        *,
+        world: int = 0,
+        rate: float | None = 1.0,
+        model_names: bool = False,
+    ) -> None:
+        self.rate = rate
+        self._simulation, self._node, self._world = simulation, node, world
+        self._stop = threading.Event()
+        node.set_param("/use_sim_time", True)
+        self.naming = Naming(
+            [robot.name for robot in simulation.robots],
+            model_names=model_names,
+            slashed_frames=bool(node.get_param("~slashed_frames", False)),
+        )
+        self._schedule = Schedule(float(node.get_param("~publish_rate", 0.0)))
+        timeout = float(node.get_param("~base_watchdog_timeout", 0.2))
+        self._watchdog = Watchdog(simulation, timeout, world)
+        self._clock = node.advertise(
+            "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
+        )
+        self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
+        messages = Messages()
+        self._topics = [
+            RobotTopics(simulation, robot, node, self.naming, messages, world)
+            for robot in simulation.robots
+        ]
+        flat = str(node.get_param("~cmd_pose_type", "Pose")).rpartition("/")[2] == "Pose2D"
+        self._inputs = [
+            RobotInputs(
+                simulation,
+                robot,
+                node,
+                self.naming,
+                world=world,
+                flat_poses=flat,
+                told=self._watchdog.told,
+            )
+            for robot in simulation.robots
+        ]
+        self._services = Services(simulation, node, self, world)
+        self._unsubscribe = simulation.subscribe(self._after_step)
+        node.on_shutdown.append(lambda _reason: self.stop())
+        _warn_of_cameras(simulation)
+
+    # -- publishing ------------------------------------------------------------------------
+
+    def now(self) -> Time:
+        """The simulated time."""
+        nanoseconds = self._simulation.clock.now_ns
+        return Time(nanoseconds // _SECOND, nanoseconds % _SECOND)
+
+    def publish(self) -> None:
+        """Publish what is true now, and the time, to all who listen."""
+        self._tick()
+        facts = facts_of(self._simulation, self._world, self.now())
+        for topics in self._topics:
+            topics.publish(facts)
+        if self._tf.has_listener and self._topics:
+            message: Any = self._tf.message_class()
+            for topics in self._topics:
+                message.transforms += topics.transforms(facts)
+            self._tf.publish(message)
+
+    def _after_step(self) -> None:
+        self._watchdog.look()
+        now = self._simulation.clock.now_ns
+        if self._schedule.rate <= 0.0 or self._schedule.is_due(now):
+            self._schedule.done(now)
+            self.publish()
+        else:
+            self._tick()
+
+    def _tick(self) -> None:
+        """Tell the time; zero means to ROS that there is none."""
+        if self._clock.has_listener and self._simulation.clock.now_ns > 0:
+            message: Any = self._clock.message_class()
+            message.clock = self.now()
+            self._clock.publish(message)
+
+    def _greet(self, _peer: str) -> None:
+        """Tell who comes the time, also while the world is paused."""
+        self._simulation.requests.post(self._tick)
+
+    def rewound(self) -> None:
+        """Time began again."""
+        self._watchdog.forget()
+        self._schedule.restart()
+
+    # -- time ------------------------------------------------------------------------------
+
+    def run(self, seconds: float | None = None) -> None:
+        """Let the world run until ``stop``, at ``rate``, or until its ``quit_time``.
+
+        Args:
+            seconds: Simulated time at which to end; None for the file's ``quit_time``.
+        """
+        end = self._simulation.stage.quit_time if seconds is None else seconds
+        while not self._stop.is_set():
+            if self._simulation.paused:
+                self._stop.wait(_SLICE)
+            elif not self._stretch(end):
+                return
+
+    def stop(self) -> None:
+        """Let ``run`` return; from any thread."""
+        self._stop.set()
+
+    def _stretch(self, end: float) -> bool:
+        """Run at one pace until it changes, or there is a pause; False at the end."""
+        simulation, rate = self._simulation, self.rate
+        step, start, done = simulation.time_step, time.monotonic(), 0
+        while not (self._stop.is_set() or simulation.paused) and self.rate == rate:
+            if end > 0.0 and simulation.time >= end - step / 2.0:
+                return False
+            if rate is None:
+                left = (end - simulation.time) / step if end > 0.0 else _STEPS
+                simulation.step(max(1, min(_STEPS, round(left))))
+                continue
+            simulation.step()
+            done += 1
+            ahead = start + done * step / rate - time.monotonic()
+            if ahead < -_LATE:
+                return True
+            self._wait(start + done * step / rate)
+        return True
+
+    def _wait(self, until: float) -> None:
+        """Wait for a wall time, but not when there is a pause, another pace or the end."""
+        rate = self.rate
+        while (ahead := until - time.monotonic()) > 0.0 and self.rate == rate:
+            if self._simulation.paused or self._stop.wait(min(ahead, _LOOK)):
+                return
+
+    def close(self) -> None:
+        """Take everything off the graph; the simulation goes on without."""
+        self.stop()
+        self._unsubscribe()
+        self._services.close()
+        for inputs in self._inputs:
+            inputs.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _warn_of_cameras(simulation: StageSimulation) -> None:
+    for robot in simulation.robots:
+        if any(isinstance(child.device, StageCamera) for child in robot.model.children):
+            warnings.warn(
+                f"the cameras of '{robot.name}' take no pictures in the plane",
+                SimulationWarning,
+                stacklevel=3,
+            )
+            return

@@ -1,0 +1,275 @@
+"""The topics of one robot, as stage_ros has them, and what people added to it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.ros import Node, Publisher, Time, load_message
+from gazelle.simulation.stage import Ranger, StageRobot, StageSimulation
+
+Floats = NDArray[np.float64]
+Values = list[float]
+
+_QUEUE = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """The state of all robots of the world that the graph sees, each a list by robot.
+
+    Attributes:
+        stamp: When.
+        odometry: Where they believe they are: x, y [m], heading [rad].
+        velocity: In their own frames [m/s, rad/s].
+        pose: Where they are.
+        true_velocity: In the world's axes.
+        stalled: Whether their last move was not made.
+    """
+
+    stamp: Time
+    odometry: list[Values]
+    velocity: list[Values]
+    pose: list[Values]
+    true_velocity: list[Values]
+    stalled: list[bool]
+
+
+def facts_of(simulation: StageSimulation, world: int, stamp: Time) -> Facts:
+    """The state now; arrays become lists at once, as messages want them."""
+    return Facts(
+        stamp,
+        simulation.odometry[world].tolist(),
+        simulation.velocities[world].tolist(),
+        simulation.poses[world].tolist(),
+        simulation.true_velocities[world].tolist(),
+        simulation.stalled[world].tolist(),
+    )
+
+
+class Messages:
+    """The classes of the messages, looked up once."""
+
+    def __init__(self) -> None:
+        self.odometry: Any = load_message("nav_msgs/Odometry")
+        self.scan: Any = load_message("sensor_msgs/LaserScan")
+        self.transform: Any = load_message("geometry_msgs/TransformStamped")
+        self.twist: Any = load_message("geometry_msgs/Twist")
+        self.bool: Any = load_message("std_msgs/Bool")
+        self.int8: Any = load_message("std_msgs/Int8")
+
+
+@dataclass(frozen=True, slots=True)
+class _Laser:
+    """A ranger that is published: its first sensor, as in stage_ros."""
+
+    ranger: Ranger
+    frame: str
+    publisher: Publisher
+
+
+class RobotTopics:
+    """What one robot publishes.
+
+    Args:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics and frames.
+        messages: Classes.
+        world: Which world of a batch the graph sees.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        robot: StageRobot,
+        node: Node,
+        naming: Naming,
+        messages: Messages,
+        world: int,
+    ) -> None:
+        self._simulation, self._robot, self._messages = simulation, robot, messages
+        self._world, self._node = world, node
+        index = robot.index
+        self._z = robot.model.pose.z
+
+        def advertise(name: str, kind: Any) -> Publisher:
+            return node.advertise(naming.topic(index, name), kind, _QUEUE)
+
+        self._odom = advertise("odom", messages.odometry)
+        self._truth = advertise("base_pose_ground_truth", messages.odometry)
+        self._stall = advertise("stall", messages.bool)
+        self._crashed = advertise("is_crashed", messages.int8)
+        self._odom_frame = naming.frame(index, "odom")
+        self._footprint = naming.frame(index, "base_footprint")
+        self._base = naming.frame(index, "base_link")
+        self._lasers = self._open_lasers(naming)
+
+    def _open_lasers(self, naming: Naming) -> list[_Laser]:
+        index = self._robot.index
+        direct = [each for each in self._robot.rangers if each.direct]
+        seeing = [(k, each) for k, each in enumerate(direct) if each.sensors]
+        return [
+            _Laser(
+                each,
+                naming.frame(index, "base_laser_link", k, len(direct)),
+                self._node.advertise(
+                    naming.device_topic(index, "base_scan", k, len(direct)),
+                    self._messages.scan,
+                    _QUEUE,
+                ),
+            )
+            for k, each in seeing
+        ]
+
+    def publish(self, facts: Facts) -> None:
+        """Publish what is true to all who listen."""
+        i = self._robot.index
+        if self._odom.has_listener:
+            self._odom.publish(self._odometry(facts, facts.odometry[i], facts.velocity[i]))
+        if self._truth.has_listener:
+            message = self._odometry(facts, facts.pose[i], facts.true_velocity[i])
+            self._truth.publish(message)
+        if self._stall.has_listener:
+            self._stall.publish(self._messages.bool(facts.stalled[i]))
+        if self._crashed.has_listener:
+            self._crashed.publish(self._messages.int8(int(facts.stalled[i])))
+        for laser in self._lasers:
+            if laser.publisher.has_listener:
+                laser.publisher.publish(self._scan(facts, laser))
+
+    def transforms(self, facts: Facts) -> list[Any]:
+        """From odom to base_footprint, to base_link, to the lasers."""
+        x, y, yaw = facts.odometry[self._robot.index]
+        found = [
+            self._transform(facts, self._odom_frame, self._footprint, x, y, self._z, yaw),
+            self._transform(facts, self._footprint, self._base, 0.0, 0.0, 0.0, 0.0),
+        ]
+        for laser in self._lasers:
+            at = laser.ranger.pose
+            found.append(self._transform(facts, self._base, laser.frame, at.x, at.y, at.z, at.yaw))
+        return found
+
+    def _odometry(self, facts: Facts, pose: Values, velocity: Values) -> Any:
+        message = self._messages.odometry()
+        message.header.stamp = facts.stamp
+        message.header.frame_id = self._odom_frame
+        message.child_frame_id = self._footprint
+        position, twist = message.pose.pose, message.twist.twist
+        position.position.x, position.position.y, position.position.z = pose[0], pose[1], self._z
+        set_heading(position.orientation, pose[2])
+        twist.linear.x, twist.linear.y, twist.angular.z = velocity
+        return message
+
+    def _scan(self, facts: Facts, laser: _Laser) -> Any:
+        sensor = laser.ranger.sensors[0]
+        scanner, place = laser.ranger.places[0]
+        message = self._messages.scan()
+        message.header.stamp = facts.stamp
+        message.header.frame_id = laser.frame
+        message.angle_min, message.angle_max = -sensor.fov / 2.0, sensor.fov / 2.0
+        message.angle_increment = sensor.fov / max(sensor.samples - 1, 1)
+        message.range_min, message.range_max = sensor.range
+        message.ranges = self._simulation.scan(scanner)[self._world, place].tolist()
+        message.intensities = self._simulation.returns(scanner, place, self._world).tolist()
+        return message
+
+    def _transform(
+        self, facts: Facts, parent: str, child: str, x: float, y: float, z: float, yaw: float
+    ) -> Any:
+        message = self._messages.transform()
+        message.header.stamp = facts.stamp
+        message.header.frame_id, message.child_frame_id = parent, child
+        where = message.transform.translation
+        where.x, where.y, where.z = x, y, z
+        set_heading(message.transform.rotation, yaw)
+        return message
+
+
+def set_heading(quaternion: Any, yaw: float) -> None:
+    """Fill a quaternion that turns about z."""
+    quaternion.x = quaternion.y = 0.0
+    quaternion.z, quaternion.w = math.sin(yaw / 2.0), math.cos(yaw / 2.0)
+
+
+def heading_of(quaternion: Any) -> float:
+    """The heading of a quaternion; all zero is none, as a message that nobody filled has it."""
+    x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
+    return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
+
+
+class RobotInputs:
+    """What one robot listens to: velocities and poses.
+
+    Args:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics.
+        world: Which world of a batch the graph commands.
+        flat_poses: Whether ``cmd_pose`` carries ``geometry_msgs/Pose2D``.
+        told: Called with the robot's index at each velocity command.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        robot: StageRobot,
+        node: Node,
+        naming: Naming,
+        *,
+        world: int,
+        flat_poses: bool,
+        told: Callable[[int], None],
+    ) -> None:
+        self._simulation, self._robot, self._world = simulation, robot, world
+        self._told = told
+        index = robot.index
+        flat = "geometry_msgs/Pose2D" if flat_poses else "geometry_msgs/Pose"
+        self._subscribers = [
+            node.subscribe(naming.topic(index, name), load_message(kind), self._between(act), 10)
+            for name, kind, act in (
+                ("cmd_vel", "geometry_msgs/Twist", self.drive),
+                ("cmd_pose", flat, self._place_flat if flat_poses else self.place),
+                (
+                    "cmd_pose_stamped",
+                    "geometry_msgs/PoseStamped",
+                    lambda message: self.place(message.pose),
+                ),
+            )
+        ]
+
+    def _between(self, act: Callable[[Any], None]) -> Callable[[Any], None]:
+        return lambda message: self._simulation.requests.call(lambda: act(message))
+
+    def drive(self, message: Any) -> None:
+        """A velocity: what is not finite is left out, as it would spoil the world."""
+        command = (message.linear.x, message.linear.y, message.angular.z)
+        if not all(map(math.isfinite, command)):
+            return
+        self._simulation.commands[self._world, self._robot.index] = command
+        self._told(self._robot.index)
+
+    def place(self, pose: Any) -> None:
+        """A pose in the world; height, roll and pitch are left out."""
+        self._put(pose.position.x, pose.position.y, heading_of(pose.orientation))
+
+    def _place_flat(self, pose: Any) -> None:
+        self._put(pose.x, pose.y, pose.theta)
+
+    def _put(self, x: float, y: float, yaw: float) -> None:
+        if all(map(math.isfinite, (x, y, yaw))):
+            worlds = np.array([self._world])
+            self._simulation.set_pose_of(self._robot.index, (x, y, yaw), worlds)
+
+    def close(self) -> None:
+        """Listen no longer."""
+        for subscriber in self._subscribers:
+            subscriber.close()

@@ -1,0 +1,139 @@
+"""The services of a Stage world on a ROS graph: stage_ros's, and those it never had."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import numpy as np
+
+from gazelle.bridges.stage.robot import heading_of
+from gazelle.errors import SimulationError
+from gazelle.ros import Node, Time, load_service
+from gazelle.simulation.stage import StageSimulation
+
+Answer = dict[str, Any]
+
+_MOST_STEPS = 10_000_000
+
+
+class Door(Protocol):
+    """What the services need of the door."""
+
+    rate: float | None
+
+    def now(self) -> Time:
+        """The simulated time as the graph sees it."""
+
+    def publish(self) -> None:
+        """Publish what is true now."""
+
+    def rewound(self) -> None:
+        """Time began again."""
+
+
+class Services:
+    """Offers the services until it is closed.
+
+    Args:
+        simulation: Runs.
+        node: On the graph.
+        door: Publishes.
+        world: Which world of a batch the graph commands.
+    """
+
+    def __init__(self, simulation: StageSimulation, node: Node, door: Door, world: int) -> None:
+        self._simulation, self._door, self._world = simulation, door, world
+        self._servers = []
+        for name, kind, handler in (
+            ("reset_positions", "std_srvs/Empty", self.reset_positions),
+            ("/gazelle/reset", "std_srvs/Empty", self.reset),
+            ("/gazelle/pause", "std_srvs/Empty", self.pause),
+            ("/gazelle/unpause", "std_srvs/Empty", self.unpause),
+            ("/gazelle/step", "gazelle_msgs/Step", self.step),
+            ("/gazelle/set_pose", "gazelle_msgs/SetPose", self.set_pose),
+            ("/gazelle/set_real_time_factor", "gazelle_msgs/SetRealTimeFactor", self.set_rate),
+        ):
+            service = load_service(kind)
+            self._servers.append(node.serve(name, service, self._between(service, handler)))
+
+    def _between(self, service: Any, handler: Callable[[Any], Answer]) -> Callable[[Any], Any]:
+        """Answer between two steps, when it is true."""
+        response = service._response_class  # noqa: SLF001  # genpy's name
+        call = self._simulation.requests.call
+        return lambda request: response(**call(lambda: handler(request)))
+
+    def reset_positions(self, _request: Any) -> Answer:
+        """Robots back to where they were, standing, odometry and stall cleared; time goes on."""
+        self._simulation.reset_positions(np.array([self._world]))
+        self._door.publish()
+        return {}
+
+    def reset(self, _request: Any) -> Answer:
+        """Everything from the start, time too."""
+        self._simulation.reset()
+        self._door.rewound()
+        self._door.publish()
+        return {}
+
+    def pause(self, _request: Any) -> Answer:
+        """No step is made once this is answered."""
+        self._simulation.pause()
+        return {}
+
+    def unpause(self, _request: Any) -> Answer:
+        """Go on."""
+        self._simulation.unpause()
+        return {}
+
+    def step(self, request: Any) -> Answer:
+        """Step a paused world; answers when it is done."""
+        if not self._simulation.paused:
+            return self._done("Step: the simulation is not paused", success=False)
+        if request.steps > _MOST_STEPS:
+            return self._done(f"Step: more than {_MOST_STEPS} steps", success=False)
+        self._simulation.step(request.steps)
+        return self._done("Step: done")
+
+    def _done(self, text: str, *, success: bool = True) -> Answer:
+        return {"success": success, "status_message": text, "time": self._door.now()}
+
+    def set_pose(self, request: Any) -> Answer:
+        """Put a robot somewhere, by its name in the file or its prefix ``robot_N``."""
+        pose = request.pose
+        where = (pose.position.x, pose.position.y, heading_of(pose.orientation))
+        if not all(map(math.isfinite, where)):
+            return {"success": False, "status_message": "SetPose: the pose is not finite"}
+        try:
+            index = self._find(request.name)
+        except SimulationError as error:
+            return {"success": False, "status_message": f"SetPose: {error}"}
+        self._simulation.set_pose_of(index, where, np.array([self._world]))
+        self._door.publish()
+        return {"success": True, "status_message": "SetPose: done"}
+
+    def _find(self, name: str) -> int:
+        _, _, number = name.strip("/").partition("robot_")
+        known = name in self._simulation.named
+        if not known and number.isdigit() and int(number) < len(self._simulation.robots):
+            return int(number)
+        return self._simulation.robot(name).index
+
+    def set_rate(self, request: Any) -> Answer:
+        """Simulated seconds a wall second to keep to: a number, or ``max``."""
+        text = request.real_time_factor.strip()
+        try:
+            rate = math.inf if text == "max" else float(text)
+        except ValueError:
+            rate = math.nan
+        if not rate > 0.0:
+            said = f"SetRealTimeFactor: expected a positive number or max, not '{text}'"
+            return {"success": False, "status_message": said}
+        self._door.rate = rate if math.isfinite(rate) else None
+        return {"success": True, "status_message": "SetRealTimeFactor: done"}
+
+    def close(self) -> None:
+        """Offer them no longer."""
+        for server in self._servers:
+            server.close()

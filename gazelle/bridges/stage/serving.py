@@ -1,0 +1,101 @@
+"""Put a Stage world on a ROS 1 graph, with a master of its own where there is none."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Self
+
+from gazelle.bridges.serving import join_graph
+from gazelle.bridges.stage.door import StageDoor
+from gazelle.ros import Master, Node
+from gazelle.simulation.stage import StageSimulation
+
+
+class StageServer:
+    """A Stage world on a ROS 1 graph, and the node and master made for it.
+
+    Attributes:
+        door: The topics and services.
+        node: Called ``stageros``.
+        master_uri: Of the master that it is on.
+    """
+
+    def __init__(self, door: StageDoor, node: Node, master: Master | None) -> None:
+        self.door, self.node = door, node
+        self.master_uri = node.master_uri
+        self._master = master
+
+    def run(self, seconds: float | None = None) -> None:
+        """See ``StageDoor.run``."""
+        self.door.run(seconds)
+
+    def stop(self) -> None:
+        """Let ``run`` return; from any thread."""
+        self.door.stop()
+
+    def close(self) -> None:
+        """Leave the graph, and end the master if it was started here."""
+        self.door.close()
+        self.node.close()
+        if self._master is not None:
+            self._master.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def serve_stage(
+    simulation: StageSimulation,
+    master_uri: str | None = None,
+    *,
+    name: str = "stageros",
+    host: str | None = None,
+    world: int = 0,
+    rate: float | str | None = "file",
+    model_names: bool = False,
+) -> StageServer:
+    """Put a Stage world on a ROS 1 graph as stage_ros does.
+
+    The caller goes on stepping it, or lets ``StageServer.run`` do so.
+
+    Args:
+        simulation: Runs.
+        master_uri: Of the master; by default ``ROS_MASTER_URI``, else this machine's port
+            11311. Where none answers on this machine, one is started.
+        name: Of the node.
+        host: The name other nodes reach it by; loopback by default.
+        world: Which world of a batch the graph sees and commands.
+        rate: Simulated seconds a wall second; ``"file"`` for what the world file's
+            ``speedup`` says, None for as fast as possible.
+        model_names: Name robots by their models instead of ``robot_N`` (``stageros -u``).
+
+    Raises:
+        MasterUnreachableError: There is no master, and none can be started at that address.
+    """
+    node, master = join_graph(name, master_uri, host)
+    try:
+        door = StageDoor(
+            simulation,
+            node,
+            world=world,
+            rate=_pace(simulation.stage.speedup) if isinstance(rate, str) else rate,
+            model_names=model_names,
+        )
+    except BaseException:
+        node.close()
+        if master is not None:
+            master.close()
+        raise
+    return StageServer(door, node, master)
+
+
+def _pace(speedup: float) -> float | None:
+    return speedup if speedup > 0.0 else None
