@@ -112,3 +112,13 @@ def test_friction_holds_below_and_slows_evenly_above():
     engine.set_joint_effort("m::j", np.zeros((2, 1)))
     engine.step(200)
     assert engine.joint_velocity("m::j")[1, 0] == pytest.approx(speed[1] - 5.0 * 0.2, rel=0.02)
+
+
+def test_stops_are_tuned_to_the_inertia_that_was_compiled():
+    """A known limit: where a world has twice the inertia, its stop is twice as stiff."""
+    engine = wheel(0.02, nworld=2, lower=-0.5, upper=0.5, stiffness=20.0)
+    tensors = [[moment, moment, moment, 0.0, 0.0, 0.0] for moment in (0.02, 0.04)]
+    engine.set_parameter("link_inertia", "m::w", tensors)
+    engine.set_joint_effort("m::j", 2.0)
+    engine.step(8000)
+    np.testing.assert_allclose(angle(engine) - 0.5, [0.1, 0.05], rtol=0.01)
