@@ -19,6 +19,12 @@ if TYPE_CHECKING:
 
 _LOG = logging.getLogger("gazelle.ros.actions")
 _QUEUE = 50
+_PEER_S = 0.005
+"""How long clients elsewhere get to note a goal they sent, or feedback, before what follows.
+
+A rospy client drops what comes for a goal before its ``send_goal`` has returned, and feedback that comes
+after the result, as each has a connection of its own. Real servers are slower than this anyway.
+"""
 _CANCELLED_BEFORE = (
     "This goal handle was canceled by the action server because its timestamp is before the "
     "timestamp of the last cancel request"
@@ -43,6 +49,8 @@ class ServerGoalHandle:
         self.goal = goal
         self.finished = 0
         """When it ended [ns]; 0 before."""
+        self.told = time.monotonic()
+        """When it came, or the last feedback was sent, on the monotonic clock."""
 
     def get_goal(self) -> Any:
         """What is to be done; None if only a cancel request came."""
@@ -117,6 +125,7 @@ class ServerGoalHandle:
             self._refuse()
         else:
             self._server.publish_feedback(self.status, feedback)
+            self.told = time.monotonic()
 
     @staticmethod
     def _refuse() -> bool:
@@ -135,6 +144,8 @@ class ServerGoalHandle:
     ) -> bool:
         if self._server is None:
             return self._refuse()
+        if over and self.status.status in table:
+            self._server.settle(self)
         with self._server.lock:
             before = self.status.status
             after = table.get(before)
@@ -226,6 +237,8 @@ class ActionServer:
         self._result = node.advertise(f"{name}/result", self.types.action_result, size)
         self._feedback = node.advertise(f"{name}/feedback", self.types.action_feedback, size)
         cancel = load_message("actionlib_msgs/GoalID")
+        # Clients wait for a first status; this way they need not wait for the next turn.
+        self._status.on_connect = self._greet
         self._subscribers = [
             node.subscribe(f"{name}/goal", self.types.action_goal, self._take_goal),
             node.subscribe(f"{name}/cancel", cancel, self._take_cancel),
@@ -264,6 +277,17 @@ class ActionServer:
             wait = self._due - time.monotonic()
             self.node.loop.call_later(wait, lambda: self.node.loop.submit(self._tick))
         self.publish_status()
+
+    def settle(self, goal: ServerGoalHandle) -> None:
+        """Let clients in other processes take in what came before; see `_PEER_S`."""
+        publication = self.node.publication(self._status.name)
+        left = goal.told + _PEER_S - time.monotonic()
+        if left > 0 and publication is not None and publication.remote:
+            time.sleep(left)
+
+    def _greet(self, _peer: str) -> None:
+        if self.started:
+            self.publish_status()
 
     # What goes out -----------------------------------------------------------------------------
 

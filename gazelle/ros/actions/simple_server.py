@@ -194,6 +194,10 @@ class SimpleActionServer:
                 if not self.new_goal:
                     self._news.wait(1.0)
                     continue
+                waiting = self.next_goal
+            if waiting is not None:
+                self.action_server.settle(waiting)
+            with self._news:
                 if self.is_active():
                     _LOG.error("Should never reach this code with an active goal")
                     return

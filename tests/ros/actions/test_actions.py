@@ -247,3 +247,14 @@ def test_every_way_through_the_states_ends():
         for steps in answers.values():
             assert set(steps) <= set(TRANSITIONS)
             assert state not in steps
+
+
+def test_a_client_that_comes_gets_the_status_at_once(make_node):
+    node = make_node("server")
+    node.set_param("/act/status_frequency", 0.01)
+    server = ActionServer(node, "/act", TEST)
+    client = ActionClient(make_node("client"), "/act", TEST)
+    begin = time.monotonic()
+    assert client.wait_for_server(5.0)
+    assert time.monotonic() - begin < 2.0
+    server.stop()

@@ -64,6 +64,20 @@ client.cancel_goal()
 client.wait_for_result(rospy.Duration(10))
 say(client.get_state(), client.get_result().result)
 """
+QUICK_CLIENT = """
+import actionlib
+from actionlib.msg import *
+rospy.init_node("real_client", log_level=rospy.FATAL)
+client = actionlib.SimpleActionClient("/act", TestAction)
+say(client.wait_for_server(rospy.Duration(10)))
+whole = 0
+for number in range(30):
+    heard = []
+    client.send_goal(TestGoal(number), feedback_cb=lambda f: heard.append(f.feedback))
+    done = client.wait_for_result(rospy.Duration(2))
+    whole += done and client.get_state() == 3 and client.get_result().result == number == heard[-1]
+say(whole)
+"""
 RECONFIGURE = """
 import dynamic_reconfigure.client
 rospy.init_node("real_changer")
@@ -150,6 +164,20 @@ def test_a_real_client_sends_goals_to_our_server(node, master):
     server.start()
     with real.RealNode(master.uri, ACTION_CLIENT) as client:
         client.expect("True", "3 3 [7]", "2 -1")
+
+
+def test_a_real_client_misses_nothing_of_goals_that_are_done_at_once(node, master):
+    actionlib = importlib.import_module("actionlib")
+    messages = importlib.import_module("actionlib.msg")
+
+    def execute(goal):
+        server.publish_feedback(messages.TestFeedback(goal.goal))
+        server.set_succeeded(messages.TestResult(goal.goal))
+
+    server = actionlib.SimpleActionServer("/act", messages.TestAction, execute, False)
+    server.start()
+    with real.RealNode(master.uri, QUICK_CLIENT) as client:
+        client.expect("True", "30")
 
 
 def test_a_real_client_changes_our_parameters(node, master):

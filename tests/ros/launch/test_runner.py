@@ -337,3 +337,20 @@ def test_python_nodes_import_rospy(launch, script, tmp_path):
     body = '<node pkg="robot" type="node.py" name="mine" ns="s"><param name="p" value="4"/></node>'
     assert spin(launch(body), 30.0) == 0
     assert (tmp_path / "name").read_text() == "/s/mine4"
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, master, number):
+    script("sleep.sh", f"#!/bin/sh\necho $$ > {tmp_path}/pid\nexec sleep 100\n")
+    file = tmp_path / "f.launch"
+    file.write_text(f"<launch>{node('sleep.sh')}</launch>")
+    with subprocess.Popen(
+        [sys.executable, "-m", "gazelle.cli.main", "launch", str(file)],
+        env=os.environ | {"ROS_MASTER_URI": master.uri},
+        stdout=subprocess.DEVNULL,
+    ) as process:
+        until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text(), 20.0)
+        process.send_signal(number)
+        process.wait(20)
+    pid = int((tmp_path / "pid").read_text())
+    until(lambda: not alive(pid) or zombie(pid))
