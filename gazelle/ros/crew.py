@@ -94,11 +94,16 @@ class Crew(ABC):
             quick: It is expected to take no longer than `QUICK`.
         """
         me = threading.get_ident()
-        if me in (self._leader, self._inline_ident):
+        if me == self._leader or me == self._inline_ident:  # noqa: PLR1714  # this is the hot path
             (self._quick if quick else self._tasks).append(task)
             if me not in (self._leader, self._inline_ident):
                 self._ring()  # deposed in this very moment
             return  # the leader looks at the tasks before it sleeps
+        if quick and self._sentry is not None and self._inline is None:
+            # The leader is woken faster than an idle thread, and need not give up the lead.
+            self._quick.append(task)
+            self._ring()
+            return
         self._tasks.append(task)
         with self._mutex:
             seat = self._take_idle()
@@ -253,25 +258,26 @@ class Crew(ABC):
             seat.started = time.monotonic()
             self._try(task)
 
-    def _run_quick(self, seat: Seat) -> bool:
+    def _run_quick(self, seat: Seat, now: float) -> bool:
         """Run the quick tasks without giving away the lead; False if it was taken."""
         me, quick = self._leader, self._quick
-        self._last_quick = seat.started = time.monotonic()
+        self._last_quick = seat.started = now
         with self._mutex:
             if self._sentry is None:  # nobody would notice if a task blocked
                 self._tasks.extend(quick)
                 quick.clear()
                 return True
             self._leader, self._inline_ident, self._inline = 0, me, seat
-        task = quick.popleft()
-        while True:
+        for _ in range(len(quick)):  # what comes meanwhile waits until sockets had their turn
+            task = quick.popleft()
             try:
                 task()
             except Exception as error:  # noqa: BLE001  # a task must not end its thread
                 report("a task of the event loop", error)
-            if not quick or self._inline is not seat:
+            if self._inline is not seat:
+                return False
+            if not quick:
                 break
-            task = quick.popleft()
             seat.started = time.monotonic()
         with self._mutex:
             kept = self._inline is seat

@@ -5,7 +5,6 @@ Handlers of sockets and timers run only on the leader: what they own needs no lo
 
 from __future__ import annotations
 
-import contextlib
 import heapq
 import os
 import socket
@@ -18,7 +17,7 @@ from typing import Any
 from gazelle.ros import poller
 from gazelle.ros.crew import GRACE, Crew, Seat, Task
 from gazelle.ros.errors import report
-from gazelle.ros.poller import READ, WRITE, Handler
+from gazelle.ros.poller import READ, WRITE, Handler, Ready
 
 __all__ = ["READ", "WRITE", "EventLoop", "Handler", "Timer", "acquire", "give_way", "release"]
 
@@ -45,10 +44,6 @@ class EventLoop(Crew):
         self._soon: deque[Task] = deque()
         self._timers: list[tuple[float, int, Timer]] = []
         self._timer_count = 0
-        self._bell, self._button = socket.socketpair()
-        self._bell.setblocking(False)
-        self._button.setblocking(False)
-        self._poller.watch(self._bell, READ, self._answer_bell)
         self._spawn_leader()
 
     # What any thread may call ------------------------------------------------------------
@@ -111,30 +106,38 @@ class EventLoop(Crew):
     def _lead(self, seat: Seat) -> bool:
         """Handle sockets and timers until there is a task to run; False if deposed."""
         self._leader = threading.get_ident()
-        poll, handlers = self._poller.poll, self._poller.handlers
+        poll, clock = self._poller.poll, time.monotonic
+        soon, quick, timers = self._soon, self._quick, self._timers
+        now = clock()
         while not self._stopping:
-            if self._quick and not self._run_quick(seat):
-                return False
             if self._tasks and self._should_step_down():
                 return True
             self._sleeping = True  # from here on others ring, so look at their wishes after it
-            ready = poll(self._patience())
+            ready = poll(self._patience(now))
             self._sleeping = False
-            for number, events in ready:
-                handler = handlers.get(number)
-                if handler is None:
-                    continue  # another handler closed it in this very round
-                try:
-                    handler(events)
-                except Exception as error:  # noqa: BLE001  # one socket must not end the loop
-                    report("a socket's handler", error)
-            if self._soon:
+            if ready:
+                self._handle(ready)
+            if soon:
                 self._run_soon()
-            if self._timers and not self._quick:
-                self._run_timers()
+            now = clock()
+            if quick and not self._run_quick(seat, now):
+                return False
+            if timers and timers[0][0] <= now:
+                self._run_timers(now)
         return False
 
-    def _patience(self) -> float | None:
+    def _handle(self, ready: Ready) -> None:
+        handlers = self._poller.handlers
+        for number, events in ready:
+            handler = handlers.get(number)
+            if handler is None:
+                continue  # the bell, or a socket that another handler closed in this very round
+            try:
+                handler(events)
+            except Exception as error:  # noqa: BLE001  # one socket must not end the loop
+                report("a socket's handler", error)
+
+    def _patience(self, now: float) -> float | None:
         """How long to wait for sockets, in seconds; None for as long as it takes."""
         if self._soon or self._quick or self._stopping:
             return 0.0
@@ -142,14 +145,13 @@ class EventLoop(Crew):
             return GRACE
         if not self._timers:
             return None
-        return max(0.0, self._timers[0][0] - time.monotonic())
+        return self._timers[0][0] - now
 
     def _run_soon(self) -> None:
         for _ in range(len(self._soon)):
             self._try(self._soon.popleft())
 
-    def _run_timers(self) -> None:
-        now = time.monotonic()
+    def _run_timers(self, now: float) -> None:
         while self._timers and self._timers[0][0] <= now:
             timer = heapq.heappop(self._timers)[2]
             callback, timer.callback = timer.callback, None
@@ -157,17 +159,10 @@ class EventLoop(Crew):
                 self._try(callback)
 
     def _press(self) -> None:
-        with contextlib.suppress(BlockingIOError, OSError):
-            self._button.send(b"\0")
+        self._poller.ring()
 
     def _close(self) -> None:
         self._poller.close()
-        self._bell.close()
-        self._button.close()
-
-    def _answer_bell(self, _events: int) -> None:
-        with contextlib.suppress(BlockingIOError):
-            self._bell.recv(4096)
 
 
 _shared: EventLoop | None = None

@@ -30,10 +30,9 @@ class Strand:
         "_doubt",
         "_doubt_until",
         "_handle",
-        "_lock",
+        "_idle",
         "_loop",
         "_runner",
-        "_running",
         "items",
         "what",
     )
@@ -41,8 +40,8 @@ class Strand:
     def __init__(self, loop: EventLoop, handle: Callable[[Any], None], what: str) -> None:
         self._loop = loop
         self._handle = handle
-        self._lock = threading.Lock()
-        self._running = False
+        self._idle = [True]
+        """Holds something while nobody runs; who takes it out, runs. That needs no lock."""
         self._runner = 0
         self._doubt = FIRST_DOUBT
         self._doubt_until = math.inf
@@ -52,23 +51,30 @@ class Strand:
     def post(self, item: Any) -> None:
         """Handle `item` after those before it."""
         self.items.append(item)
-        self._start()
+        if self._idle:
+            self._start()
 
     def post_all(self, items: list[Any]) -> None:
         """Handle several items, in order."""
         self.items.extend(items)
-        self._start()
+        if self._idle:
+            self._start()
 
     def runs_here(self) -> bool:
         """True if it is the calling thread that handles an item of this strand."""
-        return self._running and self._runner == threading.get_ident()
+        return not self._idle and self._runner == threading.get_ident()
 
     def _start(self) -> None:
-        with self._lock:
-            if self._running or not self.items:
-                return
-            self._running = True
-        self._loop.submit(self._run, quick=time.monotonic() > self._doubt_until)
+        try:
+            self._idle.pop()
+        except IndexError:
+            return  # another thread was faster
+        self._loop.submit(self._run, quick=self._is_quick())
+
+    def _is_quick(self) -> bool:
+        if self._doubt_until and time.monotonic() > self._doubt_until:
+            self._doubt_until = 0.0
+        return not self._doubt_until
 
     def _run(self) -> None:
         items, handle = self.items, self._handle
@@ -87,14 +93,13 @@ class Strand:
                 except Exception as error:  # noqa: BLE001  # a callback must not end its thread
                     report(self.what, error)
             end = time.monotonic()
-        if end - begin > QUICK or self._doubt_until > end:
+        if self._doubt_until or end - begin > QUICK:
             self._learn((end - begin) / max(1, count), end)
-        with self._lock:
-            if not items:
-                self._running = False
-                return
-        # Others get a turn.
-        self._loop.submit(self._run, quick=end > self._doubt_until)
+        # Whoever posts from here on starts another run; what was posted just before must not
+        # wait for that.
+        self._idle.append(True)
+        if items:
+            self._start()
 
     def _learn(self, seconds: float, now: float) -> None:
         """Expect items to take as long as these did."""

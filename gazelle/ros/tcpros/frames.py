@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import struct
+import sys
 from io import BytesIO
 from typing import Any
 
@@ -14,6 +16,9 @@ CHUNK = 65536
 BIG_CHUNK = 4 * 1024 * 1024
 _BIG = 16384
 _ROOM = b"\0\0\0\0"
+_SIP = 1024 * 1024
+_CAN_WAIT_FOR_MORE = sys.platform == "linux"
+"""Elsewhere the low-water mark of a socket is not heeded by those who wait for it."""
 
 
 class ClosedError(ConnectionError):
@@ -39,7 +44,7 @@ class FrameReader:
             anything of it is stored; shorter ones are stored only as they come.
     """
 
-    __slots__ = ("_missing", "_parts", "_rest", "limit", "received")
+    __slots__ = ("_level", "_missing", "_parts", "_rest", "limit", "received")
 
     def __init__(self, limit: int) -> None:
         self.limit = limit
@@ -47,6 +52,7 @@ class FrameReader:
         self._rest = b""
         self._parts: list[bytes] = []
         self._missing = 0
+        self._level = 1
 
     def read(self, sock: socket.socket) -> list[bytes]:
         """Read what is there now and return the frames that are whole, without their lengths.
@@ -65,10 +71,24 @@ class FrameReader:
             raise ClosedError("the peer closed the connection")
         self.received += len(data)
         if missing:
-            return self._add(data)
-        if not self._rest and len(data) > 4 and LENGTH.unpack_from(data)[0] == len(data) - 4:
+            frames = self._add(data)
+        elif not self._rest and len(data) > 4 and LENGTH.unpack_from(data)[0] == len(data) - 4:
             return [data[4:]]  # by far the most common case
-        return self.cut(self._rest + data if self._rest else data)
+        else:
+            frames = self.cut(self._rest + data if self._rest else data)
+        if missing or self._missing:
+            self._expect(sock)
+        return frames
+
+    def _expect(self, sock: socket.socket) -> None:
+        """Be woken when the rest of a big frame is there, rather than for each piece of it."""
+        if not _CAN_WAIT_FOR_MORE:
+            return
+        level = max(1, min(self._missing, _SIP))
+        if level != self._level:
+            self._level = level
+            with contextlib.suppress(OSError):
+                sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, level)
 
     def cut(self, data: bytes) -> list[bytes]:
         """The whole frames at the start of `data`; the rest is kept for later."""

@@ -14,6 +14,8 @@ from gazelle.ros.loop import READ, WRITE, EventLoop
 
 _BATCH = 65536
 _POLL_S = 0.5
+AT_ONCE: int | None = getattr(socket, "MSG_DONTWAIT", None)
+"""Flag of calls that must not wait; None where a socket waits either always or never."""
 
 
 class OutboundLink:
@@ -43,6 +45,9 @@ class OutboundLink:
     ) -> None:
         self._loop = loop
         self._sock = sock
+        # Where single calls may refuse to wait, the system itself waits best for a slow peer.
+        sock.setblocking(AT_ONCE is not None)
+        self._flags = AT_ONCE or 0
         self.header = header
         self.peer = header.get("callerid", "")
         self.address = address
@@ -80,7 +85,7 @@ class OutboundLink:
                 self._enqueue(data)
                 return
             try:
-                sent = self._sock.send(data)
+                sent = self._sock.send(data, self._flags)
             except (BlockingIOError, InterruptedError):
                 sent = 0
             except OSError:
@@ -127,7 +132,7 @@ class OutboundLink:
 
     def _send_or_keep(self, data: bytes) -> None:
         try:
-            sent = self._sock.send(data)
+            sent = self._sock.send(data, self._flags)
         except (BlockingIOError, InterruptedError):
             sent = 0
         except OSError:
@@ -141,7 +146,7 @@ class OutboundLink:
         self._loop.give_way()
         while rest and not self.closed:
             try:
-                if not wait_writable(self._sock, _POLL_S):
+                if AT_ONCE is None and not wait_writable(self._sock, _POLL_S):
                     continue
                 sent = self._sock.send(rest)
             except (BlockingIOError, InterruptedError):
@@ -170,7 +175,7 @@ class OutboundLink:
     def _hear(self) -> bool:
         """Subscribers say nothing after the header; False if this one is gone."""
         try:
-            return bool(self._sock.recv(4096))
+            return bool(self._sock.recv(4096, self._flags))
         except (BlockingIOError, InterruptedError):
             return True
         except OSError:
@@ -184,7 +189,7 @@ class OutboundLink:
                     break
                 self._current = memoryview(self._gather())
             try:
-                sent = self._sock.send(self._current)
+                sent = self._sock.send(self._current, self._flags)
             except (BlockingIOError, InterruptedError):
                 return
             except OSError:
