@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -85,11 +85,13 @@ class Compiled:
         model: The MuJoCo model.
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision, ``model::link::collision``.
+        springs: Indices of MuJoCo's contact pairs that are springs.
     """
 
     model: mujoco.MjModel
     bodies: Mapping[str, list[Body]]
     geoms: Mapping[str, list[str]]
+    springs: Sequence[int] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +142,8 @@ def compile_world(recipe: Recipe) -> Compiled:
     """
     draft = draft_world(recipe)
     add_force_probe(draft.spec)
-    return Compiled(draft.compile(), draft.bodies, draft.geoms)
+    springs = [spring.pair for spring in draft.springs]
+    return Compiled(draft.compile(), draft.bodies, draft.geoms, springs)
 
 
 def draft_world(recipe: Recipe) -> Draft:

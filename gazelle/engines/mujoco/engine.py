@@ -23,6 +23,7 @@ from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, check
+from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
@@ -141,7 +142,7 @@ class MujocoEngine(ForcedSteps):
     def _let_out(self, count: int) -> set[int]:
         """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
         if self._placed:
-            self._overlaps.find(self._batch)
+            self._overlaps.clear(self._batch)
         failed: set[int] = set()
         while count > 0:
             piece = min(count, PIECE) if self._overlaps.any else count
@@ -157,11 +158,12 @@ class MujocoEngine(ForcedSteps):
             DivergenceError: Always.
         """
         before = self._before[worlds].copy()
+        who = suspect(self._layout, self._state, self._batch.state, before[0])
         self._batch.warning[worlds] = 0
         self.reset(worlds)
         raise DivergenceError(
             f"the state of {len(worlds)} of {self._nworld} worlds became infinite "
-            f"(first: world {worlds[0]})",
+            f"(first: world {worlds[0]}{who and ', where ' + who})",
             worlds,
             before,
             count,
@@ -261,10 +263,10 @@ class MujocoEngine(ForcedSteps):
         """Go on with another model, with all states that both have."""
         self._pending = None
         compiled = compile_world(recipe)
-        batch, layout = self._batch, self._layout
+        batch, layout, overlaps = self._batch, self._layout, self._overlaps
         self._run(recipe, compiled)
         carry_over(batch, layout, self._batch, self._layout)
-        self._overlaps.find(self._batch)
+        self._overlaps.carry(self._batch, overlaps)
 
     def _prepare(self, pair: Attachment) -> Layout:
         """The layout of what runs, in which two links can be held together."""
@@ -341,7 +343,7 @@ class MujocoEngine(ForcedSteps):
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
         self._now()
-        state: Floats = self._batch.state.copy()
+        state: Floats = np.hstack((self._batch.state, self._overlaps.saved()))
         if self._sleepy:
             # Who sleeps is not in the state; all awake, this future and a restored one agree.
             self.restore(state)
@@ -350,7 +352,8 @@ class MujocoEngine(ForcedSteps):
     def restore(self, state: Floats) -> None:
         """Put back what ``snapshot`` gave; the models must be the same."""
         self._now()
-        if state.shape != self._batch.state.shape:
+        rows, width = self._batch.state.shape
+        if state.shape not in ((rows, width), (rows, width + self._overlaps.size)):
             raise EngineError(
                 f"the saved state has the shape {state.shape}, the worlds that run need "
                 f"{self._batch.state.shape}",
@@ -358,8 +361,8 @@ class MujocoEngine(ForcedSteps):
             )
         if self._sleepy:
             self._batch.reset(stage=_NO_STAGE)
-        self._batch.state[:] = state
-        self._overlaps.find(self._batch)
+        self._batch.state[:] = state[:, :width]
+        self._overlaps.take(self._batch, state[:, width:])
         self._stale = True
 
     def peek(self) -> Floats:

@@ -45,8 +45,11 @@ class Overlaps:
         for geom, contact in _contacts_of(compiled):
             self._allowed[geom] = max(self._allowed[geom], contact.min_depth)
             self._speed[geom] = min(contact.max_vel, ode.contact_max_correcting_vel)
-        ends = np.stack((model.pair_geom1, model.pair_geom2), axis=1)
-        self._pairs = {tuple(sorted(map(int, pair))): i for i, pair in enumerate(ends)}
+        pairs = zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)
+        self._pairs = {(min(pair), max(pair)): i for i, pair in enumerate(pairs)}
+        self._springs = frozenset(compiled.springs)
+        self._names = [model.geom(geom).name for geom in range(model.ngeom)]
+        self._names += ["|".join(sorted(self._names[g] for g in pair)) for pair in self._pairs]
         # A column for every geom, then one for every pair.
         self._rates = np.zeros(model.ngeom + model.npair)
         self._start = np.zeros(model.ngeom + model.npair)
@@ -59,12 +62,25 @@ class Overlaps:
         self._margins[:] = self._start
         self._show(batch)
 
-    def find(self, batch: Batch) -> None:
-        """Find what overlaps now."""
-        alike = bool((batch.state == batch.state[0]).all())
-        states = batch.state[:1] if alike else batch.state
-        self._margins[:] = np.stack([self._depths(state) for state in states])
+    def carry(self, batch: Batch, old: Overlaps) -> None:
+        """Go on as before a change of the model, and find what that brought with it."""
+        was = {name: column for column, name in enumerate(old._names)}
+        known = np.array([name in was for name in self._names], np.bool_)
+        before = [was[name] for name in self._names if name in was]
+        self._margins[:] = self._find(batch)
+        self._margins[:, known] = old._margins[:, before]
+        self._rates[known] = np.maximum(self._rates[known], old._rates[before])
         self._show(batch)
+
+    def clear(self, batch: Batch) -> None:
+        """Forget what does not overlap any more, because it was put elsewhere."""
+        np.maximum(self._margins, self._find(batch), out=self._margins)
+        self._show(batch)
+
+    def _find(self, batch: Batch) -> Floats:
+        """Margins at which nothing is too deep now, shape (nworld or 1, geoms + pairs)."""
+        alike = bool((batch.state == batch.state[0]).all())
+        return np.stack([self._depths(state) for state in batch.state[: 1 if alike else None]])
 
     def reset(self, batch: Batch, worlds: Worlds | None) -> None:
         """Take up the margins of the initial state again."""
@@ -75,6 +91,26 @@ class Overlaps:
     def rise(self, batch: Batch, seconds: float) -> None:
         """Let out what overlaps for a time [s]."""
         np.minimum(self._margins + self._rates * seconds, 0.0, out=self._margins)
+        self._show(batch)
+
+    @property
+    def size(self) -> int:
+        """How many numbers ``saved`` has for a world while something overlaps."""
+        return 2 * len(self._rates)
+
+    def saved(self) -> Floats:
+        """All that ``take`` needs, shape (nworld, n); n is 0 while nothing overlaps."""
+        if not self.any:
+            return np.zeros((len(self._margins), 0))
+        return np.hstack((self._margins, np.tile(self._rates, (len(self._margins), 1))))
+
+    def take(self, batch: Batch, saved: Floats) -> None:
+        """Go on as when ``saved`` gave this."""
+        if saved.shape[1]:
+            margins, rates = np.split(saved, 2, axis=1)
+            self._margins[:], self._rates[:] = margins, rates[0]
+        else:
+            self._margins[:] = 0.0
         self._show(batch)
 
     def _show(self, batch: Batch) -> None:
@@ -98,6 +134,8 @@ class Overlaps:
             if -distance <= max(self._allowed[one], self._allowed[two]):
                 continue
             column = self._column(one, two)
+            if column - model.ngeom in self._springs:
+                continue
             margins[column] = min(margins[column], distance)
             self._rates[column] = min(self._speed[one], self._speed[two])
         return margins
