@@ -23,6 +23,9 @@ from gazelle.ros.tcpros.outbound import wait_writable
 
 _MOST_WAITING = 1000
 _SEND_PATIENCE_S = 30.0
+_LINGER_S = 0.1
+"""A roscpp client loses an answer now and then if the connection ends right behind it; clients end
+theirs when they have the answer, and this is how long they are given for that."""
 
 Answer = Callable[[bytes, dict[str, str]], bytes]
 """From a request and the client's header to the whole answer; runs on a worker."""
@@ -112,7 +115,13 @@ class ServiceConnection:
             if self._closed:
                 self._sock.close()
             elif not self._persistent:
-                self._loop.call_soon(self.close)
+                self._loop.call_soon(self._linger)
+
+    def _linger(self) -> None:
+        """Let the client be the one that ends the connection, if it does so soon."""
+        if not self._closed:
+            self._loop.watch(self._sock, READ, lambda _events: self.close())
+            self._loop.call_later(_LINGER_S, self.close)
 
     def _send(self, data: bytes) -> None:
         try:
