@@ -37,12 +37,26 @@ _HAS_GROUPS = hasattr(os, "killpg")
 class Guard:
     """A small process that outlives this one for a moment if this one is killed.
 
-    It is started with the first node, and is told of each; on Windows there is none.
+    It is told of every node; on Windows there is none.
     """
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
+
+    def start(self) -> None:
+        """Start it, before the first node."""
+        if not _HAS_GROUPS:
+            return
+        with self._lock:
+            if self._process is None:
+                self._process = subprocess.Popen(  # noqa: S603  # the script above
+                    [sys.executable, "-I", "-S", "-c", _SCRIPT],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    start_new_session=True,
+                )
 
     def watch(self, group: int) -> None:
         """End a process group if this process is killed."""
@@ -65,18 +79,9 @@ class Guard:
         process.wait()
 
     def _tell(self, line: str) -> None:
-        if not _HAS_GROUPS:
-            return
         with self._lock:
-            if self._process is None:
-                self._process = subprocess.Popen(  # noqa: S603  # the script above
-                    [sys.executable, "-I", "-S", "-c", _SCRIPT],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL,
-                    start_new_session=True,
-                )
-            _write(self._process, line)
+            if self._process is not None:
+                _write(self._process, line)
 
 
 def _write(process: subprocess.Popen[bytes], line: str) -> None:

@@ -115,6 +115,7 @@ class Launch:
         programs = self._find_programs()
         self._reach_master()
         self._serve()
+        self._guard.start()
         setup.prepare(self.plan, self._proxy, self._packages)
         with self._lock:
             self.processes += [self._process(node, program) for node, program in programs]
