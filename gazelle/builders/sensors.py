@@ -16,8 +16,6 @@ from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
-_EARTH_RADIUS = 6_371_008.8  # mean radius [m], IUGG
-
 
 def camera(
     name: str = "camera",
@@ -205,18 +203,16 @@ def gps(
         name: Unique in its link.
         pose: In the frame of its link.
         update_rate: Fixes a second [Hz].
-        horizontal_noise: Standard deviation along east and north [m]; the file holds it as
-            the angle it is on Earth.
+        horizontal_noise: Standard deviation along east and north [m].
         vertical_noise: Standard deviation of the altitude [m].
         velocity_noise: Standard deviation of each velocity [m/s].
 
     Raises:
         BuildError: A figure makes no sense.
     """
-    degrees = math.degrees(horizontal_noise / _EARTH_RADIUS)
     block = group(
         "gps",
-        position_sensing=_sensing("position_sensing", degrees, vertical_noise),
+        position_sensing=_sensing("position_sensing", horizontal_noise, vertical_noise),
         velocity_sensing=_sensing("velocity_sensing", velocity_noise, velocity_noise),
     )
     return _sensor(name, "gps", pose, update_rate, block, None)

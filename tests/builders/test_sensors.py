@@ -20,6 +20,7 @@ from gazelle.builders import (
 from gazelle.builders.elements import element, group, text_of, xml_of
 from gazelle.description import Pose
 from gazelle.formats import load_model_string, xml
+from gazelle.sensors import Gps
 
 URDF = """<robot name="r"><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
@@ -64,9 +65,9 @@ def test_an_imu_has_the_noise_asked_for():
     assert imu().imu.angular_velocity[0].type == "none"
 
 
-def test_gps_noise_is_an_angle_on_earth():
-    node = gps(horizontal_noise=111_195.0).settings.find("gps/position_sensing/horizontal/noise")
-    assert node.get("stddev", 0.0) == pytest.approx(1.0, rel=1e-4)
+def test_gps_noise_is_in_metres_as_gazebo_reads_it():
+    found = Gps.read(gps(horizontal_noise=1.5, vertical_noise=3.0).settings)
+    assert (found.horizontal.stddev, found.vertical.stddev) == (1.5, 3.0)
 
 
 def test_a_topic_brings_gazebos_plugin():
