@@ -89,7 +89,10 @@ class JointAxis:
 
 @dataclass(frozen=True, slots=True)
 class JointPhysics:
-    """Engine terms of a joint (SDF ``<physics><ode>``); defaults are SDF 1.7's."""
+    """Engine terms of a joint (SDF ``<physics><ode>``); defaults are SDF 1.7's.
+
+    ``must_be_loop_joint`` is a hint for Simbody and has no effect elsewhere.
+    """
 
     provide_feedback: bool = False
     implicit_spring_damper: bool = False
@@ -100,6 +103,7 @@ class JointPhysics:
     stop_erp: float = 0.2
     suspension_cfm: float = 0.0
     suspension_erp: float = 0.2
+    must_be_loop_joint: bool = False
 
 
 @dataclass(frozen=True, slots=True)

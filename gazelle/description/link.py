@@ -81,7 +81,7 @@ class Link:
         kinematic: Whether it moves only when told to.
         velocity_decay_linear: Fraction of linear velocity lost; ODE's linear damping scale.
         velocity_decay_angular: Fraction of angular velocity lost.
-        extras: Elements kept whole for plugins and sensors: projector, battery, audio, ...
+        extras: Elements kept whole: projector, battery, audio, Simbody's must_be_base_link, ...
     """
 
     name: str

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Vector3
 
 
@@ -86,8 +87,16 @@ class Bounce:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """All contact properties of one collision."""
+    """All contact properties of one collision.
+
+    Attributes:
+        friction: Friction.
+        contact: Stiffness and masks.
+        bounce: Restitution.
+        extras: ``<soft_contact>``, of DART's soft bodies, kept whole; it has no effect.
+    """
 
     friction: Friction = field(default_factory=Friction)
     contact: Contact = field(default_factory=Contact)
     bounce: Bounce = field(default_factory=Bounce)
+    extras: tuple[Parameters, ...] = ()

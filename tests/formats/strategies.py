@@ -1,5 +1,6 @@
 """Random descriptions, as a reader could have made them."""
 
+from dataclasses import replace
 from types import MappingProxyType
 
 from hypothesis import strategies as st
@@ -60,6 +61,9 @@ AXES = {"ball": 0, "fixed": 0, "floating": 0, "universal": 2, "revolute2": 2, "g
 TREE_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
 JOINTS = (*TREE_JOINTS, *AXES, "screw", "planar")
 SENSORS = ("ray", "gpu_lidar", "imu", "camera", "multicamera", "contact", "gps", "altimeter")
+SOFT = Parameters(
+    "soft_contact", children=(Parameters("dart", children=(Parameters("damping", "3"),)),)
+)
 
 flags = st.booleans()
 reals = st.floats(-1e6, 1e6) | st.sampled_from([0.0, 0.1, 1 / 3, 1e-300, 1e15])
@@ -170,6 +174,7 @@ surfaces = st.builds(
     ),
     st.builds(Contact, *([positive] * 6), counts, counts, flags, counts),
     st.builds(Bounce, positive, positive),
+    st.sampled_from([(), (SOFT,)]),
 )
 materials = st.builds(
     Material,
@@ -332,7 +337,11 @@ def joints(draw, name, parent, child, kinds=JOINTS):
         draw(reals),
         draw(st.just("") | names),
         JointPhysics(
-            draw(flags), draw(flags), draw(st.none() | reals), *(draw(reals) for _ in range(6))
+            draw(flags),
+            draw(flags),
+            draw(st.none() | reals),
+            *(draw(reals) for _ in range(6)),
+            draw(flags),
         ),
         draw(st.none() | st.builds(SafetyController, *[reals] * 4)),
         draw(distinct(sensors(), 1)),
@@ -419,7 +428,7 @@ def robots(draw):
     count = draw(st.integers(1, 4))
     bodies, held = [], []
     for i in range(count):
-        surface = draw(surfaces)
+        surface = replace(draw(surfaces), extras=())
         bodies.append(
             Link(
                 f"link{i}",
@@ -476,7 +485,7 @@ def _of_urdf(joint):
         joint.parent,
         joint.child,
         axes=tuple(kept),
-        physics=joint.physics,
+        physics=replace(joint.physics, must_be_loop_joint=False),
         safety=joint.safety,
         sensors=joint.sensors,
     )

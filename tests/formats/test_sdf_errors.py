@@ -119,9 +119,18 @@ def test_an_unknown_element_is_one_warning_with_a_suggestion():
     assert "did you mean 'inertial'?" in text
 
 
-def test_an_element_of_which_nothing_is_kept_is_named():
-    with pytest.warns(FormatWarning, match="<must_be_base_link> is not supported yet"):
-        model("<link name='l'><must_be_base_link>true</must_be_base_link></link>")
+@pytest.mark.filterwarnings("error")
+def test_hints_for_simbody_and_dart_are_kept():
+    soft = "<surface><soft_contact><dart><damping>3</damping></dart></soft_contact></surface>"
+    found = model(
+        "<link name='a'><must_be_base_link>true</must_be_base_link><collision name='c'>"
+        f"<geometry><sphere><radius>1</radius></sphere></geometry>{soft}</collision></link>"
+        "<link name='b'/><joint name='j' type='ball'><parent>a</parent><child>b</child><physics>"
+        "<simbody><must_be_loop_joint>true</must_be_loop_joint></simbody></physics></joint>"
+    )
+    assert found.links[0].extras[0].text == "true"
+    assert found.links[0].collisions[0].surface.extras[0].get("dart/damping", 0.0) == 3.0
+    assert found.joints[0].physics.must_be_loop_joint
 
 
 def test_elements_of_other_tools_may_stand_anywhere():

@@ -93,7 +93,6 @@ def draft_included(node: Parameters, included: Included, reading: Reading) -> Dr
     pose = node.find("pose")
     if pose is not None:
         draft.pose, draft.relative_to = read_pose(pose), frame_of(pose)
-        draft.placement_frame = ""
     draft.placement_frame = values.word(node, "placement_frame", draft.placement_frame)
     if node.find("static") is not None:
         draft.static = values.flag(node, "static", default=False)

@@ -214,7 +214,7 @@ def _thread_pitch(node: Parameters) -> float:
 
 
 def read_joint_physics(node: Parameters | None) -> JointPhysics:
-    """``<physics><ode>`` of a joint."""
+    """``<physics>`` of a joint."""
     if node is None:
         return JointPhysics()
     feedback = values.flag(node, "ode/provide_feedback", default=False)
@@ -230,4 +230,5 @@ def read_joint_physics(node: Parameters | None) -> JointPhysics:
         stop_erp=values.real(node, "ode/limit/erp", 0.2),
         suspension_cfm=values.real(node, "ode/suspension/cfm", 0.0),
         suspension_erp=values.real(node, "ode/suspension/erp", 0.2),
+        must_be_loop_joint=values.flag(node, "simbody/must_be_loop_joint", default=False),
     )

@@ -16,7 +16,9 @@ from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.sdf.surface import read_surface
 
-_EXTRAS = ("audio_sink", "audio_source", "battery", "particle_emitter", "projector")
+_EXTRAS = (
+    "audio_sink", "audio_source", "battery", "must_be_base_link", "particle_emitter", "projector",
+)  # fmt: skip
 
 
 def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool = False) -> Link:

@@ -39,7 +39,7 @@ def read_model(draft: Draft, outer: Scope, reading: Reading) -> Model:
 def _content(draft: Draft, reading: Reading) -> Model:
     node, scope = draft.node, draft.scope
     static = values.flag(node, "static", default=False) or draft.static is True
-    if not (static or scope.canonical or scope.missing):
+    if not (static or scope.canonical or scope.missing or _holds_static(draft)):
         raise values.fail(node, f"the model '{draft.name}' has no link")
     return Model(
         name=draft.name,
@@ -58,6 +58,16 @@ def _content(draft: Draft, reading: Reading) -> Model:
         transmissions=own_transmissions(node),
         extras=tuple(child for child in node.children if child.tag in _EXTRAS),
         source=node.source,
+    )
+
+
+def _holds_static(draft: Draft) -> bool:
+    """Whether a model inside is static, and so needs no link."""
+    return any(
+        inner.static
+        or values.flag(inner.node, "static", default=False)
+        or (inner.static is None and _holds_static(inner))
+        for inner in draft.nested
     )
 
 

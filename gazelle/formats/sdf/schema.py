@@ -20,15 +20,6 @@ from gazelle.formats.reading import Reading
 _OPAQUE = {"plugin", "actor", "gui", "state", "population", "include", "pose", "model_state"}
 """Kept whole, or read by code that knows more than the schema does."""
 
-_NOT_KEPT = {
-    "collision": {"enabled"},
-    "joint/physics": {"simbody"},
-    "link": {"must_be_base_link"},
-    "surface": {"soft_contact"},
-    "world": set[str](),
-}
-"""Part of SDF, but nothing of it is kept: reported by name."""
-
 
 @cache
 def types() -> dict[str, dict[str, Any]]:
@@ -41,7 +32,7 @@ def types() -> dict[str, dict[str, Any]]:
 def check(node: Parameters, kind: str, reading: Reading) -> None:
     """Judge an element and all below it.
 
-    Unknown elements, and those of which nothing is kept, become notes of the reading.
+    Unknown elements become notes of the reading.
 
     Raises:
         FormatError: A value has the wrong type, or a required attribute is missing.
@@ -58,17 +49,15 @@ def check(node: Parameters, kind: str, reading: Reading) -> None:
     checker = _CHECKS.get(entry["type"])
     if checker is not None and node.text:
         checker(node, node.text, f"<{node.tag}>")
-    _check_children(node, kind, entry, reading)
+    _check_children(node, entry, reading)
 
 
-def _check_children(node: Parameters, kind: str, entry: dict[str, Any], reading: Reading) -> None:
+def _check_children(node: Parameters, entry: dict[str, Any], reading: Reading) -> None:
     allowed = entry["children"]
     for child in node.children:
         known = allowed.get(child.tag)
         if known is None:
             _note_unknown(child, node, allowed, reading)
-        elif child.tag in _NOT_KEPT.get(kind, ()):
-            reading.note(f"<{child.tag}> is not supported yet and was ignored", child)
         elif known[0] == "inertial":
             # read where it is known whether the model is static, and it does not matter
             with suppress(FormatError):

@@ -23,6 +23,7 @@ def read_surface(node: Parameters | None) -> Surface:
         friction=read_friction(node.find("friction")),
         contact=read_contact(node.find("contact")),
         bounce=read_bounce(node.find("bounce")),
+        extras=tuple(node.find_all("soft_contact")),
     )
 
 

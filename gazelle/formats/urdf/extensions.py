@@ -24,7 +24,7 @@ LINK = {
 
 LINK_SDF = {
     "audio_sink", "audio_source", "battery", "enable_wind", "gravity", "kinematic", "light",
-    "plugin", "projector", "self_collide", "sensor", "velocity_decay",
+    "must_be_base_link", "plugin", "projector", "self_collide", "sensor", "velocity_decay",
 }  # fmt: skip
 """Children in SDF's own words, put into the link as they are."""
 

@@ -35,7 +35,7 @@ from gazelle.formats.urdf.parts import (
 from gazelle.formats.urdf.transmission import read_transmission
 from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, bodies, read_tree
 
-_LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "projector"}
+_LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
 
 
 def read_robot(root: Parameters, reading: Reading) -> Model:

@@ -95,6 +95,7 @@ def write_joint_physics(physics: JointPhysics) -> Parameters | None:
                 leaf("erp", physics.suspension_erp, usual.suspension_erp),
             ),
         ),
+        group("simbody", leaf("must_be_loop_joint", physics.must_be_loop_joint, False)),
     )
 
 

@@ -13,6 +13,7 @@ def write_surface(surface: Surface) -> Parameters | None:
         write_friction(surface.friction),
         write_contact(surface.contact),
         write_bounce(surface.bounce),
+        *surface.extras,
     )
 
 

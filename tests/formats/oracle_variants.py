@@ -1,0 +1,240 @@
+"""Legal files that are hard to read right, compared with libsdformat in test_resolved.py."""
+
+from xml_samples import INERTIAL, robot, sdf, urdf_joint, urdf_link
+
+BODY = "<collision name='c'><pose>.1 .2 .3 .4 .5 .6</pose><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+
+CHAIN = (
+    "<model name='m' canonical_link='b'><pose>1 2 3 .1 .2 .3</pose>"
+    f"<link name='a'><pose relative_to='f2'>1 0 0 0 0 .5</pose>{BODY}</link>"
+    "<link name='b'><pose relative_to='j'>0 1 0 .3 0 0</pose>"
+    "<visual name='v'><pose relative_to='f1'>0 0 1 0 .2 0</pose><geometry><sphere><radius>1</radius>"
+    "</sphere></geometry></visual>"
+    "<sensor name='s' type='imu'><pose relative_to='a'>.1 .2 .3 0 0 1</pose></sensor></link>"
+    "<link name='c'><pose>-1 -2 -3 -.1 -.2 -.3</pose></link>"
+    "<joint name='j' type='revolute'><pose relative_to='f1'>0 0 .5 0 0 .7</pose>"
+    "<parent>f1</parent><child>f3</child><axis><xyz expressed_in='f2'>1 2 2</xyz>"
+    "<limit><lower>-1</lower><upper>2</upper><effort>-1</effort></limit></axis></joint>"
+    "<frame name='f1' attached_to='c'><pose>0 0 1 .5 0 0</pose></frame>"
+    "<frame name='f2' attached_to='f1'><pose relative_to='c'>1 1 1 0 0 .9</pose></frame>"
+    "<frame name='f3' attached_to='a'><pose relative_to='__model__'>2 0 0 0 1 0</pose></frame>"
+    "</model>"
+)
+
+NESTED = (
+    "<world name='w'><frame name='wf'><pose>5 0 0 0 0 1</pose></frame>"
+    "<frame name='wg' attached_to='outer::inner::tip'><pose>0 0 1 0 0 0</pose></frame>"
+    "<model name='outer' placement_frame='inner::tip'>"
+    "<pose relative_to='wf'>1 2 3 .1 .2 .3</pose>"
+    "<model name='inner' placement_frame='if' canonical_link='tip'>"
+    "<pose relative_to='of'>0 0 1 0 .4 0</pose>"
+    "<link name='base'><pose>.5 0 0 0 0 .2</pose></link><link name='tip'><pose relative_to='base'>0 "
+    ".5 0 .2 0 0</pose></link><frame name='if' attached_to='tip'><pose>.1 0 0 0 0 .3</pose></frame>"
+    "<joint name='ij' type='prismatic'><parent>base</parent><child>tip</child>"
+    "<axis><xyz expressed_in='__model__'>0 0 2</xyz></axis></joint></model>"
+    "<link name='l'><pose relative_to='inner::if'>1 0 0 0 0 0</pose></link>"
+    "<frame name='of' attached_to='l'><pose relative_to='__model__'>0 3 0 0 0 .6</pose></frame>"
+    "<joint name='oj' type='revolute'><parent>l</parent><child>inner::base</child>"
+    "<axis><xyz expressed_in='inner::if'>0 1 1</xyz></axis></joint>"
+    "<joint name='ok' type='ball'><parent>world</parent><child>inner</child>"
+    "<pose relative_to='oj'>1 0 0 0 0 0</pose></joint></model>"
+    "<model name='second'><pose relative_to='outer::inner'>0 0 9 0 0 .1</pose><link name='x'/></model>"
+    "<light name='lamp' type='point'><pose relative_to='wf'>1 1 1 0 0 0</pose></light></world>"
+)
+
+OLD_AXIS = (
+    "<model name='m'><pose>1 0 0 0 0 .3</pose><link name='a'><pose>0 0 1 .3 .2 .1</pose></link>"
+    "<link name='b'><pose>0 1 1 .5 .4 -.3</pose></link>"
+    "<joint name='j' type='revolute2'><parent>a</parent><child>b</child>"
+    "<pose>.1 .2 .3 .7 0 .2</pose><axis><xyz>1 2 3</xyz>{0}<dynamics><damping>.5</damping>"
+    "<friction>.2</friction></dynamics></axis><axis2><xyz>0 0 1</xyz>{1}</axis2></joint>"
+    "<joint name='k' type='revolute'><parent>world</parent><child>a</child><axis><xyz>0 1 1</xyz>"
+    "</axis></joint></model>"
+)
+PARENT = "<use_parent_model_frame>{}</use_parent_model_frame>"
+
+ANGLES = (
+    "<model name='m'><pose degrees='true'>1 2 3 30 -45 170</pose>"
+    "<link name='a'><pose rotation_format='quat_xyzw'>1 2 3 0.5 -0.5 0.5 0.5</pose>"
+    "<inertial><pose degrees='1'>.1 0 0 0 90 0</pose><mass>2</mass><inertia><ixx>3</ixx><iyy>4</iyy>"
+    "<izz>5</izz><ixy>.1</ixy><ixz>-.2</ixz><iyz>.3</iyz></inertia></inertial></link>"
+    "<link name='b'><pose rotation_format='quat_xyzw' relative_to='a'>0 0 0 0.1 0.2 0.3 0.9"
+    "</pose></link><link name='c'><pose relative_to='b'/></link></model>"
+)
+
+INCLUDED = (
+    "<model name='arm' placement_frame='grip'><pose>9 9 9 0 0 1</pose>"
+    "<link name='upper'><pose>1 0 0 0 0 .3</pose></link>"
+    "<link name='lower'><pose relative_to='upper'>0 0 1 0 .2 0</pose></link>"
+    "<frame name='grip' attached_to='lower'><pose>0 0 .5 0 0 .4</pose></frame>"
+    "<joint name='elbow' type='revolute'><parent>upper</parent><child>lower</child>"
+    "<axis><xyz expressed_in='__model__'>1 0 0</xyz></axis></joint>"
+    "<model name='tool'><pose relative_to='grip'>0 0 3 0 0 0</pose><link name='tip'/></model>"
+    "</model>"
+)
+INCLUDE = (
+    "<model name='robot'><pose>1 1 1 .1 0 0</pose><link name='base'><pose>0 1 0 0 0 .2</pose></link>"
+    "<include {merge}><uri>model://arm</uri><name>left</name>{inside}</include>"
+    "<joint name='s' type='fixed'><parent>base</parent><child>{child}</child></joint></model>"
+)
+
+SDF = {
+    "chain": sdf(CHAIN, "1.8"),
+    "nested": sdf(NESTED, "1.9"),
+    "angles": sdf(ANGLES, "1.9"),
+    "axis 1.4": sdf(OLD_AXIS.format("", ""), "1.4"),
+    "axis 1.5": sdf(OLD_AXIS.format(PARENT.format("true"), ""), "1.5"),
+    "axis 1.6": sdf(OLD_AXIS.format(PARENT.format("0"), PARENT.format("1")), "1.6"),
+    "axis 1.7": sdf(OLD_AXIS.format("", ""), "1.7"),
+    "static without links": sdf("<model name='m'><static>1</static></model>"),
+    "nested static without links": sdf(
+        "<model name='m'><model name='n'><static>true</static></model></model>", "1.8"
+    ),
+    **{
+        f"include {merge} {inside}": sdf(
+            INCLUDE.format(
+                merge=f"merge='{merge}'" if merge else "",
+                inside=inside,
+                child="upper" if merge else "left::upper",
+            ),
+            "1.9",
+        )
+        for merge in ("", "true")
+        for inside in (
+            "",
+            "<pose>1 2 3 0 0 .5</pose>",
+            "<pose relative_to='base'>0 0 2 0 0 1.5</pose>",
+            "<placement_frame>lower</placement_frame><pose relative_to='base'>1 0 2 0 1 1</pose>",
+            "<static>true</static><pose/><placement_frame>tool::tip</placement_frame>",
+        )
+    },
+}
+
+
+def inertial(mass, xyz="0 0 0", rpy="0 0 0", moments=(1, 2, 2.5, 0.1, 0.2, -0.1)):
+    names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    values = " ".join(f"{n}='{v}'" for n, v in zip(names, moments, strict=True))
+    return (
+        f"<inertial><origin xyz='{xyz}' rpy='{rpy}'/><mass value='{mass}'/>"
+        f"<inertia {values}/></inertial>"
+    )
+
+
+def shape(kind, xyz, body, name=""):
+    label = f" name='{name}'" if name else ""
+    return (
+        f"<{kind}{label}><origin xyz='{xyz}' rpy='.1 .2 .3'/><geometry>{body}</geometry></{kind}>"
+    )
+
+
+BALL, BRICK = "<sphere radius='.1'/>", "<box size='1 2 3'/>"
+MESH = "<mesh filename='none.stl' scale='1 -1 2'/>"
+ORIGIN = "<origin xyz='.1 .2 .3' rpy='.4 -.5 .6'/>"
+AXIS = "<axis xyz='1 2 -2'/><limit lower='-1' upper='2' effort='3' velocity='4'/>"
+LUMPED = (
+    urdf_link(
+        "a",
+        inertial(2, ".1 0 0", ".3 .2 .1")
+        + shape("collision", "1 0 0", BALL)
+        + shape("visual", "1 0 0", MESH, "own"),
+    )
+    + urdf_link("b", inertial(3, "0 .1 0", "0 0 1") + shape("collision", "0 1 0", BRICK))
+    + urdf_link(
+        "c",
+        inertial(0.5, "0 0 .4")
+        + shape("collision", "0 0 1", BALL)
+        + shape("collision", "0 0 2", BRICK)
+        + shape("visual", "0 0 2", BALL)
+        + shape("visual", "0 0 3", BRICK),
+    )
+    + urdf_link("d", inertial(1, "0 .2 0", "1 0 0") + shape("visual", "0 0 1", BALL))
+    + urdf_link("e", inertial(1) + shape("visual", "0 0 1", BALL))
+    + urdf_joint("ab", "a", "b", "fixed", ORIGIN)
+    + urdf_joint("bc", "b", "c", "fixed", "<origin xyz='0 0 1' rpy='0 1 0'/>")
+    + urdf_joint(
+        "cd", "c", "d", "revolute", ORIGIN + AXIS + "<dynamics damping='.1' friction='.2'/>"
+    )
+    + urdf_joint("de", "d", "e", "{kind}", ORIGIN + "{axis}")
+    + "<gazebo reference='c'><sensor name='imu' type='imu'><pose>.1 .2 .3 .3 .2 .1</pose></sensor>"
+    "<mu1>.3</mu1><kp>1000</kp><turnGravityOff>true</turnGravityOff></gazebo>{extra}"
+)
+MIMIC = "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='1' velocity='1'/>"
+
+
+def lumped(kind="continuous", axis="<axis xyz='0 3 4'/>", extra=""):
+    text = LUMPED.replace("{kind}", kind).replace("{axis}", axis).replace("{extra}", extra)
+    return robot(text)
+
+
+def gazebo(reference, body):
+    return f"<gazebo reference='{reference}'>{body}</gazebo>"
+
+
+URDF = {
+    "lumped": lumped(),
+    "prismatic": lumped("prismatic", AXIS),
+    "mimic": lumped("revolute", MIMIC + "<mimic joint='cd' multiplier='-2' offset='.1'/>"),
+    "all fixed below": lumped("fixed", ""),
+    "kept": lumped(extra=gazebo("bc", "<preserveFixedJoint>true</preserveFixedJoint>")),
+    "not lumped": lumped(
+        extra=gazebo("bc", "<disableFixedJointLumping>true</disableFixedJointLumping>")
+    ),
+    "both kept": lumped(
+        extra=gazebo("ab", "<preserveFixedJoint>1</preserveFixedJoint>")
+        + gazebo("bc", "<disableFixedJointLumping>1</disableFixedJointLumping>")
+    ),
+    "static": lumped(extra="<gazebo><static>true</static></gazebo>"),
+    "world": robot(
+        "<link name='world'/>"
+        + urdf_link("a", inertial(2, ".1 0 0", ".3 .2 .1"))
+        + urdf_link("b", inertial(3, "0 .1 0", "0 0 1"))
+        + urdf_joint("wa", "world", "a", "fixed", ORIGIN)
+        + urdf_joint("ab", "a", "b", "continuous", ORIGIN)
+    ),
+    "massless root": robot(
+        "<link name='base_footprint'/>"
+        + urdf_link(
+            "base_link", inertial(2, ".1 0 0", ".3 .2 .1") + shape("collision", "1 0 0", BALL)
+        )
+        + urdf_link("wheel", inertial(1) + shape("collision", "0 0 0", BALL))
+        + "<link name='sensor_frame'/><link name='optical'/>"
+        + urdf_joint("bf", "base_footprint", "base_link", "fixed", ORIGIN)
+        + urdf_joint("w", "base_link", "wheel", "continuous", ORIGIN + "<axis xyz='0 1 0'/>")
+        + urdf_joint("sf", "base_link", "sensor_frame", "fixed", ORIGIN)
+        + urdf_joint("so", "sensor_frame", "optical", "fixed", "<origin rpy='-1.57 0 -1.57'/>")
+        + gazebo("optical", "<sensor name='cam' type='camera'><pose>1 2 3 0 0 0</pose></sensor>")
+    ),
+    "massless joint": robot(
+        urdf_link("a", INERTIAL)
+        + "<link name='b'/>"
+        + urdf_link("c", INERTIAL)
+        + urdf_joint("ab", "a", "b", "continuous", ORIGIN)
+        + urdf_joint("bc", "b", "c", "fixed", ORIGIN)
+    ),
+    "massless leaf": robot(
+        urdf_link("a", INERTIAL)
+        + "<link name='b'/>"
+        + urdf_joint("ab", "a", "b", "continuous", ORIGIN)
+    ),
+    "branches": robot(
+        urdf_link("z", inertial(1, "1 0 0"))
+        + urdf_link("y", inertial(2, "0 1 0") + shape("collision", "0 0 1", BALL))
+        + urdf_link("x", inertial(3, "0 0 1") + shape("collision", "0 0 1", BALL))
+        + urdf_link("u", inertial(1) + shape("collision", "0 0 1", BALL))
+        + urdf_joint("zy", "z", "y", "fixed", ORIGIN)
+        + urdf_joint("zx", "z", "x", "fixed", "<origin xyz='0 1 0' rpy='0 0 3'/>")
+        + urdf_joint("xu", "x", "u", "revolute", ORIGIN + AXIS)
+    ),
+    "colours and limits of zero": robot(
+        "<material name='red'><color rgba='1 0 0 .5'/></material>"
+        + urdf_link(
+            "a",
+            inertial(1) + "<visual><geometry><sphere radius='1'/></geometry>"
+            "<material name='red'/></visual>",
+        )
+        + urdf_link("b", inertial(1))
+        + urdf_link("c", inertial(1))
+        + urdf_joint("ab", "a", "b", "prismatic", ORIGIN + AXIS)
+        + urdf_joint("bc", "b", "c", "revolute", ORIGIN + "<limit effort='0' velocity='0'/>")
+    ),
+}
