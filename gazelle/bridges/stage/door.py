@@ -22,7 +22,6 @@ _SECOND = 1_000_000_000
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
 _LATE = 0.1  # what is later than this is not caught up with in a burst [s]
-_STEPS = 16  # between two looks when it runs as fast as possible
 
 
 class StageDoor:
@@ -163,11 +162,9 @@ class StageDoor:
         while not (self._stop.is_set() or simulation.paused) and self.rate == rate:
             if end > 0.0 and simulation.time >= end - step / 2.0:
                 return False
+            simulation.step_on()
             if rate is None:
-                left = (end - simulation.time) / step if end > 0.0 else _STEPS
-                simulation.step(max(1, min(_STEPS, round(left))))
                 continue
-            simulation.step()
             done += 1
             ahead = start + done * step / rate - time.monotonic()
             if ahead < -_LATE:

@@ -253,6 +253,21 @@ class StageSimulation:
                 count -= piece
                 self.requests.drain()
 
+    def step_on(self) -> bool:
+        """Make one step unless there is a pause; whether it was made.
+
+        Once a request that pauses is answered, this makes no more.
+
+        Raises:
+            SimulationError: The simulation is closed.
+        """
+        with self.requests.lock:
+            self.requests.drain()
+            if self.paused:
+                return False
+            self.step()
+            return True
+
     @property
     def _watched(self) -> bool:
         """Whether something happens after every single step."""
