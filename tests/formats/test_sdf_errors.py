@@ -209,3 +209,12 @@ def test_check_lists_problems_and_raises_nothing(tmp_path):
     assert problems[0].element == "sdf/model[@name='m']/link[@name='l']/pose"
     assert problems[1].hint == "did you mean 'link'?"
     assert formats.check(tmp_path / "none.sdf")[0].severity == "error"
+
+
+def test_a_model_whose_inner_one_is_static_needs_no_link():
+    inner = "<model name='n'><model name='o'><static>true</static></model></model>"
+    found = model(inner, "1.8")
+    assert found.models[0].models[0].static
+    assert formats.load_model_string(formats.to_string(found, "sdf")) == found
+    with pytest.raises(FormatError, match="has no link"):
+        model("<model name='n'/>", "1.8")

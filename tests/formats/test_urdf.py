@@ -344,3 +344,11 @@ def test_a_lumped_body_has_the_kinetic_energy_of_its_parts(pieces, rotation, spi
         return inertial.mass * v @ v + w @ turn @ tensor(inertial.inertia) @ turn.T @ w
 
     assert energy(Pose(), whole) == pytest.approx(sum(energy(*piece) for piece in pieces), rel=1e-9)
+
+
+def test_a_root_without_mass_takes_all_below_it_along():
+    body = "<link name='a'/>" + urdf_link("b") + urdf_joint("j", "a", "b", "continuous")
+    with pytest.warns(FormatWarning, match="link 'a' has no mass"):
+        found = urdf(body + "<gazebo><plugin name='p' filename='f'/></gazebo>")
+    assert found.links == ()
+    assert [plugin.name for plugin in found.plugins] == ["p"]

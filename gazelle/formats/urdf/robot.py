@@ -217,7 +217,7 @@ def _with_model_extensions(model: Model, robot: Robot) -> Model:
     extensions = robot.extensions
     nodes = list(extensions.of(""))
     sdf = Parameters("model", children=tuple(reversed(nodes)))
-    scope = Scope(MODEL, canonical=model.links[0].name)
+    scope = Scope(MODEL, canonical=model.links[0].name if model.links else "")
     name_frames(scope, model)
     for node in nodes:
         draft_part(node, scope)

@@ -43,7 +43,7 @@ def _refuse_unreadable(model: Model) -> None:
         ("model", model.models),
     ):
         distinct(tag, parts)
-    if not (model.static or any(placed.model.links for placed in model.walk())):
+    if not any(placed.model.static or placed.model.links for placed in model.walk()):
         raise FormatError(
             f"the model '{model.name}' has no link",
             hint="give it one, or make it static; perhaps what it includes was not found",
