@@ -284,7 +284,7 @@ class Engine(Protocol):
 
         Raises:
             EngineError: There is no such joint between links that move: its model is static
-                or kinematic, or it closes a loop.
+                or kinematic, or it is a gearbox.
         """
 
     def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:

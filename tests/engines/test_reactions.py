@@ -210,3 +210,55 @@ def test_a_resting_stack_presses_with_all_that_is_above():
     below = [i for i, name in enumerate(lower.others) if name.startswith("ground")]
     assert lower.force[below, 2].sum() == pytest.approx(3.0 * G, rel=0.01)
     assert math.isclose(lower.force[:, 2].sum(), 1.0 * G, rel_tol=0.01)
+
+
+# -- loops -------------------------------------------------------------------------------
+
+
+def table(kind, nworld=1):
+    """A beam of 4 kg on two posts, one a part of the tree, the other closing the loop."""
+    posts = (part("left", x=-0.6), part("right", x=0.9))
+    beam = part("beam", mass=4.0, z=1.0)
+    far = Joint("far", kind, "right", "beam", pose=Pose(x=0.9), axes=(JointAxis(Y),))
+    joints = (
+        fixed("feet", "world", "left"),
+        fixed("foot", "world", "right"),
+        hinge("near", "left", "beam", pose=Pose(x=-0.6)),
+        far,
+    )
+    engine = chain(*posts, beam, joints=joints, nworld=nworld)
+    engine.step(500)
+    return engine
+
+
+@pytest.mark.parametrize("kind", ["revolute", "ball"])
+def test_a_joint_that_closes_a_loop_carries_its_share(kind):
+    engine = table(kind, nworld=2)
+    near, far = engine.joint_wrench("m::near"), engine.joint_wrench("m::far")
+    # the lever law; how the beam presses its ends apart is not determined
+    np.testing.assert_allclose(near.force[:, 2], -4.0 * G * 0.9 / 1.5, rtol=1e-3)
+    np.testing.assert_allclose(far.force[:, 2], -4.0 * G * 0.6 / 1.5, rtol=1e-3)
+    np.testing.assert_allclose((near.force + far.force)[:, :2], 0.0, atol=1e-3)
+    np.testing.assert_allclose(far.torque[:, 1], 0.0, atol=1e-3)
+    one = engine.joint_wrench("m::far", np.array([1]))
+    np.testing.assert_allclose(one.force, far.force[1:], atol=1e-9)
+
+
+def test_a_ring_welded_shut_hands_on_force_and_torque():
+    """A load on an arm that swings freely in the tree, held only by the joint that closes it."""
+    arm = part("arm", mass=3.0, centre=(0.5, 0.0, 0.0), x=0.2)
+    joints = (
+        fixed("hold", "world", "base"),
+        Joint("free", "ball", "base", "arm", pose=Pose(x=-0.2)),
+        Joint("weld", "fixed", "base", "arm", pose=Pose(x=0.1, z=0.2, yaw=0.3)),
+    )
+    engine = chain(part("base"), arm, joints=joints)
+    engine.step(500)
+    ball, weld = engine.joint_wrench("m::free"), engine.joint_wrench("m::weld")
+    weight = np.array([0.0, 0.0, -3.0 * G])
+    np.testing.assert_allclose(ball.force + weld.force, [weight], rtol=1e-3, atol=1e-2)
+    # moments about the base: the weight's is that of both joints together
+    assert np.abs(weld.torque).max() > 1.0
+    ball_at, weld_at, load_at = np.zeros(3), np.array([0.3, 0.0, 0.2]), np.array([0.7, 0.0, 0.0])
+    moment = np.cross(ball_at, ball.force[0]) + np.cross(weld_at, weld.force[0]) + weld.torque[0]
+    np.testing.assert_allclose(moment, np.cross(load_at, weight), rtol=1e-3, atol=1e-2)

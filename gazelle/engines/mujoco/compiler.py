@@ -25,7 +25,7 @@ from gazelle.engines.mujoco.surfaces import (
     needs_cone,
     surface_options,
 )
-from gazelle.engines.mujoco.tree import Body, tree_of
+from gazelle.engines.mujoco.tree import Body, Closure, tree_of
 from gazelle.errors import EngineError
 
 COLLISION_GROUP = 0
@@ -86,12 +86,14 @@ class Compiled:
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision, ``model::link::collision``.
         springs: Indices of MuJoCo's contact pairs that are springs.
+        closures: Joints that close loops or couple others.
     """
 
     model: mujoco.MjModel
     bodies: Mapping[str, list[Body]]
     geoms: Mapping[str, list[str]]
     springs: Sequence[int] = ()
+    closures: Sequence[Closure] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +106,7 @@ class Draft:
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision.
         springs: Contacts whose terms depend on the compiled model.
+        closures: Joints that close loops or couple others.
     """
 
     spec: mujoco.MjSpec
@@ -111,6 +114,7 @@ class Draft:
     bodies: Mapping[str, list[Body]]
     geoms: Mapping[str, list[str]]
     springs: list[Spring]
+    closures: Sequence[Closure]
 
     def compile(self) -> mujoco.MjModel:
         """The MuJoCo model.
@@ -143,7 +147,7 @@ def compile_world(recipe: Recipe) -> Compiled:
     draft = draft_world(recipe)
     add_force_probe(draft.spec)
     springs = [spring.pair for spring in draft.springs]
-    return Compiled(draft.compile(), draft.bodies, draft.geoms, springs)
+    return Compiled(draft.compile(), draft.bodies, draft.geoms, springs, draft.closures)
 
 
 def draft_world(recipe: Recipe) -> Draft:
@@ -179,7 +183,8 @@ def draft_world(recipe: Recipe) -> Draft:
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     if pairs.springs:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
-    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs)
+    closures = [closure for tree in trees.values() for closure in tree.closures]
+    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures)
 
 
 def _needs_cone(solids: list[Solid]) -> bool:

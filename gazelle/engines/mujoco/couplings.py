@@ -68,6 +68,7 @@ def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float
 
 def _ball(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:
     equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
+    equality.name = closure.name
     equality.data[:3] = closure.pose.position
 
 
@@ -77,6 +78,7 @@ def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step:
     axis = closure.joint.axes[0].xyz if closure.joint.axes else (0.0, 0.0, 1.0)
     far = closure.pose.apply(tuple(_ARM * a for a in axis))
     equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
+    equality.name = f"{closure.name}#1"
     equality.data[:3] = far
 
 

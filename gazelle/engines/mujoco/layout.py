@@ -12,7 +12,7 @@ import mujoco
 from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
-from gazelle.engines.mujoco.tree import Body, RootKind
+from gazelle.engines.mujoco.tree import Body, Closure, RootKind
 from gazelle.errors import EngineError, did_you_mean
 
 T = TypeVar("T")
@@ -68,6 +68,21 @@ class ReactionSlot:
 
 
 @dataclass(frozen=True, slots=True)
+class LoopSlot:
+    """One joint that closes a loop.
+
+    Attributes:
+        body: MuJoCo's index of the child body.
+        anchor: Origin of the joint in the child's frame [m].
+        equalities: MuJoCo's indices of the constraints that hold it.
+    """
+
+    body: int
+    anchor: Vector3
+    equalities: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class ModelSlot:
     """One top-level model.
 
@@ -100,6 +115,7 @@ class Layout:
         collisions: Indices of MuJoCo's geoms by scoped name, ``model::link::collision``.
         attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
         reactions: Joints that hold a body, by scoped name.
+        loops: Joints that close a loop, by scoped name.
         limits: Of efforts on joints.
         windy: MuJoCo's bodies of the links that wind pushes, by scoped name.
     """
@@ -111,6 +127,7 @@ class Layout:
     collisions: Mapping[str, list[int]]
     attachments: Mapping[str, int]
     reactions: Mapping[str, ReactionSlot]
+    loops: Mapping[str, LoopSlot]
     limits: EffortLimits
     windy: Mapping[str, int]
 
@@ -188,7 +205,12 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
         for body in every
         if body.link.enable_wind and body.root not in ("static", "kinematic")
     }
-    return Layout(links, joints, models, motors, collisions, held, reactions, limits, windy)
+    loops = {
+        closure.name: _loop_slot(model, closure, links[closure.joint.child])
+        for closure in compiled.closures
+        if closure.joint.type != "gearbox"
+    }
+    return Layout(links, joints, models, motors, collisions, held, reactions, loops, limits, windy)
 
 
 def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:
@@ -197,6 +219,13 @@ def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> Lin
     mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
     carrier = body.name if above is None else above.carrier
     return LinkSlot(index, body.root, free, mocap, body.pose, carrier)
+
+
+def _loop_slot(model: mujoco.MjModel, closure: Closure, child: LinkSlot) -> LoopSlot:
+    names = (closure.name, f"{closure.name}#1")
+    ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_EQUALITY, name) for name in names]
+    held = tuple(each for each in ids if each >= 0)
+    return LoopSlot(child.body, closure.pose.position, held)
 
 
 def _joint_slots(model: mujoco.MjModel, name: str) -> tuple[Slot, ...]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gazelle.engines.engine import Floats, Worlds
 from gazelle.engines.mujoco.access import rows_of
 from gazelle.engines.mujoco.bodies import BodyAccess
-from gazelle.engines.mujoco.layout import look_up
+from gazelle.engines.mujoco.layout import LoopSlot, look_up
 from gazelle.engines.mujoco.options import SENSORS_OFF
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.rotations import cross
@@ -33,7 +33,10 @@ class ForceAccess(BodyAccess):
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """What the child of a joint exerts on the parent; see the protocol."""
-        slot = look_up("joint between moving links", joint, self._now().reactions)
+        layout = self._now()
+        if joint in layout.loops:
+            return self._loop_wrench(layout.loops[joint], worlds)
+        slot = look_up("joint between moving links", joint, layout.reactions)
         batch = self._compute_forces()
         rows, body = rows_of(worlds), slot.body
         force = batch.cfrc_int[rows, body, 3:]
@@ -104,6 +107,13 @@ class ForceAccess(BodyAccess):
         shared = model.opt.gravity if field == "opt.gravity" else getattr(model, field)
         return np.asarray(shared)[None]
 
+    def _loop_wrench(self, slot: LoopSlot, worlds: Worlds | None) -> Wrench:
+        """The same of a joint that closes a loop, which constraints hold: world by world."""
+        chosen = range(self._nworld) if worlds is None else worlds
+        with self._forced():
+            carried = [_tied(slot, *self._probe(int(world))) for world in chosen]
+        return Wrench(np.array([c[0] for c in carried]), np.array([c[1] for c in carried]))
+
     # -- contacts ----------------------------------------------------------------------
 
     def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
@@ -137,6 +147,27 @@ class ForceAccess(BodyAccess):
         mujoco.mj_setState(model, data, batch.state[world], _STATE)
         mujoco.mj_forward(model, data)
         return model, data
+
+
+def _tied(slot: LoopSlot, model: mujoco.MjModel, data: mujoco.MjData) -> tuple[Floats, Floats]:
+    """Force and torque that the child exerts on what the constraints tie it to."""
+    turn, here = data.xmat[slot.body].reshape(3, 3), data.xpos[slot.body]
+    origin = here + turn @ np.asarray(slot.anchor)
+    force, torque = np.zeros(3), np.zeros(3)
+    for equality in slot.equalities:
+        rows = (data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY) & (data.efc_id == equality)
+        pull = data.efc_force[rows]
+        given = model.eq_data[equality]
+        if model.eq_type[equality] == mujoco.mjtEq.mjEQ_WELD:
+            parent = int(model.eq_obj2id[equality])
+            point = data.xpos[parent] + data.xmat[parent].reshape(3, 3) @ given[:3]
+            # A weld measures a turn by half the sine of half of it, in the child's axes.
+            torque -= 0.5 * given[10] * (turn @ pull[3:])
+        else:
+            point = here + turn @ given[:3]
+        force -= pull[:3]
+        torque -= np.cross(point - origin, pull[:3])
+    return force, torque
 
 
 _Row = tuple[str, str, Floats, Floats, float, Floats, Floats]
