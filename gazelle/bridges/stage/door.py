@@ -186,6 +186,10 @@ class StageDoor:
         self._services.close()
         for inputs in self._inputs:
             inputs.close()
+        for topics in self._topics:
+            topics.close()
+        self._clock.close()
+        self._tf.close()
 
     def __enter__(self) -> Self:
         return self

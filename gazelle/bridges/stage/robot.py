@@ -157,6 +157,13 @@ class RobotTopics:
             found.append(self._transform(facts, self._base, laser.frame, at.x, at.y, at.z, at.yaw))
         return found
 
+    def close(self) -> None:
+        """Publish no more."""
+        for publisher in (self._odom, self._truth, self._stall, self._crashed):
+            publisher.close()
+        for laser in self._lasers:
+            laser.publisher.close()
+
     def _odometry(self, facts: Facts, pose: Values, velocity: Values) -> Any:
         message = self._messages.odometry()
         message.header.stamp = facts.stamp
