@@ -3,10 +3,12 @@
   gazelle exec talker.py
   gazelle exec talker.py chatter:=/robot/chatter _rate:=5 __name:=robot_talker
   gazelle exec --sim-sleep train.py
+  gazelle exec my_package talker.py
 
 rospy, tf, actionlib, std_msgs.msg and the rest are Gazelle's own; an installed
 ROS is not touched. Packages on ROS_PACKAGE_PATH give their messages and their
-Python code.
+Python code. A package and a program in it may stand for the script, as with
+rosrun.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -21,17 +23,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="let the script's time.sleep wait for simulated time when /use_sim_time is set",
     )
-    parser.add_argument("script", metavar="SCRIPT", help="the script")
+    parser.add_argument("script", metavar="SCRIPT", help="the script, or a package")
     parser.add_argument(
         "arguments",
         metavar="ARGS",
         nargs=argparse.REMAINDER,
-        help="its arguments and remappings",
+        help="its arguments and remappings; after a package, the program first",
     )
 
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
-    from gazelle.ros.compat.script import run_script
+    from gazelle.ros.compat.script import run_named
 
-    return run_script(args.script, args.arguments, sim_sleep=args.sim_sleep)
+    return run_named(args.script, args.arguments, sim_sleep=args.sim_sleep, debug=args.debug)

@@ -28,8 +28,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
-    debug = "--debug" in arguments
-    arguments = [argument for argument in arguments if argument != "--debug"]
+    arguments, debug = _without_debug(arguments)
     if not arguments or arguments[0] in {"-h", "--help", "help"}:
         sys.stdout.write(overview())
         return DONE
@@ -42,6 +41,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         return WRONG_USAGE
     with _one_line_warnings(show_all=debug):
         return _run(command, arguments[1:], debug=debug)
+
+
+def _without_debug(arguments: list[str]) -> tuple[list[str], bool]:
+    """The arguments without ``--debug``, and whether it was there; a script keeps its own."""
+    end = len(arguments)
+    if "exec" in arguments[:2]:
+        begin = arguments.index("exec") + 1
+        rest = enumerate(arguments[begin:], begin)
+        end = next((place for place, word in rest if not word.startswith("-")), end)
+    kept = [word for word in arguments[:end] if word != "--debug"]
+    return [*kept, *arguments[end:]], len(kept) < end
 
 
 def overview() -> str:
@@ -78,7 +88,9 @@ def _run(command: Command, arguments: list[str], *, debug: bool) -> int:
         module = command.load()
         parser = Parser(prog=f"gazelle {command.name}", description=module.__doc__)
         module.configure(parser)
-        code = module.run(parser.parse_args(arguments))
+        parsed = parser.parse_args(arguments)
+        parsed.debug = debug
+        code = module.run(parsed)
         sys.stdout.flush()
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else FAILED

@@ -30,7 +30,15 @@ _KINDS = ("msg", "srv")
 def own_modules() -> frozenset[str]:
     """Names of the top-level modules of ROS that this package has itself."""
     folder = Path(__file__).parent
-    private = {"__init__", "commands", "finder", "message_modules", "cfg_modules", "script"}
+    private = {
+        "__init__",
+        "commands",
+        "finder",
+        "message_modules",
+        "cfg_modules",
+        "python2",
+        "script",
+    }
     found = {path.stem for path in folder.glob("*.py")} - private
     return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import os
+import subprocess
 import sys
 import sysconfig
 import time
@@ -11,34 +13,43 @@ import types
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from gazelle.errors import RosError
+from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.compat.finder import install
+from gazelle.ros.compat.python2 import advice_text, explain
 
 _PACKAGE = str(Path(__file__).parents[2])
 _LIBRARY = sysconfig.get_paths()["stdlib"]
+INTERRUPTED = 130
+"""The exit code of a script that Ctrl-C ended, as shells have it."""
 
 
-def run_script(path: str, arguments: Sequence[str] = (), *, sim_sleep: bool = False) -> int:
+def run_script(
+    path: str, arguments: Sequence[str] = (), *, sim_sleep: bool = False, debug: bool = False
+) -> int:
     """Run a script, with ROS 1's modules importable, as the main module of this process.
 
-    What the script raises is printed with its traceback, as Python does.
+    What the script raises is printed with its traceback, as Python does; for what is written for
+    Python 2 there is one line that says what to change.
 
     Args:
         path: The script.
         arguments: Its command line; remappings may be among them.
         sim_sleep: Let its ``time.sleep`` wait for simulated time, if its node goes by that.
+        debug: Print whole tracebacks, always.
 
     Returns:
         Its exit code.
 
     Raises:
-        RosError: It cannot be read.
+        RosError: It cannot be read, or is written for Python 2.
     """
     file = Path(path)
     try:
         source = file.read_bytes()
     except OSError as error:
-        raise RosError(f"cannot read the script: {error.strerror}", file=path) from None
+        raise RosError(
+            f"cannot read the script: {error.strerror}", file=path, hint=_closest(file)
+        ) from None
     main = types.ModuleType("__main__")
     main.__file__ = str(file)
     sys.modules["__main__"] = main
@@ -46,10 +57,60 @@ def run_script(path: str, arguments: Sequence[str] = (), *, sim_sleep: bool = Fa
     sys.path.insert(0, str(file.resolve().parent))
     install()
     with _simulated_sleep() if sim_sleep else contextlib.nullcontext():
-        return _execute(source, file, main)
+        return _execute(source, file, main, debug=debug)
 
 
-def _execute(source: bytes, file: Path, main: types.ModuleType) -> int:
+def run_named(
+    word: str, arguments: Sequence[str] = (), *, sim_sleep: bool = False, debug: bool = False
+) -> int:
+    """Run a script, or a program of a package as ``rosrun PACKAGE PROGRAM`` does.
+
+    Args:
+        word: A script's path, or a package.
+        arguments: What follows it on the command line; after a package, the program first.
+        sim_sleep: See `run_script`.
+        debug: See `run_script`.
+
+    Returns:
+        Its exit code. A program that is no Python script takes the place of this process.
+
+    Raises:
+        RosError: It cannot be read, the package has no such program, or it is written for Python 2.
+    """
+    from gazelle.ros.builtin import registry
+    from gazelle.ros.launch.packages import Packages, is_python
+    from gazelle.ros.launch.programs import Skipped, program_of
+
+    packages = Packages()
+    known = packages.installed(word) or registry.package(word)
+    if Path(word).is_file() or not arguments or known is None:
+        return run_script(word, arguments, sim_sleep=sim_sleep, debug=debug)
+    path = packages.program(word, arguments[0])
+    if path is not None and is_python(path):
+        return run_script(str(path), arguments[1:], sim_sleep=sim_sleep, debug=debug)
+    program = program_of(word, arguments[0], packages)
+    if isinstance(program, Skipped):
+        raise RosError(f"'{program.package}' is left out: {program.reason}")
+    return _become([*program.command, *arguments[1:]])
+
+
+def _become(command: list[str]) -> int:
+    """Run a program in place of this process, so that signals reach it."""
+    if os.name == "posix":
+        os.execvp(command[0], command)  # noqa: S606  # to run it is what the user asked for
+    return subprocess.call(command)  # noqa: S603  # the same
+
+
+def _closest(file: Path) -> str | None:
+    try:
+        known = [each.name for each in file.parent.iterdir() if each.suffix == ".py"]
+    except OSError:
+        return None
+    hint = did_you_mean(file.name, known)
+    return hint if hint.startswith("did you mean") else None
+
+
+def _execute(source: bytes, file: Path, main: types.ModuleType, *, debug: bool) -> int:
     try:
         code = compile(source, str(file), "exec", dont_inherit=True)
         exec(code, main.__dict__)  # noqa: S102  # to run it is what the user asked for
@@ -59,12 +120,26 @@ def _execute(source: bytes, file: Path, main: types.ModuleType) -> int:
         sys.stderr.write(f"{stop.code}\n")
         return 1
     except BaseException as error:  # noqa: BLE001  # whatever it is, Python would print it
+        if not debug:
+            _explain(error, source, file)
         trace = error.__traceback__
         # Our own frames in front tell the user nothing.
-        inner = trace.tb_next if trace is not None else None
+        inner = trace.tb_next if trace is not None and not debug else trace
         traceback.print_exception(type(error), error, inner)
-        return 1
+        return INTERRUPTED if isinstance(error, KeyboardInterrupt) else 1
     return 0
+
+
+def _explain(error: BaseException, source: bytes, file: Path) -> None:
+    """One line instead of a traceback if the script is written for Python 2."""
+    findings = explain(error, source.decode("utf-8", "replace"))
+    if findings:
+        raise RosError(
+            "this is written for Python 2",
+            file=findings[0].file or str(file),
+            line=findings[0].line,
+            hint=advice_text(findings),
+        ) from None
 
 
 @contextlib.contextmanager

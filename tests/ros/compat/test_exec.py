@@ -108,3 +108,54 @@ def test_sleep_can_mean_simulated_time(execute, make_node):
         time.sleep(0.005)
     out, _ = process.communicate(timeout=10)
     assert out == "slept\n"
+
+
+def test_a_script_for_python_2_is_one_line_that_says_what_to_change(execute):
+    process = execute("import rospy\nprint 'hello'\n")
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 1
+    assert out == ""
+    first, second = err.splitlines()
+    assert first.endswith("script.py:2: this is written for Python 2")
+    assert second == "  hint: write print('hello')"
+
+
+def test_debug_shows_the_whole_traceback_and_scripts_keep_their_own(execute):
+    process = execute("import sys; print(sys.argv[1:]); import Queue", "--debug", "x")
+    out, err = process.communicate(timeout=20)
+    assert out == "['--debug', 'x']\n"
+    assert "Traceback" not in err
+    process = execute("import Queue", options=["--debug"])
+    _, err = process.communicate(timeout=20)
+    assert "compat/script.py" in err
+    assert err.endswith("No module named 'Queue'\n")
+
+
+def test_a_close_name_is_offered_for_a_missing_script(execute, tmp_path):
+    execute("").communicate(timeout=20)
+    done = subprocess.run(
+        [*COMMAND, "exec", str(tmp_path / "scrpt.py")], capture_output=True, text=True, check=False
+    )
+    assert "did you mean 'script.py'" in done.stderr
+
+
+def test_a_package_and_a_program_stand_for_a_script(tmp_path, master):
+    package = tmp_path / "ws" / "robot" / "scripts"
+    package.mkdir(parents=True)
+    (package.parent / "package.xml").write_text("<package><name>robot</name></package>")
+    (package / "told").write_text("#!/usr/bin/env python\nimport rospy, sys; print(sys.argv[1:])\n")
+    (package / "shell").write_text("#!/bin/sh\necho shell $1\nexit 4\n")
+    for file in package.iterdir():
+        file.chmod(0o755)
+    env = {**os.environ, "ROS_PACKAGE_PATH": str(tmp_path / "ws"), "ROS_MASTER_URI": master.uri}
+
+    def run(*words):
+        return subprocess.run(
+            [*COMMAND, "exec", *words], capture_output=True, text=True, check=False, env=env
+        )
+
+    assert run("robot", "told", "a", "b:=c").stdout == "['a', 'b:=c']\n"
+    done = run("robot", "shell", "x")
+    assert (done.stdout, done.returncode) == ("shell x\n", 4)
+    assert "has no program 'tolt'" in run("robot", "tolt").stderr
+    assert "did you mean 'told'" in run("robot", "tolt").stderr

@@ -199,15 +199,19 @@ class Publisher(Topic):
             ROSSerializationException: A field holds what its type cannot carry.
         """
         impl = self.impl
-        if process.node is None:
+        node = process.node
+        if node is None:
             raise ROSException(
                 "ROS node has not been initialized yet. Please call init_node() first"
             )
         if impl is None or impl.publisher is None:
             raise ROSException("publish() to an unregistered() handle")
-        if process.node.closed:
+        if node.closed:
             raise ROSException("publish() to a closed topic")
-        message = args_kwds_to_message(self.data_class, args, kwds)
+        if len(args) == 1 and not kwds and type(args[0]) is self.data_class:
+            message = args[0]
+        else:
+            message = args_kwds_to_message(self.data_class, args, kwds)
         try:
             impl.publisher.publish(message)
         except NodeClosedError:
@@ -245,7 +249,7 @@ class _SubscriberImpl:
 
     def __init__(self) -> None:
         self.subscriber: NodeSubscriber | None = None
-        self.callbacks: list[tuple[Callable[..., Any], Any]] = []
+        self.callbacks: tuple[tuple[Callable[..., Any], Any], ...] = ()
 
     def get_num_connections(self) -> int:
         return 0 if self.subscriber is None else self.subscriber.num_connections
@@ -254,13 +258,15 @@ class _SubscriberImpl:
         return self.get_num_connections() > 0
 
     def add_callback(self, callback: Callable[..., Any], cb_args: Any) -> None:
-        self.callbacks.append((callback, cb_args))
+        self.callbacks = (*self.callbacks, (callback, cb_args))
 
     def remove_callback(self, callback: Callable[..., Any], cb_args: Any) -> None:
-        self.callbacks.remove((callback, cb_args))
+        left = list(self.callbacks)
+        left.remove((callback, cb_args))
+        self.callbacks = tuple(left)
 
     def deliver(self, message: Any) -> None:
-        for callback, arguments in tuple(self.callbacks):
+        for callback, arguments in self.callbacks:
             try:
                 if arguments is None:
                     callback(message)
@@ -275,7 +281,7 @@ class _SubscriberImpl:
     def close(self) -> None:
         if self.subscriber is not None:
             self.subscriber.close()
-        self.callbacks.clear()
+        self.callbacks = ()
 
 
 class Subscriber(Topic):
