@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Joint, Model, Pose
-from gazelle.engines import Motion, Placement
+from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.rotations import yaw_of
 from gazelle.simulation.handles import JointHandle, LinkHandle, orientation_of
@@ -183,6 +183,20 @@ class Robot(Ports):
                 engine.set_joint_velocity(name, np.zeros(1), worlds)
 
         self.simulation.requests.call(work)
+
+    def wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
+        """What the child of a joint exerts on its parent, about the joint, in the world frame.
+
+        Args:
+            joint: Name within the robot; fixed joints have a wrench too.
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: There is no such joint.
+            EngineError: The model does not move.
+        """
+        self.joint_description(joint)
+        return self.simulation.engine.joint_wrench(f"{self.name}::{joint}", worlds)
 
     def joint_description(self, name: str) -> Joint:
         """What the file says about a joint, fixed ones too.

@@ -20,7 +20,7 @@ from gazelle.description import (
     Sensor,
 )
 from gazelle.engines import make_engine
-from gazelle.errors import FormatError, SimulationWarning
+from gazelle.errors import FormatError, SimulationError, SimulationWarning
 from gazelle.sensors import ForceTorque, ForceTorqueModel
 from gazelle.simulation import Simulation
 
@@ -170,6 +170,9 @@ def test_a_sensor_on_a_joint_of_a_file_is_read_by_its_name():
         sim = Simulation(scenes.world(Model("m", links=links, joints=joints)))
     with sim:
         reading = sim.robots["m"].sensors["ft"].read()
+        np.testing.assert_allclose(sim.robots["m"].wrench("j").force, [reading.force], atol=1e-9)
+        with pytest.raises(SimulationError, match="no joint"):
+            sim.robots["m"].wrench("k")
         np.testing.assert_allclose(reading.force, [0.0, 0.0, -2.0 * G], atol=1e-9)
         assert math.isclose(reading.stamp, 0)
 

@@ -31,6 +31,9 @@ class ForceAccess(BodyAccess):
     _carried: tuple[Batch, Floats] | None = None
     """The batch and its states for which the forces between bodies were computed last."""
 
+    _probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
+    """A world apart from the batch, for what only a single world of MuJoCo has."""
+
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """What the child of a joint exerts on the parent; see the protocol."""
         layout = self._now()
@@ -120,30 +123,44 @@ class ForceAccess(BodyAccess):
         """The points where some collisions touch others in one world; see the protocol."""
         layout = self._now()
         wanted = {
-            geom: (rank, name)
+            geom: rank
             for rank, name in enumerate(collisions)
             for geom in look_up("collision", name, layout.collisions)
         }
+        with self._forced():
+            model, data = self._probe(world)
+        found = data.contact
+        ranks = np.array([wanted.get(geom, len(wanted)) for geom in range(model.ngeom)])
+        rank = ranks[found.geom].reshape(-1, 2)
+        acts = (rank.min(axis=1, initial=len(wanted)) < len(wanted)) & (found.efc_address >= 0)
+        chosen = np.flatnonzero(acts)
+        mine = rank[chosen].argmin(axis=1)
+        # MuJoCo's normals and forces are those from the first geom on the second.
+        sign = np.where(mine == 1, 1.0, -1.0)[:, None]
+        axes = found.frame[chosen].reshape(-1, 3, 3)
+        wrench = _contact_forces(model, data, chosen)
         names = {geom: name for name, geoms in layout.collisions.items() for geom in geoms}
-        model, data = self._probe(world)
-        rows: list[_Row] = []
-        for index, contact in enumerate(data.contact):
-            ends = [int(contact.geom1), int(contact.geom2)]
-            watched = [geom for geom in ends if geom in wanted]
-            if watched and contact.efc_address >= 0:
-                mine = min(watched, key=lambda geom: wanted[geom])
-                other = ends[1] if mine == ends[0] else ends[0]
-                # MuJoCo's normal and force are those from the first geom on the second.
-                sign = 1.0 if mine == ends[1] else -1.0
-                seen = _seen(model, data, index, sign)
-                rows.append((wanted[mine][1], names[other], *seen))
-        return _gathered(rows)
+        pairs = found.geom[chosen].reshape(-1, 2)
+        return Contacts(
+            collisions=tuple(names[int(pair[one])] for pair, one in zip(pairs, mine, strict=True)),
+            others=tuple(names[int(pair[1 - one])] for pair, one in zip(pairs, mine, strict=True)),
+            position=found.pos[chosen].reshape(-1, 3),
+            normal=sign * axes[:, 0],
+            depth=-found.dist[chosen],
+            force=sign * np.einsum("kij,ki->kj", axes, wrench[:, :3]),
+            torque=sign * np.einsum("kij,ki->kj", axes, wrench[:, 3:]),
+        )
 
     def _probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """One world with all its forces computed, apart from the batch."""
-        batch = self._batch
-        model = batch.get_model(world)
-        data = mujoco.MjData(model)
+        batch, known = self._batch, self._probed
+        if known is None or known[0] is not batch:
+            model = batch.get_model(world)
+            data = mujoco.MjData(model)
+            self._probed = (batch, model, data)
+        else:
+            _, model, data = known
+            batch.get_model(world, model)
         mujoco.mj_setState(model, data, batch.state[world], _STATE)
         mujoco.mj_forward(model, data)
         return model, data
@@ -170,31 +187,11 @@ def _tied(slot: LoopSlot, model: mujoco.MjModel, data: mujoco.MjData) -> tuple[F
     return force, torque
 
 
-_Row = tuple[str, str, Floats, Floats, float, Floats, Floats]
-
-
-def _seen(
-    model: mujoco.MjModel, data: mujoco.MjData, index: int, sign: float
-) -> tuple[Floats, Floats, float, Floats, Floats]:
-    """Position, normal, depth, force and torque of a contact, the last two with a sign."""
-    contact = data.contact[index]
-    wrench = np.zeros(6)
-    mujoco.mj_contactForce(model, data, index, wrench)
-    frame = contact.frame.reshape(3, 3)
-    force, torque = sign * (frame.T @ wrench[:3]), sign * (frame.T @ wrench[3:])
-    return contact.pos.copy(), sign * frame[0], -float(contact.dist), force, torque
-
-
-def _gathered(rows: list[_Row]) -> Contacts:
-    def vectors(index: int) -> Floats:
-        return np.array([row[index] for row in rows], np.float64).reshape(len(rows), 3)
-
-    return Contacts(
-        collisions=tuple(row[0] for row in rows),
-        others=tuple(row[1] for row in rows),
-        position=vectors(2),
-        normal=vectors(3),
-        depth=np.array([row[4] for row in rows], np.float64),
-        force=vectors(5),
-        torque=vectors(6),
-    )
+def _contact_forces(
+    model: mujoco.MjModel, data: mujoco.MjData, indices: NDArray[np.intp]
+) -> Floats:
+    """Force and torque of contacts, each in its own frame, shape (k, 6)."""
+    wrenches = np.zeros((len(indices), 6))
+    for row, index in zip(wrenches, indices, strict=True):
+        mujoco.mj_contactForce(model, data, index, row)
+    return wrenches
