@@ -1,13 +1,14 @@
-"""XML elements made by code, and their text."""
+"""XML elements made by code, one keyword a child."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from xml.sax.saxutils import escape, quoteattr
 
 from gazelle.builders.errors import BuildError
 from gazelle.description import Parameters, Pose
+from gazelle.errors import FormatError
+from gazelle.formats.write.element import written
 
 Value = str | bool | float | Pose | tuple[float, ...]
 
@@ -39,31 +40,13 @@ def group(tag: str, **values: Value | Parameters | None) -> Parameters:
 
 
 def text_of(value: Value) -> str:
-    """A value as SDF and URDF write it: ``true``, shortest decimals, numbers apart by blanks.
+    """A value as the writers of SDF and URDF write it; a pose in angles.
 
     Raises:
         BuildError: A number is not a number.
     """
-    if isinstance(value, str):
-        return value
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, Pose):
-        return text_of((*value.position, *value.rpy))
-    if isinstance(value, tuple):
-        return " ".join(text_of(each) for each in value)
-    if value != value:  # noqa: PLR0124  NaN alone differs from itself
-        raise BuildError("a value is not a number")
-    return f"{value:d}" if isinstance(value, int) else repr(float(value)).removesuffix(".0")
-
-
-def xml_of(node: Parameters, indent: str = "") -> str:
-    """The text of an element, two blanks a level, with a line break at its end."""
-    attributes = "".join(f" {name}={quoteattr(text)}" for name, text in node.attributes.items())
-    start = f"{indent}<{node.tag}{attributes}"
-    if not node.children:
-        body = f">{escape(node.text)}</{node.tag}>" if node.text else "/>"
-        return f"{start}{body}\n"
-    inner = "".join(xml_of(child, f"{indent}  ") for child in node.children)
-    text = f"{indent}  {escape(node.text)}\n" if node.text else ""
-    return f"{start}>\n{text}{inner}{indent}</{node.tag}>\n"
+    plain = (*value.position, *value.rpy) if isinstance(value, Pose) else value
+    try:
+        return written(plain)
+    except FormatError:
+        raise BuildError("a value is not a number") from None

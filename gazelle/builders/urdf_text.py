@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from gazelle.builders.elements import element, xml_of
+from gazelle.builders.elements import element
 from gazelle.builders.errors import BuildError
 from gazelle.description import Parameters
 from gazelle.errors import did_you_mean
 from gazelle.formats import xml
+from gazelle.formats.write.xml import fragment
 
 _END = re.compile(r"</robot\s*>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -33,7 +34,7 @@ def insert(text: str, nodes: Iterable[Parameters]) -> str:
     line = text.rfind("\n", 0, start) + 1
     where = line if not text[line:start].strip() else start
     lead = "" if where == line else "\n"
-    added = "".join(xml_of(node, "  ") for node in nodes)
+    added = "".join(fragment(node, "  ") for node in nodes)
     return f"{text[:where]}{lead}{added}{text[where:]}"
 
 

@@ -17,9 +17,10 @@ from gazelle.builders import (
     lidar,
     plugin,
 )
-from gazelle.builders.elements import element, group, text_of, xml_of
+from gazelle.builders.elements import element, group, text_of
 from gazelle.description import Pose
 from gazelle.formats import load_model_string, xml
+from gazelle.formats.write.xml import fragment
 from gazelle.sensors import Gps
 
 URDF = """<robot name="r"><link name="base"><inertial><mass value="1"/>
@@ -110,7 +111,7 @@ def test_a_plugin_has_its_tags():
 def test_elements_come_back_from_their_text(text, number):
     node = element("a", None, element("b", text.strip()), group("c", d=number),
                    attributes={"e": text})  # fmt: skip
-    again = xml.parse(xml_of(node, "  "), name="test")
+    again = xml.parse(fragment(node, "  "), name="test")
     assert again.attributes["e"] == text
     assert again.find("b").text == text.strip()
     assert again.find("c").require("d", float) == number

@@ -155,6 +155,14 @@ def test_poses_are_read_in_every_format(pose, expected):
 def test_poses_must_be_six_finite_numbers(number):
     with pytest.raises(FormatError):
         model(f"<link name='a'><pose>{number} 0 0 0 0 0</pose></link>")
+    with pytest.raises(FormatError):
+        model(
+            f"<link name='a'><pose rotation_format='quat_xyzw'>0 0 {number} 0 0 0 1</pose></link>"
+        )
+    with pytest.raises(FormatError):
+        model(
+            f"<link name='a'><pose rotation_format='quat_xyzw'>0 0 0 0 0 {number} 1</pose></link>"
+        )
 
 
 lengths = st.floats(-10, 10)

@@ -19,7 +19,7 @@ def read_pose(node: Parameters | None) -> Pose:
     if node is None or not node.text:
         return _IDENTITY
     if node.attributes.get("rotation_format", "euler_rpy") == "quat_xyzw":
-        n = values.parse_reals(node, node.text, "<pose>", 7)
+        n = _finite(node, values.parse_reals(node, node.text, "<pose>", 7))
         return Pose.from_quaternion(n[:3], n[3:])
     x, y, z, roll, pitch, yaw = _finite(node, values.parse_reals(node, node.text, "<pose>", 6))
     degrees = node.attributes.get("degrees", "")

@@ -27,6 +27,15 @@ def document(root: Parameters) -> str:
     return '<?xml version="1.0"?>\n' + "".join(_lines(root, "", extra))
 
 
+def fragment(node: Parameters, indent: str = "") -> str:
+    """The text of one element, two blanks a level, with a line break at its end.
+
+    Raises:
+        FormatError: As ``document``.
+    """
+    return "".join(_lines(node, indent, {}))
+
+
 def _prefixes(node: Parameters) -> Iterator[str]:
     waiting = [node]
     while waiting:
