@@ -18,6 +18,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from gazelle.bridges import serve_ros
     from gazelle.description import Pose, World
     from gazelle.errors import (
         ControlError,
@@ -51,6 +52,7 @@ _HOMES = {
     "TaskError": "gazelle.errors",
     "World": "gazelle.description",
     "load": "gazelle.formats",
+    "serve_ros": "gazelle.bridges",
 }
 
 __all__ = [
@@ -69,6 +71,7 @@ __all__ = [
     "World",
     "__version__",
     "load",
+    "serve_ros",
 ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
+from gazelle.errors import SimulationWarning
 from gazelle.ros import load_message, load_service
 from gazelle.simulation import Input, Output, Ports, Service, TwistInput
 
@@ -124,5 +126,14 @@ class Binding:
             given = self._simulation.requests.call(lambda: service.call(asked, self._worlds))
             return service_class._response_class(**codec.answer(given))  # noqa: SLF001  # genpy's name
 
+        if any(server.name == service.topic for server in self._node.services()):
+            warnings.warn(
+                SimulationWarning(
+                    f"the service {service.topic} is offered by another model already; "
+                    "spawn this one in a namespace of its own"
+                ),
+                stacklevel=2,
+            )
+            return
         server = self._node.serve(service.topic, service_class, answer)
         self._closing.append(server.close)

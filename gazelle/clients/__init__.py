@@ -1,1 +1,39 @@
-"""Small clients for any ROS 1 graph with Gazebo's interfaces: Gazelle's or a real Gazebo's."""
+"""Clients for any ROS 1 graph with Gazebo's interfaces: Gazelle's, a real Gazebo's, a robot's.
+
+::
+
+    from gazelle.clients import Driver, Gazebo, SimulatorProcess
+
+    with SimulatorProcess("turtlebot3_world", robots=["turtlebot3_burger"]) as simulator:
+        simulator.gazebo.pause()
+"""
+
+from gazelle.clients.controllers import Controllers
+from gazelle.clients.descriptions import load_parameters, load_urdf, read_urdf
+from gazelle.clients.errors import ClientError
+from gazelle.clients.gazebo import Gazebo, PhysicsSettings
+from gazelle.clients.hosting import SimulatorProcess
+from gazelle.clients.motion import Driver
+from gazelle.clients.performance import PerformanceWatch, Sample
+from gazelle.clients.poses import ModelState
+from gazelle.clients.processes import Processes
+from gazelle.clients.spawning import spawn_robot
+from gazelle.clients.states import LiveStates
+
+__all__ = [
+    "ClientError",
+    "Controllers",
+    "Driver",
+    "Gazebo",
+    "LiveStates",
+    "ModelState",
+    "PerformanceWatch",
+    "PhysicsSettings",
+    "Processes",
+    "Sample",
+    "SimulatorProcess",
+    "load_parameters",
+    "load_urdf",
+    "read_urdf",
+    "spawn_robot",
+]

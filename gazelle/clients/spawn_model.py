@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import logging
-import math
 import os
 import re
 import sys
@@ -13,8 +12,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
-from gazelle.ros import Node, load_message, load_service
+from gazelle.ros import Node, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.signals import stopping
 
@@ -59,7 +59,9 @@ class _Spawner:
             model_name=options.model,
             model_xml=text,
             robot_namespace=options.robot_namespace or self._node.namespace,
-            initial_pose=_pose(options),
+            initial_pose=pose_message(
+                (options.x, options.y, options.z), (options.roll, options.pitch, options.yaw)
+            ),
             reference_frame=options.reference_frame,
         )
         _log.info("%s", answer.status_message)
@@ -172,18 +174,6 @@ def _in_database(model: str) -> str:
     raise RosError(
         f"there is no model '{model}'", hint=f"looked in GAZEBO_MODEL_PATH: {':'.join(folders)}"
     )
-
-
-def _pose(options: argparse.Namespace) -> Any:
-    pose: Any = load_message("geometry_msgs/Pose")()
-    pose.position.x, pose.position.y, pose.position.z = options.x, options.y, options.z
-    turns = (options.roll / 2.0, options.pitch / 2.0, options.yaw / 2.0)
-    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(half), math.sin(half)) for half in turns)
-    pose.orientation.x = sr * cp * cy - cr * sp * sy
-    pose.orientation.y = cr * sp * cy + sr * cp * sy
-    pose.orientation.z = cr * cp * sy - sr * sp * cy
-    pose.orientation.w = cr * cp * cy + sr * sp * sy
-    return pose
 
 
 def _wait_for_the_end(node: Node) -> None:

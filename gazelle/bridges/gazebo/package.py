@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
+from gazelle import assets
 from gazelle.ros.builtin.registry import BuiltinPackage
 
 _SERVER = "gazelle.bridges.gazebo.server:main"
@@ -16,6 +15,5 @@ GAZEBO_ROS = BuiltinPackage(
         "debug": _SERVER,
         "spawn_model": "gazelle.clients.spawn_model:main",
     },
-    folder=Path(__file__).parents[2] / "assets" / "gazebo_ros",
-    skipped=None,
+    folder=assets.root() / "gazebo_ros",
 )

@@ -8,13 +8,13 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
+from gazelle import assets
 from gazelle.bridges.serving import RosDoor
 from gazelle.errors import ResolveError
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
 
-_ASSETS = Path(__file__).parents[2] / "assets"
 # Options that name a value, and those that do not, which change nothing here.
 _PASSED_OVER = ("-e", "--physics", "-s", "--server-plugin", "-g", "--gui-plugin", "--record_path")
 _IGNORED = ("-r", "--record", "--verbose", "--lockstep", "-q", "--pose")
@@ -74,7 +74,7 @@ def find_world(name: str) -> str:
     Raises:
         ResolveError: A path that is nowhere.
     """
-    folders = [Path(), *_resource_path(), _ASSETS]
+    folders = [Path(), *_resource_path(), assets.root()]
     for folder in folders:
         if (folder / name).is_file():
             return str(folder / name)

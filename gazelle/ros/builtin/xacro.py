@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from gazelle.errors import MissingExtraError
+from gazelle.errors import MissingExtraError, RosError
 from gazelle.ros.launch.packages import Packages
 
 _NO_EFFECT = {"--inorder", "-i", "--xacro-ns"}
@@ -15,6 +16,37 @@ _NO_EFFECT = {"--inorder", "-i", "--xacro-ns"}
 
 def main(arguments: Sequence[str]) -> int:
     """Expand a file to standard output, or to that of ``-o``; returns the exit code."""
+    xacro = _xacro()
+    # Spawners pass on what roslaunch gave them, such as __name:=.
+    kept = [each for each in arguments if each not in _NO_EFFECT and not each.startswith("__")]
+    sys.argv = ["xacro", *kept]
+    try:
+        xacro.main()
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
+    return 0
+
+
+def expand(file: str | Path, arguments: Mapping[str, str]) -> str:
+    """The text of a file with xacro expanded.
+
+    Args:
+        file: URDF with or without xacro.
+        arguments: Values of its ``<xacro:arg>``.
+
+    Raises:
+        RosError: It cannot be expanded.
+    """
+    xacro = _xacro()
+    try:
+        document = xacro.process_file(str(file), mappings=dict(arguments))
+    except Exception as error:
+        raise RosError(f"xacro cannot expand it: {error}", file=str(file)) from error
+    return str(document.toprettyxml(indent="  "))
+
+
+def _xacro() -> Any:
+    """The package, which finds what ``$(find ...)`` names as ROS 1 does."""
     try:
         import xacro
         from xacro import substitution_args
@@ -29,11 +61,4 @@ def main(arguments: Sequence[str]) -> int:
     looked_up: Any = substitution_args
     looked_up._eval_find = find  # noqa: SLF001
     looked_up._eval_dict["find"] = find  # noqa: SLF001
-    # Spawners pass on what roslaunch gave them, such as __name:=.
-    kept = [each for each in arguments if each not in _NO_EFFECT and not each.startswith("__")]
-    sys.argv = ["xacro", *kept]
-    try:
-        xacro.main()
-    except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
-    return 0
+    return xacro

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
+from gazelle import assets
 from gazelle.ros.builtin.registry import BuiltinPackage
 
-_HERE = Path(__file__).parent
-
 TURTLEBOT3_DESCRIPTION = BuiltinPackage(
-    "turtlebot3_description", folder=_HERE / "turtlebot3_description"
+    "turtlebot3_description", folder=assets.root() / "turtlebot3_description"
 )
-TURTLEBOT3_GAZEBO = BuiltinPackage("turtlebot3_gazebo", folder=_HERE / "turtlebot3_gazebo")
+TURTLEBOT3_GAZEBO = BuiltinPackage("turtlebot3_gazebo", folder=assets.root() / "turtlebot3_gazebo")

@@ -1,0 +1,7 @@
+"""``python -m gazelle``: the command ``gazelle``."""
+
+import sys
+
+from gazelle.cli.main import main
+
+sys.exit(main())

@@ -1,0 +1,90 @@
+"""Call services with time-outs and retries."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from gazelle.clients.errors import ClientError
+from gazelle.ros import Node, ServiceClient, load_service
+from gazelle.ros.errors import RosError, RosTimeoutError, ServiceFailedError
+
+_PAUSE_S = 0.05
+
+
+class Caller:
+    """Calls services under a namespace, over connections that stay open.
+
+    Args:
+        node: Calls.
+        namespace: Put before the names of services.
+        timeout: For a service to be there and for it to answer, each, in wall time [s].
+        retries: How often a call that broke off is made again.
+    """
+
+    def __init__(self, node: Node, namespace: str, timeout: float, retries: int) -> None:
+        self.node = node
+        self.namespace = "/" + namespace.strip("/") if namespace.strip("/") else ""
+        self.timeout = timeout
+        self.retries = retries
+        self._clients: dict[str, tuple[Any, ServiceClient]] = {}
+
+    def call(self, name: str, kind: str, /, **fields: Any) -> Any:
+        """Call a service.
+
+        Args:
+            name: Below the namespace; one that begins with a slash is taken as it is.
+            kind: Such as ``gazebo_msgs/GetModelState``.
+            fields: Of the request.
+
+        Raises:
+            ClientError: The service is not there, breaks off, or answers that it failed.
+        """
+        full = name if name.startswith("/") else f"{self.namespace}/{name}"
+        for attempt in range(self.retries + 1):
+            try:
+                return self._call(full, kind, fields)
+            except ServiceFailedError as error:
+                raise ClientError(f"{full}: {error}") from error
+            except RosTimeoutError as error:
+                raise ClientError(
+                    f"{full} does not answer within {self.timeout:g} s",
+                    hint=f"is it running? master: {self.node.master_uri}",
+                ) from error
+            except RosError as error:
+                self._forget(full)
+                if attempt == self.retries:
+                    raise ClientError(f"{full}: {error}") from error
+                time.sleep(_PAUSE_S)
+        raise ClientError(f"{full} was never called")
+
+    def demand(self, name: str, kind: str, /, **fields: Any) -> Any:
+        """Call a service whose answer has ``success``, and insist on it.
+
+        Raises:
+            ClientError: As ``call``, and when it answers that it did not succeed.
+        """
+        answer = self.call(name, kind, **fields)
+        if not answer.success:
+            raise ClientError(f"{self.namespace}/{name}: {answer.status_message}")
+        return answer
+
+    def close(self) -> None:
+        """Close the connections."""
+        for full in list(self._clients):
+            self._forget(full)
+
+    def _call(self, full: str, kind: str, fields: dict[str, Any]) -> Any:
+        if full not in self._clients:
+            self.node.wait_for_service(full, timeout=self.timeout)
+            service = load_service(kind)
+            client = self.node.client(full, service, persistent=True)
+            self._clients[full] = (service, client)
+        service, client = self._clients[full]
+        request = service._request_class(**fields)  # noqa: SLF001  # genpy's name
+        return client.call(request, timeout=self.timeout)
+
+    def _forget(self, full: str) -> None:
+        known = self._clients.pop(full, None)
+        if known is not None:
+            known[1].close()

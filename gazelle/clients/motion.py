@@ -1,0 +1,113 @@
+"""Drive a model by velocity commands and watch where it goes."""
+
+from __future__ import annotations
+
+import threading
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.clients.errors import ClientError
+from gazelle.clients.poses import ModelState, read_state, twist_message
+from gazelle.ros import Node, load_message
+
+
+class Driver:
+    """Commands one base and knows its pose; also a context manager, which stops it at the end.
+
+    Args:
+        node: Publishes and listens.
+        model: Its topics are ``/<model>/cmd_vel`` and ``/<model>/pose``, those of the example
+            plugin, unless they are given.
+        command_topic: Of ``geometry_msgs/Twist``.
+        pose_topic: Of ``nav_msgs/Odometry``.
+        linear: Speed of ``forward`` and the like [m/s].
+        angular: Of turning [rad/s].
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        model: str = "",
+        *,
+        command_topic: str | None = None,
+        pose_topic: str | None = None,
+        linear: float = 0.2,
+        angular: float = 0.5,
+    ) -> None:
+        space = f"/{model}" if model else ""
+        self._linear, self._angular = linear, angular
+        self._pose_topic = pose_topic or f"{space}/pose"
+        self._state: ModelState | None = None
+        self._arrived = threading.Event()
+        self._publisher = node.advertise(
+            command_topic or f"{space}/cmd_vel", load_message("geometry_msgs/Twist"), 1
+        )
+        self._subscriber = node.subscribe(
+            self._pose_topic, load_message("nav_msgs/Odometry"), self._receive, 1
+        )
+
+    @property
+    def state(self) -> ModelState:
+        """Where the base is and how it moves, as last heard.
+
+        Raises:
+            ClientError: Nothing was heard yet; see ``wait``.
+        """
+        if self._state is None:
+            raise ClientError(f"nothing came on {self._pose_topic} yet", hint="call wait() first")
+        return self._state
+
+    def wait(self, timeout: float = 10.0) -> Self:
+        """Wait until the base listens and its pose is known.
+
+        Raises:
+            ClientError: That takes longer than ``timeout`` [s of wall time].
+        """
+        if not self._arrived.wait(timeout):
+            raise ClientError(f"nothing comes on {self._pose_topic} within {timeout:g} s")
+        return self
+
+    def drive(self, linear: float = 0.0, angular: float = 0.0, sideways: float = 0.0) -> None:
+        """Command a velocity [m/s, rad/s]; it holds until the next."""
+        self._publisher.publish(twist_message((linear, sideways, 0.0), (0.0, 0.0, angular)))
+
+    def forward(self) -> None:
+        """Go ahead."""
+        self.drive(self._linear)
+
+    def back(self) -> None:
+        """Go back."""
+        self.drive(-self._linear)
+
+    def left(self) -> None:
+        """Turn left."""
+        self.drive(angular=self._angular)
+
+    def right(self) -> None:
+        """Turn right."""
+        self.drive(angular=-self._angular)
+
+    def stop(self) -> None:
+        """Stand still."""
+        self.drive()
+
+    def close(self) -> None:
+        """Stand still and leave the topics."""
+        self.stop()
+        self._publisher.close()
+        self._subscriber.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _receive(self, message: Any) -> None:
+        self._state = read_state(message.pose.pose, message.twist.twist)
+        self._arrived.set()

@@ -1,0 +1,194 @@
+"""How fast a simulator runs and what it takes: real-time factor, processor, memory."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import statistics
+import threading
+import time
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.clients.errors import ClientError
+from gazelle.errors import MissingExtraError
+from gazelle.ros import Node, load_message
+
+_TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
+_PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One look.
+
+    Attributes:
+        wall: Since watching began [s].
+        simulated: Simulated time [s].
+        real_time_factor: Simulated seconds a wall second since the last look.
+        cpu: Share of one core since the last look; 0 if no process is watched.
+        memory: Resident [MB].
+    """
+
+    wall: float
+    simulated: float
+    real_time_factor: float
+    cpu: float
+    memory: float
+
+
+class PerformanceWatch:
+    """Looks at ``/clock`` and at processes at a rate; also a context manager.
+
+    Args:
+        node: Listens to ``/clock``.
+        pids: Processes to look at (Linux).
+        rate: Looks a second of wall time [Hz].
+
+    Attributes:
+        samples: What was seen.
+    """
+
+    def __init__(self, node: Node, pids: tuple[int, ...] = (), rate: float = 2.0) -> None:
+        self.samples: list[Sample] = []
+        self._pids = pids
+        self._period = 1.0 / rate
+        self._simulated = 0.0
+        self._end = threading.Event()
+        self._subscriber = node.subscribe(
+            "/clock", load_message("rosgraph_msgs/Clock"), self._tick, 1
+        )
+        self._thread = threading.Thread(target=self._watch, name="performance", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop looking; what was seen stays."""
+        self._end.set()
+        self._thread.join()
+        self._subscriber.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    # -- results -----------------------------------------------------------------------------
+
+    def summary(self) -> dict[str, dict[str, float]]:
+        """Mean, least and most of everything that was seen.
+
+        Raises:
+            ClientError: Nothing was seen yet.
+        """
+        if not self.samples:
+            raise ClientError("nothing was seen yet", hint="watch for longer")
+        found = {}
+        for name in ("real_time_factor", "cpu", "memory"):
+            values = [getattr(sample, name) for sample in self.samples]
+            found[name] = {
+                "mean": statistics.fmean(values),
+                "least": min(values),
+                "most": max(values),
+            }
+        return found
+
+    def save(self, path: str | Path) -> None:
+        """Write all samples to a ``.csv`` or ``.json`` file.
+
+        Raises:
+            ClientError: The name ends with neither.
+        """
+        file = Path(path)
+        rows = [asdict(sample) for sample in self.samples]
+        if file.suffix == ".json":
+            file.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+        elif file.suffix == ".csv":
+            with file.open("w", newline="", encoding="utf-8") as stream:
+                writer = csv.DictWriter(stream, [field.name for field in fields(Sample)])
+                writer.writeheader()
+                writer.writerows(rows)
+        else:
+            raise ClientError("samples are saved as .csv or .json", file=str(file))
+
+    def plot(self, path: str | Path) -> None:
+        """Draw real-time factor, processor and memory over time into a picture.
+
+        Raises:
+            MissingExtraError: Matplotlib is not installed.
+        """
+        try:
+            from matplotlib.backends.backend_agg import FigureCanvasAgg
+            from matplotlib.figure import Figure
+        except ImportError:
+            raise MissingExtraError("matplotlib", "viewer") from None
+        figure: Any = Figure(figsize=(8.0, 7.0), layout="constrained")
+        FigureCanvasAgg(figure)
+        labels = {
+            "real_time_factor": "real-time factor",
+            "cpu": "processor [cores]",
+            "memory": "memory [MB]",
+        }
+        wall = [sample.wall for sample in self.samples]
+        for axes, (name, label) in zip(
+            figure.subplots(3, 1, sharex=True), labels.items(), strict=True
+        ):
+            axes.plot(wall, [getattr(sample, name) for sample in self.samples])
+            axes.set_ylabel(label)
+            axes.set_ylim(bottom=0.0)
+            axes.grid(alpha=0.3)
+        axes.set_xlabel("wall time [s]")
+        figure.savefig(path, dpi=120)
+
+    # -- looking -----------------------------------------------------------------------------
+
+    def _tick(self, message: Any) -> None:
+        self._simulated = message.clock.to_sec()
+
+    def _watch(self) -> None:
+        start = last_wall = time.monotonic()
+        last_simulated, last_cpu = self._simulated, self._cpu_seconds()
+        while not self._end.wait(self._period):
+            wall, simulated, cpu = time.monotonic(), self._simulated, self._cpu_seconds()
+            passed = wall - last_wall
+            self.samples.append(
+                Sample(
+                    wall - start,
+                    simulated,
+                    max(0.0, simulated - last_simulated) / passed,
+                    (cpu - last_cpu) / passed,
+                    sum(_memory(pid) for pid in self._pids) / 1e6,
+                )
+            )
+            last_wall, last_simulated, last_cpu = wall, simulated, cpu
+
+    def _cpu_seconds(self) -> float:
+        return sum(_cpu_seconds(pid) for pid in self._pids)
+
+
+def _cpu_seconds(pid: int) -> float:
+    """Processor time a process took so far (proc(5)); 0 if it is gone."""
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
+    except OSError:
+        return 0.0
+    # The name of the program, in brackets, may hold anything.
+    values = text.rpartition(")")[2].split()
+    return (int(values[11]) + int(values[12])) / _TICKS
+
+
+def _memory(pid: int) -> float:
+    """Resident memory of a process in bytes (proc(5)); 0 if it is gone."""
+    try:
+        text = Path(f"/proc/{pid}/statm").read_text(encoding="utf-8")
+    except OSError:
+        return 0.0
+    return float(text.split()[1]) * _PAGE

@@ -1,0 +1,80 @@
+"""Poses and twists as plain numbers, and as messages."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.ros import load_message
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ModelState:
+    """Where something is and how it moves.
+
+    Attributes:
+        position: [m].
+        quaternion: (x, y, z, w).
+        linear: Velocity [m/s].
+        angular: Angular velocity [rad/s].
+    """
+
+    position: Vector
+    quaternion: Quaternion
+    linear: Vector = (0.0, 0.0, 0.0)
+    angular: Vector = (0.0, 0.0, 0.0)
+
+    @property
+    def yaw(self) -> float:
+        """Heading [rad]."""
+        x, y, z, w = self.quaternion
+        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def read_state(pose: Any, twist: Any) -> ModelState:
+    """The numbers of a ``Pose`` and a ``Twist``."""
+    turn = pose.orientation
+    return ModelState(
+        _triple(pose.position),
+        (turn.x, turn.y, turn.z, turn.w),
+        _triple(twist.linear),
+        _triple(twist.angular),
+    )
+
+
+def pose_message(position: Vector, rpy: Vector) -> Any:
+    """A ``geometry_msgs/Pose`` [m, rad]; roll, pitch and yaw about fixed axes."""
+    pose: Any = load_message("geometry_msgs/Pose")()
+    pose.position.x, pose.position.y, pose.position.z = position
+    turn = pose.orientation
+    turn.x, turn.y, turn.z, turn.w = quaternion_from_rpy(*rpy)
+    return pose
+
+
+def twist_message(linear: Vector, angular: Vector) -> Any:
+    """A ``geometry_msgs/Twist`` [m/s, rad/s]."""
+    twist: Any = load_message("geometry_msgs/Twist")()
+    twist.linear.x, twist.linear.y, twist.linear.z = linear
+    twist.angular.x, twist.angular.y, twist.angular.z = angular
+    return twist
+
+
+def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """The turn about fixed x, then y, then z, as (x, y, z, w)."""
+    (cr, sr), (cp, sp), (cy, sy) = (
+        (math.cos(half), math.sin(half)) for half in (roll / 2.0, pitch / 2.0, yaw / 2.0)
+    )
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def _triple(message: Any) -> Vector:
+    return (message.x, message.y, message.z)

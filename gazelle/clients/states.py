@@ -1,0 +1,78 @@
+"""Tables of models or links that are kept up to date by a topic."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Mapping
+from types import TracebackType
+from typing import Any, Self
+
+from gazelle.clients.errors import ClientError
+from gazelle.clients.poses import ModelState, read_state
+from gazelle.errors import did_you_mean
+from gazelle.ros import Node, load_message
+
+
+class LiveStates(Mapping[str, ModelState]):
+    """States by name, as the last message has them.
+
+    Args:
+        node: Listens.
+        topic: ``model_states`` or ``link_states``.
+        kind: ``ModelStates`` or ``LinkStates``.
+    """
+
+    def __init__(self, node: Node, topic: str, kind: str) -> None:
+        self._topic = topic
+        self._last: Any = None
+        self._rows: dict[str, int] = {}
+        self._arrived = threading.Event()
+        self._subscriber = node.subscribe(
+            topic, load_message(f"gazebo_msgs/{kind}"), self._receive, 1
+        )
+
+    def wait(self, timeout: float = 10.0) -> Self:
+        """Wait for the first message.
+
+        Raises:
+            ClientError: None comes within ``timeout`` [s of wall time].
+        """
+        if not self._arrived.wait(timeout):
+            raise ClientError(f"nothing comes on {self._topic} within {timeout:g} s")
+        return self
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._subscriber.close()
+
+    def __getitem__(self, name: str) -> ModelState:
+        last, rows = self._last, self._rows
+        if name not in rows:
+            raise ClientError(f"{self._topic} has no '{name}'", hint=did_you_mean(name, rows))
+        return read_state(last.pose[rows[name]], last.twist[rows[name]])
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._rows
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _receive(self, message: Any) -> None:
+        if self._last is None or message.name != self._last.name:
+            self._rows = {name: row for row, name in enumerate(message.name)}
+        self._last = message
+        self._arrived.set()

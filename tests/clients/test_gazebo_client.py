@@ -1,0 +1,125 @@
+"""The client of Gazebo's services."""
+
+import pytest
+from ros.graph import until
+
+from gazelle import assets
+from gazelle.clients import ClientError, Gazebo
+from gazelle.ros import Master
+
+BALL = """<sdf version="1.6"><model name="ball"><link name="core"><inertial><mass>2</mass></inertial>
+<gravity>0</gravity></link></model></sdf>"""
+
+
+def test_time_is_stopped_stepped_and_let_go(graph):
+    gazebo = graph.gazebo
+    gazebo.pause()
+    stopped = gazebo.time
+    assert gazebo.step(25) == pytest.approx(stopped + 0.025)
+    assert gazebo.physics.paused
+    gazebo.unpause()
+    until(lambda: gazebo.time > stopped + 0.1)
+    with pytest.raises(ClientError, match="not paused"):
+        gazebo.step()
+
+
+def test_everything_is_put_back(graph):
+    until(lambda: graph.gazebo.time > 0.2)
+    graph.gazebo.set_model_state("r1", (1.0, 1.0, 0.0))
+    graph.gazebo.reset_world()
+    assert graph.gazebo.model_state("r1").position == pytest.approx((0.0, 0.0, 0.0), abs=0.02)
+    before = graph.gazebo.time
+    graph.gazebo.reset_simulation()
+    assert graph.gazebo.time < before
+
+
+@pytest.mark.filterwarnings("ignore:the physics property")
+def test_the_physics_is_read_and_set_by_name(graph):
+    gazebo = graph.gazebo
+    gazebo.time_step = 0.002
+    gazebo.gravity = (0.0, 0.0, -3.7)
+    gazebo.real_time_factor = 4.0
+    found = gazebo.physics
+    assert found.time_step == 0.002
+    assert found.gravity == (0.0, 0.0, -3.7)
+    assert found.max_update_rate == pytest.approx(2000.0)
+    gazebo.set_physics(sor_pgs_iters=77)
+    assert gazebo.physics.ode.sor_pgs_iters == 77
+    gazebo.set_default_physics()
+    assert gazebo.real_time_factor == pytest.approx(1.0)
+    with pytest.raises(ClientError, match="no field 'sor_iters'"):
+        gazebo.set_physics(sor_iters=1)
+
+
+def test_models_come_and_go(graph):
+    gazebo = graph.gazebo
+    gazebo.spawn_sdf("ball", BALL, position=(1.0, 0.0, 2.0), rpy=(0.0, 0.0, 1.0))
+    assert "ball" in gazebo.models
+    state = gazebo.model_state("ball")
+    assert state.position == pytest.approx((1.0, 0.0, 2.0))
+    assert state.yaw == pytest.approx(1.0)
+    gazebo.delete("ball")
+    assert "ball" not in gazebo.models
+    with pytest.raises(ClientError, match="model does not exist"):
+        gazebo.delete("ball")
+
+
+@pytest.mark.filterwarnings("ignore:the service /imu_service")
+def test_robots_are_spawned_from_files_packages_and_parameters(graph):
+    gazebo = graph.gazebo
+    gazebo.spawn_urdf_file("r2", assets.robot("turtlebot3_burger"), position=(1.0, 0.0, 0.0))
+    gazebo.spawn_urdf_file(
+        "r3",
+        "urdf/turtlebot3_burger.urdf.xacro",
+        package="turtlebot3_description",
+        position=(-1.0, 0.0, 0.0),
+        namespace="/r3",
+    )
+    gazebo.node.set_param("ball_description", "<robot name='b'><link name='x'/></robot>")
+    assert {"r2", "r3"} <= set(gazebo.models)
+    assert graph.sim.robots["r3"].outputs["odom"].topic == "/r3/odom"
+    with pytest.raises(ClientError, match="holds no description"):
+        gazebo.spawn_urdf_parameter("r4", "nothing")
+    with pytest.raises(ClientError, match="no file"):
+        gazebo.spawn_urdf_file("r4", "nothing.urdf")
+
+
+def test_wrenches_and_efforts_act_and_end(graph):
+    gazebo = graph.gazebo
+    gazebo.pause()
+    gazebo.spawn_sdf("ball", BALL, position=(0.0, 0.0, 3.0))
+    gazebo.apply_wrench("ball::core", (4.0, 0.0, 0.0), duration=0.5)
+    gazebo.step(1000)
+    assert gazebo.model_state("ball").linear[0] == pytest.approx(1.0, rel=1e-3)
+    gazebo.apply_wrench("ball::core", (4.0, 0.0, 0.0))
+    gazebo.clear_wrenches("ball::core")
+    gazebo.step(100)
+    assert gazebo.model_state("ball").linear[0] == pytest.approx(1.0, rel=1e-3)
+    gazebo.apply_effort("wheel_left_joint", 0.1, duration=0.1)
+    gazebo.clear_efforts("wheel_left_joint")
+
+
+def test_a_table_of_states_is_kept_up_to_date(graph):
+    with graph.gazebo.watch_models().wait() as models:
+        assert "r1" in models
+        graph.gazebo.set_model_state("r1", (1.0, 0.5, 0.0))
+        until(lambda: models["r1"].position[0] == pytest.approx(1.0, abs=0.01))
+        with pytest.raises(ClientError, match="did you mean 'r1'"):
+            models["r11"]
+    with graph.gazebo.watch_links().wait() as links:
+        assert "r1::wheel_left_link" in set(links)
+
+
+def test_who_is_not_there_is_said_clearly():
+    with (
+        Master(port=0, rosout=False) as master,
+        Gazebo(master_uri=master.uri, timeout=0.3) as gazebo,
+        pytest.raises(ClientError, match="does not answer within"),
+    ):
+        gazebo.pause()
+
+
+def test_waiting_for_a_model_ends(graph):
+    graph.gazebo.wait_for_model("r1")
+    with pytest.raises(ClientError, match="not there after"):
+        graph.gazebo.wait_for_model("nobody", timeout=0.2)

@@ -1,0 +1,146 @@
+"""Simulators, nodes and launch files as processes that end with their owner."""
+
+import os
+import time
+
+import pytest
+from ros.graph import until
+
+from gazelle.clients import (
+    ClientError,
+    Driver,
+    Gazebo,
+    PerformanceWatch,
+    Processes,
+    SimulatorProcess,
+    load_parameters,
+    read_urdf,
+    spawn_robot,
+)
+from gazelle.ros import Master, Node
+
+
+@pytest.fixture
+def master(monkeypatch):
+    with Master(port=0, rosout=False) as running:
+        monkeypatch.setenv("ROS_MASTER_URI", running.uri)
+        yield running
+
+
+def is_alive(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_simulator_is_there_when_made_and_gone_when_closed(master):
+    with SimulatorProcess("turtlebot3_stage_1", robots=["turtlebot3_burger"]) as simulator:
+        assert "turtlebot3_burger" in simulator.gazebo.models
+        watch = PerformanceWatch(simulator.gazebo.node, (simulator.pid,), rate=10.0)
+        until(lambda: len(watch.samples) >= 5)
+        watch.close()
+        pid = simulator.pid
+    assert not is_alive(pid)
+    summary = watch.summary()
+    assert summary["memory"]["mean"] > 20.0
+    assert summary["real_time_factor"]["most"] > 0.0
+
+
+def test_a_simulator_that_cannot_begin_says_why(master):
+    with pytest.raises(ClientError, match="no_such_world"):
+        SimulatorProcess("no_such_world")
+
+
+def test_what_was_seen_is_saved_and_drawn(master, tmp_path):
+    with Node("watcher", master_uri=master.uri) as node, PerformanceWatch(node, rate=50.0) as watch:
+        until(lambda: len(watch.samples) >= 3)
+    for name in ("run.csv", "run.json"):
+        watch.save(tmp_path / name)
+        assert "real_time_factor" in (tmp_path / name).read_text(encoding="utf-8")
+    watch.plot(tmp_path / "run.png")
+    assert (tmp_path / "run.png").read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(ClientError, match="csv or"):
+        watch.save(tmp_path / "run.txt")
+
+
+def test_a_node_is_started_listed_and_ended(master):
+    with Processes(master.uri) as processes:
+        name = processes.start_node(
+            "tf",
+            "static_transform_publisher",
+            name="pole",
+            namespace="/camp",
+            arguments="0 0 1 0 0 0 world pole 100",
+            parameters={"colour": "red"},
+        )
+        assert name == "/camp/pole"
+        until(lambda: name in processes.nodes())
+        assert processes.running == [name]
+        with Node("asker", master_uri=master.uri) as node:
+            assert node.get_param("/camp/pole/colour") == "red"
+        processes.stop(name)
+        until(lambda: name not in processes.nodes())
+        with pytest.raises(ClientError, match="nothing called"):
+            processes.stop(name)
+
+
+def test_launch_files_run_with_their_arguments(master):
+    with Processes(master.uri) as processes:
+        processes.start_launch(
+            "turtlebot3_empty_world.launch",
+            package="turtlebot3_gazebo",
+            arguments={"x_pos": 1.0, "gui": False},
+        )
+        with Gazebo(master_uri=master.uri) as gazebo:
+            gazebo.wait_for_model("turtlebot3_burger", timeout=30.0)
+            place = gazebo.model_state("turtlebot3_burger").position
+            assert place[0] == pytest.approx(1.0, abs=0.02)
+    with Node("asker", master_uri=master.uri) as node:
+        until(lambda: not any("/gazebo" in services for services in node.master.system_state()[2]))
+
+
+def test_a_robot_is_put_there_with_all_that_goes_with_it(master):
+    with SimulatorProcess() as simulator, Processes(master.uri) as processes:
+        spawn_robot(
+            simulator.gazebo,
+            processes,
+            "burger",
+            "urdf/turtlebot3_burger.urdf.xacro",
+            package="turtlebot3_description",
+        )
+        assert "burger" in simulator.gazebo.models
+        until(lambda: "/robot_state_publisher" in processes.nodes(), timeout=20.0)
+        with Driver(
+            simulator.gazebo.node, command_topic="/cmd_vel", pose_topic="/odom"
+        ).wait() as driver:
+            deadline = time.monotonic() + 20.0
+            driver.forward()
+            while driver.state.position[0] < 0.1 and time.monotonic() < deadline:
+                driver.forward()
+                time.sleep(0.05)
+            assert driver.state.position[0] >= 0.1
+
+
+def test_parameters_are_loaded_from_a_file_into_a_namespace(master, tmp_path):
+    file = tmp_path / "gains.yaml"
+    file.write_text("pid: {p: 1.5, d: 0.1}\nname: arm\n", encoding="utf-8")
+    with Node("loader", master_uri=master.uri) as node:
+        load_parameters(node, file, namespace="/arm")
+        assert node.get_param("/arm/pid/p") == 1.5
+        assert node.get_param("/arm/name") == "arm"
+        file.write_text("- 1\n", encoding="utf-8")
+        with pytest.raises(ClientError, match="names with values"):
+            load_parameters(node, file)
+
+
+def test_xacro_takes_its_arguments(tmp_path):
+    file = tmp_path / "r.urdf.xacro"
+    file.write_text(
+        '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="n" default="a"/>'
+        '<link name="$(arg n)"/></robot>',
+        encoding="utf-8",
+    )
+    assert '"a"' in read_urdf(file)
+    assert '"b"' in read_urdf(file, xacro_args={"n": "b"})
