@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -118,6 +118,7 @@ class Layout:
         loops: Joints that close a loop, by scoped name.
         limits: Of efforts on joints.
         windy: MuJoCo's bodies of the links that wind pushes, by scoped name.
+        springs: Indices of MuJoCo's contact pairs that are springs.
     """
 
     links: Mapping[str, LinkSlot]
@@ -130,6 +131,7 @@ class Layout:
     loops: Mapping[str, LoopSlot]
     limits: EffortLimits
     windy: Mapping[str, int]
+    springs: Sequence[int]
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -210,7 +212,19 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
         for closure in compiled.closures
         if closure.joint.type != "gearbox"
     }
-    return Layout(links, joints, models, motors, collisions, held, reactions, loops, limits, windy)
+    return Layout(
+        links,
+        joints,
+        models,
+        motors,
+        collisions,
+        held,
+        reactions,
+        loops,
+        limits,
+        windy,
+        compiled.springs,
+    )
 
 
 def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:

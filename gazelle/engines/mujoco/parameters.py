@@ -17,6 +17,7 @@ from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
 from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
+from gazelle.engines.mujoco.retuning import retune
 from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
 from gazelle.errors import EngineError
 
@@ -241,6 +242,7 @@ class ParameterStore:
         self._values[key] = values
         if key[0] in _DERIVED_FROM:
             batch.set_const()
+            retune(batch, layout.springs)
 
     def apply(self, batch: Batch, layout: Layout) -> None:
         """Give a new batch all that was set."""
@@ -250,6 +252,7 @@ class ParameterStore:
                 _WRITERS[kind](target, name, values)
         if any(kind in _DERIVED_FROM for kind, _ in self._values):
             batch.set_const()
+            retune(batch, layout.springs)
 
     def drop(self, model: str) -> None:
         """Forget what was set for a model that is gone."""
