@@ -35,6 +35,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     filtering.add_argument("target", metavar="OUT")
     filtering.add_argument("expression", metavar="EXPR", help="Python, with topic, m and t")
     filtering.add_argument("-p", "--print", dest="shown", metavar="EXPR", help="show of each")
+    fixing = commands.add("fix", "copy a bag whose types are those known here", _fix)
+    fixing.add_argument("source", metavar="IN")
+    fixing.add_argument("target", metavar="OUT")
+    fixing.add_argument("rules", nargs="*", metavar="RULES", help=argparse.SUPPRESS)
+    fixing.add_argument("--force", action="store_true", help="copy it although types differ")
+    fixing.add_argument("-n", "--noplugins", action="store_true", help=argparse.SUPPRESS)
     for name, purpose, action in (
         ("reindex", "make bags whole that were cut off", _reindex),
         ("compress", "compress bags", _compress),
@@ -93,6 +99,21 @@ def _check(args: argparse.Namespace) -> int:
         sys.stdout.write("Bag file does not need any migrations.\n")
         return 0
     sys.stdout.write("".join(f"{problem}\n" for problem in problems))
+    return 1
+
+
+def _fix(args: argparse.Namespace) -> int:
+    from gazelle.ros.bags.operations import fix_bag
+
+    if args.rules:
+        args.parser.error("rules of migration are not run; leave them out")
+    problems = fix_bag(args.source, args.target, force=args.force)
+    if not problems or args.force:
+        sys.stdout.write("Bag migrated successfully.\n")
+        return 0
+    sys.stderr.write("Bag could not be migrated. These types differ:\n")
+    sys.stderr.write("".join(f" * {problem}\n" for problem in problems))
+    sys.stderr.write("Rules of migration are not run here; --force copies it as it is.\n")
     return 1
 
 

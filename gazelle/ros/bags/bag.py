@@ -29,6 +29,7 @@ from gazelle.ros.bags.answers import (
     TypesAndTopicsTuple,
 )
 from gazelle.ros.bags.errors import BagError
+from gazelle.ros.bags.opening import Streamed, ensure_index, header_of, raw_header
 from gazelle.ros.bags.reader import BagFile, BagReader, Entry, messages_of, select
 from gazelle.ros.bags.records import BagIndex, Connection
 from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending
@@ -51,11 +52,11 @@ class Bag:
     """A bag file.
 
     Args:
-        f: Its path.
+        f: Its path, or a binary stream: read from where it stands, or written to when it is closed.
         mode: ``r`` to read, ``w`` to write anew, ``a`` to write at its end; all can be read from.
         compression: Of what is written: ``none``, ``bz2`` or ``lz4``.
         chunk_threshold: Uncompressed bytes after which a chunk is complete.
-        allow_unindexed: Read a bag without an index too, by looking through all of it.
+        allow_unindexed: Take a bag without an index too, by looking through all of it.
         options: ``compression`` and ``chunk_threshold`` as a dict.
         skip_index: Has no effect: indices are read when they are needed.
 
@@ -68,7 +69,7 @@ class Bag:
 
     def __init__(
         self,
-        f: str | os.PathLike[str],
+        f: str | os.PathLike[str] | IO[bytes],
         mode: str = "r",
         compression: str = Compression.NONE,
         chunk_threshold: int = CHUNK_BYTES,
@@ -86,10 +87,13 @@ class Bag:
             raise ValueError("chunk_threshold must be greater than or equal to zero")
         if mode not in {"r", "w", "a"}:
             raise ValueError(f"mode '{mode}' is none of r, w, a")
-        if not isinstance(f, (str, os.PathLike)):
-            raise TypeError("a bag is opened by its path")
-        self.filename = os.fspath(f)
         self.mode = mode
+        self._streamed: Streamed | None = None
+        if isinstance(f, (str, os.PathLike)):
+            self.filename = os.fspath(f)
+        else:
+            self._streamed = Streamed(f, mode)
+            self.filename = str(self._streamed.path)
         self._reader: BagReader | None = None
         self._writer: BagWriter | None = None
         self._stream: IO[bytes] | None = None
@@ -108,6 +112,8 @@ class Bag:
             "chunk_bytes": self._chunk_threshold,
         }
         if self.mode == "a" and path.exists() and path.stat().st_size:
+            if allow_unindexed:
+                ensure_index(path)
             self._stream, self._writer = open_for_appending(path, **options)
         else:
             self._stream = path.open("w+b")
@@ -128,6 +134,9 @@ class Bag:
         if self._reader is not None:
             self._reader.close()
             self._reader = None
+        if self._streamed is not None:
+            self._streamed.finish()
+            self._streamed = None
 
     def __enter__(self) -> Self:
         return self
@@ -152,13 +161,31 @@ class Bag:
 
     @property
     def compression(self) -> str:
-        """The compression of what is written."""
+        """The compression of what is written; it can be set to another for what follows."""
         return self._compression
+
+    @compression.setter
+    def compression(self, kind: str) -> None:
+        if kind not in compressions.KINDS:
+            raise ValueError(f"compression must be one of: {', '.join(compressions.KINDS)}")
+        self.flush()
+        self._compression = kind
+        if self._writer is not None:
+            self._writer.compression = kind
 
     @property
     def chunk_threshold(self) -> int:
-        """Uncompressed bytes after which a chunk is complete."""
+        """Uncompressed bytes after which a chunk is complete; it can be set for what follows."""
         return self._chunk_threshold
+
+    @chunk_threshold.setter
+    def chunk_threshold(self, size: int) -> None:
+        if size < 0:
+            raise ValueError("chunk_threshold must be greater than or equal to zero")
+        self.flush()
+        self._chunk_threshold = size
+        if self._writer is not None:
+            self._writer.chunk_bytes = size
 
     @property
     def version(self) -> int:
@@ -366,7 +393,7 @@ class Bag:
         stamp = time.time_ns() if t is None else t.to_nsec()
         connection = self._by_topic.get(topic)
         if connection is None:
-            header = _raw_header(msg) if raw else _header(msg)
+            header = raw_header(msg) if raw else header_of(msg)
             if connection_header is not None:
                 header |= {str(key): str(value) for key, value in connection_header.items()}
             header["topic"] = topic
@@ -378,6 +405,10 @@ class Bag:
             msg.serialize(buffer)
             data = buffer.getvalue()
         self._writer.write(connection, stamp, data)
+
+    def reindex(self) -> Iterator[int]:
+        """The places of all chunks; the index of a bag without one was made when it was opened."""
+        return iter([chunk.position for chunk in self.index.chunks])
 
     def flush(self) -> None:
         """Hand what was written to the system."""
@@ -398,21 +429,3 @@ class Bag:
 
 def _nanoseconds(stamp: Any) -> int | None:
     return None if stamp is None else int(stamp.to_nsec())
-
-
-def _header(message: Any) -> dict[str, str]:
-    return {
-        "type": message._type,  # noqa: SLF001  # genpy's names
-        "md5sum": message._md5sum,  # noqa: SLF001
-        "message_definition": message._full_text,  # noqa: SLF001
-    }
-
-
-def _raw_header(message: Any) -> dict[str, str]:
-    if len(message) not in {4, 5}:
-        raise ValueError("msg must be of length 4 or 5")
-    kind, _, checksum = message[:3]
-    made = message[-1]
-    if made is None:
-        made = class_for({"type": kind, "md5sum": checksum})
-    return {"type": kind, "md5sum": checksum, "message_definition": made._full_text}  # noqa: SLF001

@@ -42,6 +42,7 @@ def configure_record(parser: argparse.ArgumentParser) -> None:
     what.add_argument("-e", "--regex", action="store_true", help="topics are regular expressions")
     what.add_argument("-x", "--exclude", default="", metavar="REGEX", help="not these topics")
     what.add_argument("--node", default="", help="what a node subscribes to")
+    what.add_argument("-p", "--publish", action="store_true", help="tell /begin_write of each file")
     what.add_argument("-l", "--limit", type=int, default=0, metavar="N", help="messages a topic")
     where = parser.add_argument_group("where to")
     where.add_argument("-o", "--output-prefix", default="", metavar="PREFIX", dest="prefix")
@@ -53,7 +54,7 @@ def configure_record(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--repeat-latched", action="store_true", help="in each split file")
     add_compression(where)
     more = parser.add_argument_group("more")
-    more.add_argument("-b", "--buffsize", help=argparse.SUPPRESS)
+    more.add_argument("-b", "--buffsize", metavar="MB", help="no effect: nothing is held back")
     more.add_argument("--chunksize", type=_count, default=768, metavar="KB")
     more.add_argument("--tcpnodelay", action="store_true", help="ask for it")
     more.add_argument("--udp", action="store_true", help=argparse.SUPPRESS)
@@ -95,6 +96,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
         chunk_bytes=args.chunksize * 1024,
         tcp_nodelay=args.tcpnodelay,
         repeat_latched=args.repeat_latched,
+        publish=args.publish,
     )
     check(options)
     keywords = node_options or {"name": names.anonymous("record")}

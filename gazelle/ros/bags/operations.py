@@ -158,6 +158,38 @@ def _replace(
     return backup
 
 
+def fix_bag(source: str, target: str, *, force: bool = False) -> list[str]:
+    """Copy a bag whose types are those known here.
+
+    Rules that turn messages of old types into new ones are not run: where types differ nothing is copied,
+    or with `force` all as it is.
+
+    Args:
+        source: A bag.
+        target: The bag to write.
+        force: Copy although types differ.
+
+    Returns:
+        What differs; see `check`.
+
+    Raises:
+        BagError: The source is no bag, or is the target too.
+    """
+    problems = check(source)
+    if problems and not force:
+        return problems
+    if Path(source).resolve() == Path(target).resolve():
+        raise BagError("a bag cannot be copied onto itself", file=source)
+    reader = BagReader(source)
+    try:
+        with _copying(Path(target)) as copy:
+            for entry in reader.messages():
+                copy(entry)
+    finally:
+        reader.close()
+    return problems
+
+
 def check(path: str) -> list[str]:
     """What of a bag cannot be used with the definitions that are known here, one line each.
 

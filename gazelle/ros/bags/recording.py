@@ -17,6 +17,7 @@ from gazelle.ros.bags.records import Connection
 from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter
 from gazelle.ros.errors import RosError, UnreachableError
 from gazelle.ros.master.proxy import value_of
+from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.subscribing import Subscriber
@@ -63,6 +64,8 @@ class RecordOptions:
     tcp_nodelay: bool = False
     repeat_latched: bool = False
     """Begin each split file with the latched messages."""
+    publish: bool = False
+    """Publish the name of each file on ``/begin_write`` when it begins, latched."""
 
 
 def duration_of(text: str) -> float:
@@ -114,6 +117,11 @@ class Recorder:
         self._number = 0
         self._stamp = time.strftime("%Y-%m-%d-%H-%M-%S")
         self._latched: dict[tuple[str, str, str], tuple[dict[str, str], bytes]] = {}
+        self._begins = (
+            node.advertise("begin_write", load_message("std_msgs/String"), 1, latch=True)
+            if options.publish
+            else None
+        )
         self.files: deque[Path] = deque()
         self.done = threading.Event()
 
@@ -135,6 +143,8 @@ class Recorder:
                 subscriber.close()
             with self._lock:
                 self._close()
+            if self._begins is not None:
+                self._begins.close()
 
     # Topics ------------------------------------------------------------------------------
 
@@ -254,6 +264,8 @@ class Recorder:
         )
         self._output = _Output(path, stream, writer, time.monotonic())
         self._say(f"Recording to '{path}'.")
+        if self._begins is not None:
+            self._begins.publish(self._begins.message_class(data=str(path)))
 
     def _path(self) -> Path:
         options = self._options

@@ -148,6 +148,14 @@ def test_old_files_are_deleted(record, make_node, string):
     assert not paths[0].with_name("r_0.bag").exists()
 
 
+def test_the_name_of_each_file_is_published(record, make_node, string):
+    names = []
+    make_node("watcher").subscribe("/begin_write", string, lambda m: names.append(m.data))
+    record(topics=["/a"], publish=True)
+    until(lambda: names)
+    assert names[0].endswith(".bag")
+
+
 def test_a_duration_ends_it(record, make_node, string):
     make_node("talker").advertise("a", string)
     end = record(topics=["/a"], duration=0.3)

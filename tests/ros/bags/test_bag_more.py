@@ -1,0 +1,83 @@
+"""Bags: streams, changes while writing, bags that were cut off, fixing."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from gazelle.cli.main import main
+from gazelle.ros import Time
+from gazelle.ros.bags import Bag, BagUnindexedError
+from gazelle.ros.messages import class_from_text
+
+ROWS = [("/a", "one", 1.0), ("/b", "two", 2.5), ("/a", "three", 3.0)]
+
+
+def texts(path):
+    with Bag(path) as bag:
+        return [(t, m.data, s.to_sec()) for t, m, s in bag.read_messages()]
+
+
+def test_a_bag_may_be_in_a_stream(string):
+    written = io.BytesIO()
+    with Bag(written, "w") as bag:
+        bag.write("/a", string(data="x"), Time(1))
+        assert bag.get_message_count() == 1
+    with Bag(io.BytesIO(written.getvalue())) as bag:
+        assert [m.data for _, m, _ in bag] == ["x"]
+    with pytest.raises(TypeError):
+        Bag(3)
+    with pytest.raises(ValueError, match="not appended"):
+        Bag(io.BytesIO(), "a")
+
+
+def test_how_it_is_written_can_change_meanwhile(tmp_path, string):
+    path = tmp_path / "x.bag"
+    with Bag(path, "w") as bag:
+        bag.write("/a", string(data="x" * 1000), Time(1))
+        bag.compression = "bz2"
+        bag.chunk_threshold = 10
+        for second in (2, 3):
+            bag.write("/a", string(data="x" * 1000), Time(second))
+        assert bag.options == {"compression": "bz2", "chunk_threshold": 10}
+        for name, value in (("compression", "zip"), ("chunk_threshold", -1)):
+            with pytest.raises(ValueError, match=name):
+                setattr(bag, name, value)
+    with Bag(path) as bag:
+        assert bag.get_compression_info().compression == "bz2"
+        assert len(list(bag.reindex())) == 3
+        assert [m.data for _, m, _ in bag] == ["x" * 1000] * 3
+
+
+def test_a_bag_that_was_cut_off_can_be_appended_to(write_bag, unindex, string):
+    path = write_bag(ROWS)
+    unindex(path)
+    with pytest.raises(BagUnindexedError):
+        Bag(path, "a")
+    with Bag(path, "a", allow_unindexed=True) as bag:
+        assert list(bag.reindex())
+        bag.write("/a", string(data="four"), Time(4))
+    assert texts(path) == [*ROWS, ("/a", "four", 4.0)]
+
+
+def test_a_bag_is_fixed_if_its_types_are_known(write_bag, tmp_path, capsys):
+    source, target = str(write_bag(ROWS)), str(tmp_path / "fixed.bag")
+    assert main(["bag", "fix", source, target]) == 0
+    assert capsys.readouterr().out == "Bag migrated successfully.\n"
+    assert texts(target) == ROWS
+    assert main(["bag", "fix", source, target, "old.bmr"]) == 2
+    assert "rules of migration are not run" in capsys.readouterr().err
+
+
+def test_a_bag_with_an_old_type_is_not_fixed_without_force(tmp_path, capsys):
+    source, target = tmp_path / "old.bag", tmp_path / "new.bag"
+    old = class_from_text("std_msgs/String", "int32 other\n")
+    with Bag(source, "w") as bag:
+        bag.write("/a", old(other=3), Time(1))
+    assert main(["bag", "fix", str(source), str(target)]) == 1
+    assert "std_msgs/String" in capsys.readouterr().err
+    assert not target.exists()
+    assert main(["bag", "fix", "--force", str(source), str(target)]) == 0
+    with Bag(target) as bag:
+        assert [m.other for _, m, _ in bag] == [3]
