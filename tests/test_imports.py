@@ -48,8 +48,8 @@ STRANGERS = {
 """Rooms that are lower in the order, and yet unknown to a room."""
 
 HEAVY = {"gymnasium", "lxml", "mujoco", "stable_baselines3", "torch", "trimesh"}
-FRONT_DOOR = "gazelle"
-"""The package's ``__init__`` names what all rooms offer, and imports it when it is used."""
+FRONT_DOORS = {"gazelle", "gazelle.__main__"}
+"""``__init__`` names what all rooms offer, and imports it when it is used; the other runs."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def faults(found):
 def fault(each):
     """Why an import is wrong, or an empty text."""
     here, there = room(each.module), room(each.target)
-    if each.module == FRONT_DOOR or there is None or here == there:
+    if each.module in FRONT_DOORS or there is None or here == there:
         return ""
     if here is None:
         # Errors say where in a file they are, with description's Source.
