@@ -28,6 +28,31 @@ def _rotate_one(q: Floats, v: Floats) -> Floats:
     return turned.reshape((1,) * (max(q.ndim, v.ndim) - 1) + (3,))
 
 
+def turns(q: Floats) -> Floats:
+    """Matrices, shape (n, 3, 3), by which rows of vectors are multiplied to turn them.
+
+    ``v @ turns(q)[i]`` are the vectors v, shape (m, 3), turned by the unit quaternion q[i].
+    """
+    products = q[:, :, None] * q[:, None, :]
+    # A product for each world alone: one for all would round differently with their number.
+    return (products.reshape(-1, 1, 16) @ _FROM_PRODUCTS).reshape(-1, 3, 3)
+
+
+def _from_products() -> Floats:
+    """How the products of (x, y, z, w) make up the transposed rotation matrix, shape (16, 9)."""
+    weights = np.zeros((4, 4, 3, 3))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        weights[i, i, i, i] = weights[3, 3, i, i] = 1.0
+        weights[j, j, i, i] = weights[k, k, i, i] = -1.0
+        weights[i, j, i, j] = weights[i, j, j, i] = 2.0
+        weights[3, k, i, j], weights[3, k, j, i] = 2.0, -2.0
+    return weights.reshape(16, 9)
+
+
+_FROM_PRODUCTS = _from_products()
+
+
 def multiply(a: Floats, b: Floats) -> Floats:
     """Hamilton products of quaternions (x, y, z, w), shape (..., 4): first b, then a."""
     av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]

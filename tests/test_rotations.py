@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from gazelle.rotations import rotate
+from gazelle.rotations import rotate, turns
 
 numbers = st.floats(-10.0, 10.0)
 quaternions = arrays(np.float64, 4, elements=numbers).filter(lambda q: np.linalg.norm(q) > 0.1)
@@ -33,3 +33,15 @@ def test_shapes_broadcast_also_for_one_vector():
     q = np.array([[0.0, 0.0, 0.0, 1.0]])
     assert rotate(q[:, None, :], np.ones((1, 1, 3))).shape == (1, 1, 3)
     assert rotate(q[0], np.ones((1, 3))).shape == (1, 3)
+
+
+def test_many_vectors_turn_alike_in_a_world_alone_and_among_others():
+    rng = np.random.default_rng(0)
+    q = rng.normal(size=(300, 4))
+    q /= np.linalg.norm(q, axis=1, keepdims=True)
+    for count in (1, 7, 360):
+        v = rng.normal(size=(count, 3))
+        together = v @ turns(q)
+        np.testing.assert_allclose(together, rotate(q[:, None], v[None]), atol=1e-12)
+        for world in (0, 100, 299):
+            assert np.array_equal((v @ turns(q[world : world + 1]))[0], together[world])

@@ -16,7 +16,7 @@ from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError
-from gazelle.rotations import conjugate, cross, multiply, rotate
+from gazelle.rotations import conjugate, cross, multiply, rotate, turns
 
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
 
@@ -278,9 +278,8 @@ class StateAccess(ABC):
     ) -> Hits:
         """Follow rays to the nearest collision shape; see the protocol."""
         place = self.link_placement(link, worlds)
-        turn = place.quaternion[:, None, :]
-        start = place.position[:, None, :] + rotate(turn, origins[None])
-        along = rotate(turn, directions[None])
+        turn = turns(place.quaternion)
+        start, along = place.position[:, None, :] + origins @ turn, directions @ turn
         distance, _, normal = self._batch.ray(
             start, along, geomgroup=_GROUPS, ids=worlds, normal=True
         )
