@@ -22,6 +22,9 @@ from gazelle.ros.poller import READ, WRITE, Handler, Ready
 __all__ = ["READ", "WRITE", "EventLoop", "Handler", "Timer", "acquire", "give_way", "release"]
 
 
+_MOST_ATTENDED = 4
+
+
 class Timer:
     """Something that runs later, on the leader; `cancel` it from anywhere."""
 
@@ -44,6 +47,8 @@ class EventLoop(Crew):
         self._soon: deque[Task] = deque()
         self._timers: list[tuple[float, int, Timer]] = []
         self._timer_count = 0
+        self.attended = 0
+        """Busy sockets that threads wait for by themselves; see `tcpros.attendant`."""
         self._spawn_leader()
 
     # What any thread may call ------------------------------------------------------------
@@ -96,6 +101,10 @@ class EventLoop(Crew):
         return outcome[1]
 
     # What only handlers may call ---------------------------------------------------------
+
+    def may_attend(self) -> bool:
+        """True if one more thread may wait for one socket alone."""
+        return self.attended < _MOST_ATTENDED and not self._stopping
 
     def watch(self, sock: socket.socket, events: int, handler: Handler) -> None:
         """Call `handler(ready)` whenever `sock` is ready for one of `events`; 0 ends it."""

@@ -25,11 +25,14 @@ PeerHook = Callable[[str], None]
 class LocalLink:
     """A link to a subscription in the same process: messages go over as they are."""
 
+    is_local = True
+
     def __init__(self, publication: Publication, subscription: Subscription) -> None:
         self.publication = publication
         self.subscription = subscription
         self.peer = subscription.node.name
         self.header = publication.reply_header()
+        self.latching = publication.latching
         self.messages = 0
         self.latched: Any = None
         """The last message, if the topic is latched."""

@@ -60,6 +60,21 @@ class Strand:
         if self._idle:
             self._start()
 
+    def handle_all(self, items: list[Any]) -> bool:
+        """Handle items on this thread if nobody is at it, else post them.
+
+        Returns:
+            Whether items are quick to handle.
+        """
+        self.items.extend(items)
+        if self._idle:
+            try:
+                self._idle.pop()
+            except IndexError:
+                return False  # another thread was faster, and will handle them
+            self._run()
+        return self.is_quick()
+
     def runs_here(self) -> bool:
         """True if it is the calling thread that handles an item of this strand."""
         return not self._idle and self._runner == threading.get_ident()
@@ -69,9 +84,10 @@ class Strand:
             self._idle.pop()
         except IndexError:
             return  # another thread was faster
-        self._loop.submit(self._run, quick=self._is_quick())
+        self._loop.submit(self._run, quick=self.is_quick())
 
-    def _is_quick(self) -> bool:
+    def is_quick(self) -> bool:
+        """Whether items are expected to take no time."""
         if self._doubt_until and time.monotonic() > self._doubt_until:
             self._doubt_until = 0.0
         return not self._doubt_until

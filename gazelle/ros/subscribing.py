@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import threading
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.errors import Md5MismatchError, report
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import EventLoop
+from gazelle.ros.messages.base import Message
 from gazelle.ros.publishing import LocalLink, Publication
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.strand import Strand
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from gazelle.ros.node import Node
 
 Callback = Callable[[Any], None]
+Item = tuple[Any, bytes | None, Any]
+"""A link, and what came over it: bytes, or a message of this process."""
 _LOCAL_BACKLOG = 1000
 """Messages a subscriber in the same process may be behind before the oldest are dropped; over
 a network the buffers of the system would hold about as many."""
@@ -40,6 +44,7 @@ class Subscription:
         self.topic = topic
         self.message_class = message_class
         self.limits: Limits = node.limits
+        self._most_behind = node.limits.receive_backlog_bytes
         self.tcp_nodelay = False
         self.queue_size: int | None = None
         self.subscribers: tuple[Subscriber, ...] = ()
@@ -50,14 +55,13 @@ class Subscription:
             self._statistics = None
         self._loop: EventLoop = node.loop
         self._strand = Strand(self._loop, self._deliver, f"callback of {topic}")
-        self._received = 0
-        self._handled = 0
-        self._paused = False
+        self._drops = threading.Lock()
         self.updated = False
         """True when the publishers were told for the first time."""
         self._closed = False
         self._raw = message_class is RawMessage
         self._marks = hasattr(message_class, "_connection_header")
+        self._make = _maker(message_class)
 
     # Publishers come and go; only on the leader --------------------------------------------
 
@@ -155,23 +159,27 @@ class Subscription:
     def disconnected(self, link: InboundLink) -> None:
         """Nothing to do: the link comes back by itself."""
 
-    def receive(self, link: InboundLink, frames: list[bytes]) -> None:
-        """Queue whole messages for the callbacks."""
+    def receive(self, link: InboundLink, frames: list[bytes], *, now: bool) -> bool:
+        """Queue whole messages for the callbacks; see `Receiver`."""
         strand, limit = self._strand, self.queue_size
         if len(frames) == 1:
-            size = len(frames[0])
-            strand.post((link, frames[0], None))
+            link.bytes += len(frames[0])
+            items: list[Item] = [(link, frames[0], None)]
         else:
-            size = sum(map(len, frames))
-            strand.post_all([(link, data, None) for data in frames])
-        link.bytes += size
+            link.bytes += sum(map(len, frames))
+            items = [(link, data, None) for data in frames]
+        if now:
+            quick = strand.handle_all(items)
+        else:
+            strand.post_all(items)
+            quick = strand.is_quick()
         if limit is None:
-            self._received += size
-            if self._received - self._handled > self.limits.receive_backlog_bytes:
-                self._pause()
+            if link.bytes - link.handled - link.lost > self._most_behind:
+                self._pause(link)
         elif limit:
             while len(strand.items) > limit:
                 link.dropped += self._drop_oldest()
+        return quick
 
     def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:
         """Queue a message of a publisher in this process; called by the publishing thread."""
@@ -199,32 +207,38 @@ class Subscription:
 
     def _drop_oldest(self) -> int:
         try:
-            self._strand.items.popleft()
+            link, data, _ = self._strand.items.popleft()
         except IndexError:
             return 0
+        if data is not None and not link.is_local:
+            with self._drops:
+                link.lost += len(data)
         return 1
 
     # Delivering, on a worker ---------------------------------------------------------------
 
-    def _deliver(self, item: tuple[Any, bytes | None, Any]) -> None:
+    def _deliver(self, item: Item) -> None:
         link, data, message = item
         if data is not None:
-            if isinstance(link, InboundLink) and self.queue_size is None:
-                self._handled += len(data)
-                if self._paused:
-                    self._loop.call_soon(self._resume)
+            if not link.is_local:
+                link.handled += len(data)
+                if link.paused:
+                    self._loop.call_soon(functools.partial(self._resume, link))
             if self._closed:
                 return
-            message = self.message_class()
+            message = self._make()
             message.deserialize(data)
         if self._marks:
             message._connection_header = link.header  # noqa: SLF001  # genpy's name
         if self._statistics is not None:
             self._statistics.take(self.topic, link, message, 0 if data is None else len(data))
-        if link.header.get("latching") == "1":
+        if link.latching:
             link.latched = message  # for subscribers that are added later
         for subscriber in self.subscribers:
-            self._call(subscriber, message)
+            try:
+                subscriber.callback(message)
+            except Exception as error:  # noqa: BLE001  # a callback must not end its thread
+                report(f"bad callback of {self.topic}", error)
 
     def _call(self, subscriber: Subscriber, message: Any) -> None:
         try:
@@ -232,23 +246,26 @@ class Subscription:
         except Exception as error:  # noqa: BLE001  # a callback must not end its thread
             report(f"bad callback of {self.topic}", error)
 
-    def _pause(self) -> None:
-        self._paused = True
-        for link in self.links.values():
-            link.pause()
-        # The callbacks may have caught up before the flag was set.
-        self._resume()
+    def _pause(self, link: InboundLink) -> None:
+        link.pause()
+        # The callbacks may have caught up before the link was paused.
+        self._loop.call_soon(functools.partial(self._resume, link))
 
-    def _resume(self) -> None:
-        if self._received - self._handled <= self.limits.receive_backlog_bytes // 2:
-            self._paused = False
-            for link in self.links.values():
-                link.resume()
+    def _resume(self, link: InboundLink) -> None:
+        if link.bytes - link.handled - link.lost <= self._most_behind // 2:
+            link.resume()
 
     @property
     def num_connections(self) -> int:
         """Publishers connected now."""
         return sum(link.up for link in list(self.links.values())) + len(self.local)
+
+
+def _maker(message_class: Any) -> Callable[[], Any]:
+    """What makes a message to be decoded into: our decoders need no defaults to start from."""
+    if issubclass(message_class, Message) and "_spec" in vars(message_class):
+        return functools.partial(object.__new__, message_class)
+    return message_class  # type: ignore[no-any-return]
 
 
 class Subscriber:

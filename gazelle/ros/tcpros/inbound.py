@@ -11,6 +11,7 @@ from gazelle.ros.errors import Md5MismatchError, ProtocolError, RosError, report
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
 from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.attendant import Attendant
 from gazelle.ros.tcpros.frames import FrameReader
 from gazelle.ros.xmlrpc.client import AsyncClient
 
@@ -30,8 +31,17 @@ class Receiver(Protocol):
     def check_header(self, header: dict[str, str]) -> None:
         """Raise RosError if the publisher's header does not fit."""
 
-    def receive(self, link: InboundLink, frames: list[bytes]) -> None:
-        """Take whole messages; may pause the link."""
+    def receive(self, link: InboundLink, frames: list[bytes], *, now: bool) -> bool:
+        """Take whole messages; may pause the link.
+
+        Args:
+            link: Where they came from.
+            frames: The messages.
+            now: Handle them on this thread if possible, which need not be back soon.
+
+        Returns:
+            Whether they are handled in no time.
+        """
 
     def connected(self, link: InboundLink) -> None:
         """The link can carry messages from now on."""
@@ -51,6 +61,8 @@ class InboundLink:
         uri: Of the publishing node.
     """
 
+    is_local = False
+
     def __init__(
         self, loop: EventLoop, calls: AsyncClient, receiver: Receiver, caller: str, uri: str
     ) -> None:
@@ -61,10 +73,15 @@ class InboundLink:
         self.port = 0
         self.closed = False
         self.up = False
+        self.latching = False
         self.messages = 0
         self.latched: Any = None
         """The last message, if the topic is latched."""
         self.bytes = 0
+        self.handled = 0
+        """Bytes of the messages that the callbacks are done with, or busy with."""
+        self.lost = 0
+        """Bytes of the messages that were dropped."""
         self.dropped = 0
         self.number = 0
         """Identity in bus info."""
@@ -77,8 +94,9 @@ class InboundLink:
         self._outgoing = b""
         self._retry_s = _FIRST_RETRY_S
         self._timer: Timer | None = None
-        self._paused = False
+        self.paused = False
         self._complained = ""
+        self._attendant = Attendant(loop, self._attend, self._attended)
 
     def open(self) -> None:
         """Begin: ask the publisher where to connect to."""
@@ -97,15 +115,17 @@ class InboundLink:
 
     def pause(self) -> None:
         """Read no more for now; the publisher will notice when the buffers are full."""
-        if not self._paused and self._sock is not None:
-            self._paused = True
-            self._loop.watch(self._sock, 0, self._ready)
+        if not self.paused and self._sock is not None:
+            self.paused = True
+            if not self._attendant.active:
+                self._loop.watch(self._sock, 0, self._ready)
 
     def resume(self) -> None:
         """Read again."""
-        if self._paused and self._sock is not None:
-            self._paused = False
-            self._loop.watch(self._sock, READ, self._ready)
+        if self.paused and self._sock is not None:
+            self.paused = False
+            if not self._attendant.active:
+                self._loop.watch(self._sock, READ, self._ready)
 
     def _answered(self, value: Any, error: RosError | None) -> None:
         if self.closed or self._sock is not None:
@@ -160,7 +180,7 @@ class InboundLink:
             return
         net.keep_alive(sock)
         self._sock = sock
-        self._paused = False
+        self.paused = False
         self._reader = FrameReader(self._receiver.limits.header_bytes)
         self._outgoing = headers.encode(self._receiver.request_header())
         self._timer = self._loop.call_later(self._receiver.limits.handshake_seconds, self._expire)
@@ -175,15 +195,37 @@ class InboundLink:
                 self._write_header(sock)
             if events & READ:
                 frames = self._reader.read(sock)
-                if not self.up:
+                if frames and not self.up:
                     frames = self._greet(frames)
                 if frames:
                     self.messages += len(frames)
-                    self._receiver.receive(self, frames)
+                    quick = self._receiver.receive(self, frames, now=False)
+                    if self._attendant.is_wanted() and quick and not self.paused:
+                        self._loop.watch(sock, 0, self._ready)
+                        self._attendant.begin(sock)
         except OSError as error:
             self._try_again(ProtocolError(f"the connection to {self.uri} broke: {error}"))
         except RosError as error:
             self._try_again(error)
+
+    def _attend(self) -> bool:
+        """Wait for messages and handle them; runs on a worker while there are many."""
+        sock, reader = self._sock, self._reader
+        if sock is None:
+            return False
+        before = reader.received
+        frames = reader.read(sock)
+        if not frames:
+            return reader.received > before
+        self.messages += len(frames)
+        return self._receiver.receive(self, frames, now=True) and not self.paused
+
+    def _attended(self, error: RosError | None) -> None:
+        """The socket is the event loop's again."""
+        if error is not None:
+            self._try_again(error)
+        elif self._sock is not None and not self.paused:
+            self._loop.watch(self._sock, READ, self._ready)
 
     def _write_header(self, sock: socket.socket) -> None:
         with contextlib.suppress(BlockingIOError):
@@ -194,11 +236,10 @@ class InboundLink:
 
     def _greet(self, frames: list[bytes]) -> list[bytes]:
         """The first frame is the publisher's header."""
-        if not frames:
-            return frames
         header = headers.decode(frames[0])
         self._receiver.check_header(header)
         self.header = header
+        self.latching = headers.flag(header, "latching")
         self.peer = header.get("callerid", self.uri)
         self.up = True
         if self._sock is not None:
@@ -229,10 +270,12 @@ class InboundLink:
         self._retry_s = min(_LAST_RETRY_S, self._retry_s * 2)
 
     def _drop(self) -> None:
-        if self._sock is not None:
-            self._loop.watch(self._sock, 0, self._ready)
-            self._sock.close()
-            self._sock = None
+        sock, self._sock = self._sock, None
+        if sock is not None and self._attendant.active:
+            self._attendant.abandon(sock)
+        elif sock is not None:
+            self._loop.watch(sock, 0, self._ready)
+            sock.close()
         self.latched = None
         if self.up:
             self.up = False
