@@ -11,9 +11,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import sys
+import textwrap
 import warnings
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.errors import Error, FormatWarning, GazelleWarning, describe
@@ -57,17 +60,47 @@ def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
 
 
 def _show(file: str, found: list[Problem]) -> None:
-    """Print the findings about one file."""
-    for each in found:
-        text = describe(each.message, file=each.file, line=each.line, element=each.element)
-        rule = f" [{each.rule}]" if each.rule else ""
-        sys.stdout.write(f"{each.severity}: {text}{rule}\n")
-        for name, more in (("why", each.why), ("hint", each.hint)):
+    """Print the findings about one file: those with one advice together, by their lines."""
+    for key in dict.fromkeys(map(_advice, found)):
+        alike = [each for each in found if _advice(each) == key]
+        for each in sorted(alike, key=lambda each: (each.file or "", each.line or 0)):
+            _write(_line(each), "  ")
+        for name, more in (("why", alike[0].why), ("hint", alike[0].hint)):
             if more:
-                sys.stdout.write(f"  {name}: {more}\n")
+                _write(f"  {name}: {more}", "    ")
     errors = sum(each.severity == "error" for each in found)
     counts = f"{_count(errors, 'error')}, {_count(len(found) - errors, 'warning')}"
     sys.stdout.write(f"{file}: {counts if found else 'ok'}\n")
+
+
+def _advice(each: Problem) -> tuple[str | None, ...]:
+    """What findings that are printed together have in common."""
+    return (each.severity, each.rule, each.why, each.hint)
+
+
+def _line(each: Problem) -> str:
+    """A finding without its reasons; the line says which element it is about, if there is one."""
+    file = None if each.file is None else _near(each.file)
+    element = each.element if each.line is None else None
+    text = describe(each.message, file=file, line=each.line, element=element)
+    return f"{each.severity}: {text}" + (f" [{each.rule}]" if each.rule else "")
+
+
+def _near(file: str) -> str:
+    """The name of a file as seen from here, if it lies below."""
+    path = Path(file)
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
+
+
+def _write(text: str, indent: str) -> None:
+    """Print text, on a screen in lines that fit; in a file or pipe it stays one line."""
+    lines = [text]
+    if sys.stdout.isatty():
+        width = max(40, shutil.get_terminal_size((80, 24)).columns)
+        lines = textwrap.wrap(
+            text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        )
+    sys.stdout.write("\n".join(lines) + "\n")
 
 
 def _build(file: str, engine: str) -> list[Problem]:

@@ -72,7 +72,7 @@ def test_bad_masses_and_unsupported_bodies_are_found(link, rule):
 def test_a_finding_has_place_reason_and_advice():
     finding = judge(world_of(solid(Sphere(0.1), 1.0, 4.0, 4.0, 4.0)))[0]
     assert finding.source == HERE
-    assert "1e+03 times" in finding.message
+    assert "1,000 times" in finding.message
     assert finding.why
     assert "units" in finding.hint
 

@@ -114,7 +114,7 @@ def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[
     if not ratios or (max(ratios) <= _FACTOR and min(ratios) >= 1.0 / _FACTOR):
         return
     worst = max(ratios, key=lambda ratio: abs(math.log(max(ratio, 1e-300))))
-    times = f"{worst:.3g} times" if worst > 1.0 else f"1/{1.0 / max(worst, 1e-300):.3g} of"
+    times = f"{_plain(worst)} times" if worst > 1.0 else f"1/{_plain(1.0 / max(worst, 1e-300))} of"
     yield Finding(
         "inertia-off",
         f"link '{name}': its inertia is {times} that of a solid of its shape and mass "
@@ -124,6 +124,11 @@ def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[
         "check the units (g and mm?) or use the moments named",
         inertial.source,
     )
+
+
+def _plain(factor: float) -> str:
+    """A factor with three digits that count, as people write it: 1,630 and not 1.63e+03."""
+    return f"{float(f'{factor:.3g}'):,.10g}" if factor < 1e9 else f"{factor:.3g}"
 
 
 def _mass_ratios(world: World) -> Iterator[Finding]:
