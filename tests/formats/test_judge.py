@@ -137,6 +137,23 @@ def test_a_lidar_inside_its_own_collision_is_found():
     assert "lidar-inside" not in rules(world_of(covered))  # nearer than the smallest range
 
 
+def test_a_lidar_inside_its_own_mesh_is_found(tmp_path):
+    import trimesh
+
+    trimesh.creation.icosphere(radius=0.3).export(tmp_path / "ball.stl")
+    half = trimesh.creation.icosphere(radius=0.3).slice_plane((0.1, 0, 0), (-1, 0, 0))
+    half.export(tmp_path / "open.stl")
+    for name, expected in {"ball.stl": ["lidar-inside"], "open.stl": []}.items():
+        link = sensing(
+            dataclasses.replace(scenes.lidar(), pose=Pose()), Mesh(name, tmp_path / name)
+        )
+        assert rules(world_of(link)) == expected, name
+    above = sensing(
+        dataclasses.replace(scenes.lidar(), pose=Pose(z=0.4)), Mesh(name, tmp_path / name)
+    )
+    assert rules(world_of(above)) == []
+
+
 def test_sensors_that_can_see_nothing_are_found():
     blind = scenes.lidar(range_min=1.0, range_max=0.5)
     assert "lidar-range" in rules(world_of(sensing(dataclasses.replace(blind, pose=Pose(z=1)))))

@@ -5,19 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from gazelle.description import (
     Box,
     Collision,
     Cylinder,
     Lidar,
     Link,
+    Mesh,
+    Pose,
     Sensor,
     Sphere,
     World,
 )
+from gazelle.errors import Error
 from gazelle.formats.judge.finding import Finding, links_of
 
 _MOST_RAYS = 100_000
+
+# Directions in which a lidar within a mesh is looked for a way out.
+_LOOKS = 12
 
 
 def judge(world: World) -> Iterator[Finding]:
@@ -77,8 +85,11 @@ def _inside(name: str, sensor: Sensor, lidar: Lidar, link: Link) -> Iterator[Fin
 
 def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
     """How far a collision that holds the sensor reaches from it, level; None if outside."""
-    x, y, z = (collision.pose.inverse() * sensor.pose).position
+    place = collision.pose.inverse() * sensor.pose
+    x, y, z = place.position
     shape = collision.geometry
+    if isinstance(shape, Mesh):
+        return _reach_in_mesh(shape, place)
     if isinstance(shape, Box):
         half = tuple(side / 2.0 for side in shape.size)
         if all(abs(p) < h for p, h in zip((x, y, z), half, strict=True)):
@@ -91,6 +102,28 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
         if distance < shape.radius:
             return shape.radius - distance
     return None
+
+
+def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
+    """How far the mesh around a sensor reaches, level; None where it is open to a side."""
+    from gazelle.formats.mesh import load_mesh
+    from gazelle.formats.surface import clean, first_hits
+
+    if shape.path is None:
+        return None
+    try:
+        data = load_mesh(shape)
+    except Error:
+        return None  # reported by the reader of the mesh
+    low, high = data.bounds
+    if not ((low < place.position) & (place.position < high)).all():
+        return None
+    angles = np.arange(_LOOKS) * 2.0 * np.pi / _LOOKS
+    level = np.stack([np.cos(angles), np.sin(angles), np.zeros(_LOOKS)], axis=1)
+    directions = level @ place.matrix()[:3, :3].T
+    origins = np.tile(place.position, (_LOOKS, 1))
+    farthest = float(first_hits(clean(data.vertices, data.faces), origins, directions).max())
+    return farthest if math.isfinite(farthest) else None
 
 
 def _cameras(name: str, sensor: Sensor) -> Iterator[Finding]:
