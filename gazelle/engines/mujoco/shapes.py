@@ -35,6 +35,10 @@ _ELEVATION_FILES = {".asc", ".dem", ".hgt"}
 _GROUND = 1.0
 """Depth of the ground below the lowest point of a heightmap [m]."""
 _THIN = 1e-6
+_FLAT = 1e-3
+"""Thickness over length below which a mesh counts as a sheet."""
+_TINY = 2e-3
+"""Length below which MuJoCo finds the volume of a mesh too small [m]."""
 
 
 @dataclass(slots=True)
@@ -57,7 +61,7 @@ class ShapeBuilder:
                 name=name,
                 uservert=np.asarray(vertices, dtype=np.float64).ravel(),
                 userface=np.asarray(faces, dtype=np.int32).ravel(),
-                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX,
+                inertia=_inertia_of(np.asarray(vertices, dtype=np.float64)),
             )
             self.meshes[key] = name
         return {
@@ -65,6 +69,14 @@ class ShapeBuilder:
             "meshname": self.meshes[key],
             **_placed(pose),
         }
+
+
+def _inertia_of(vertices: Any) -> mujoco.mjtMeshInertia:
+    """How MuJoCo may find the frame of a mesh: one as thin as a sheet has no volume to go by."""
+    spans = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
+    flat = spans[-1] < _FLAT * spans[0] or np.ptp(vertices, axis=0).max() < _TINY
+    kinds = mujoco.mjtMeshInertia
+    return kinds.mjMESH_INERTIA_SHELL if flat else kinds.mjMESH_INERTIA_CONVEX
 
 
 def _placed(pose: Pose) -> dict[str, Any]:
