@@ -351,6 +351,8 @@ class Engine(Protocol):
         origins: Floats,
         directions: Floats,
         worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,
     ) -> Hits:
         """Follow rays to the nearest collision shape.
 
@@ -359,6 +361,7 @@ class Engine(Protocol):
             origins: In the link frame [m], shape (rays, 3).
             directions: Unit vectors in the link frame, shape (rays, 3).
             worlds: Which worlds.
+            ignore_own: Whether rays pass through the shapes of the link, if it can move.
         """
 
     def spawn(self, model: Model) -> None:

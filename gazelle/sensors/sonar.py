@@ -101,7 +101,8 @@ class SonarReading:
 class SonarModel(NoisySensor):
     """Measures one sonar in every world.
 
-    As in Gazebo, the cone has its tip at the sensor and opens along the sensor's -z axis.
+    As in Gazebo, the cone has its tip at the sensor, opens along the sensor's -z axis, and
+    does not see the link that it is on.
     It is followed by a bundle of rays that start at ``range_min``, so things thinner than
     the space between two rays can be missed; the bundle is closest near the middle.
 
@@ -132,7 +133,9 @@ class SonarModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        hits = self._engine.cast_rays(self._link, self._origins, self._directions, worlds)
+        hits = self._engine.cast_rays(
+            self._link, self._origins, self._directions, worlds, ignore_own=True
+        )
         low, high = self.settings.range_min, self.settings.range_max
         nearest = np.where(hits.from_inside, 0.0, hits.distance).min(axis=1, keepdims=True) + low
         return np.clip(self.noisy(np.minimum(nearest, high), interval, worlds), low, high)

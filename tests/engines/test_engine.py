@@ -233,7 +233,7 @@ def test_an_infinite_state_is_an_error_that_names_the_world():
     state = engine.snapshot()
     state[1, 8:] = np.nan
     engine.restore(state)
-    with pytest.raises(EngineError, match=r"1 of 2 worlds became infinite \(first: world 1\)"):
+    with pytest.raises(EngineError, match=r"1 of 2 worlds became infinite \(first: world 1, where"):
         engine.step(3)
 
 

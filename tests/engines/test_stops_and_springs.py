@@ -150,3 +150,10 @@ def test_worlds_with_masses_of_their_own_sink_by_their_own_weight_over_kp():
     engine.step(4000)
     depth = 0.1 - engine.link_placement("ball::link").position[:, 2]
     np.testing.assert_allclose(depth, np.array([2.0, 5.0]) * 9.8 / 2000.0, rtol=0.05)
+
+
+def test_a_joint_that_is_locked_by_equal_limits_does_not_move():
+    engine = wheel(lower=0.2, upper=0.2)
+    engine.set_joint_effort("m::j", 0.5)
+    engine.step(1000)
+    assert angle(engine)[0] == pytest.approx(0.2, abs=2e-3)

@@ -43,6 +43,13 @@ def test_nothing_is_the_largest_range_and_too_near_the_smallest():
     assert sonar_on(near, pose=AHEAD).measure()[0, 0] == pytest.approx(0.1)
 
 
+def test_it_does_not_see_the_link_that_it_is_on():
+    world = scenes.world(scenes.ground(), scenes.box(size=(0.4, 0.4, 0.4), pose=Pose(z=1.0)))
+    engine = make_engine("mujoco", world)
+    model = SonarModel(Sonar("cone", 0.0, 4.0, 0.5), engine, "box::link", DOWN, 0, "s")
+    assert model.measure()[0, 0] == pytest.approx(1.0, abs=1e-6)
+
+
 def test_a_sphere_looks_everywhere():
     above = scenes.box("above", size=(1.0, 1.0, 0.2), pose=Pose(z=2.6), static=True)
     model = sonar_on(above, settings=Sonar("sphere", 0.1, 4.0, 0.5))

@@ -274,14 +274,21 @@ class StateAccess(ABC):
     # -- sensing -----------------------------------------------------------------------
 
     def cast_rays(
-        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
+        self,
+        link: str,
+        origins: Floats,
+        directions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,
     ) -> Hits:
         """Follow rays to the nearest collision shape; see the protocol."""
         place = self.link_placement(link, worlds)
         turn = turns(place.quaternion)
         start, along = place.position[:, None, :] + origins @ turn, directions @ turn
+        own = self._layout.link(link).body if ignore_own else 0
         distance, _, normal = self._batch.ray(
-            start, along, geomgroup=_GROUPS, ids=worlds, normal=True
+            start, along, geomgroup=_GROUPS, bodyexclude=own or -1, ids=worlds, normal=True
         )
         from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
         return Hits(np.where(distance < 0.0, np.inf, distance), from_inside)

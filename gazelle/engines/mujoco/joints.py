@@ -24,6 +24,8 @@ _BALL = mujoco.mjtJoint.mjJNT_BALL
 # Limit stops must not ring: MuJoCo's time constant of a limit, in physics steps.
 LIMIT_STEPS = 5.0
 
+_PLAY = 1e-6  # [m or rad]
+
 
 def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
     """Let a MuJoCo body move in its parent as the joint says.
@@ -124,7 +126,9 @@ def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, 
     }
     if joint.type != "continuous" and (math.isfinite(axis.lower) or math.isfinite(axis.upper)):
         options["limited"] = mujoco.mjtLimited.mjLIMITED_TRUE
-        options["range"] = [max(axis.lower, -1e10), min(axis.upper, 1e10)]
+        # A joint that is locked by equal limits keeps a play that MuJoCo asks for.
+        play = _PLAY if axis.upper - axis.lower < _PLAY else 0.0
+        options["range"] = [max(axis.lower, -1e10) - play, min(axis.upper, 1e10) + play]
         options["solref_limit"] = [LIMIT_STEPS * time_step, 1.0]
     return options
 

@@ -197,7 +197,13 @@ class PlanarAccess(ABC):
     # -- sensing -----------------------------------------------------------------------
 
     def cast_rays(
-        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
+        self,
+        link: str,
+        origins: Floats,
+        directions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,  # noqa: ARG002  rays never meet their own model
     ) -> Hits:
         """Follow level rays to the nearest collision shape of another model."""
         key = (link, origins.tobytes(), directions.tobytes())
