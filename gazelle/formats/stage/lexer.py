@@ -10,6 +10,7 @@ import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from enum import IntEnum
+from sys import intern
 from typing import NamedTuple
 
 from gazelle.description import Source
@@ -91,7 +92,8 @@ def tokenize(script: Script) -> list[Token]:
         FormatError: There is a character that no token begins with.
     """
     found = [
-        Token(kind, match[kind], match.start())
+        # words come again and again, and are looked up in dictionaries
+        Token(kind, intern(match[kind]) if kind == Kind.WORD else match[kind], match.start())
         for match in _TOKEN.finditer(script.text)
         if (kind := match.lastindex)
     ]

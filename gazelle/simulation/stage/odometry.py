@@ -25,6 +25,8 @@ class Odometry:
 
     Attributes:
         used: Whether each robot's localization is ``odom``, shape (nrobot,).
+        pose: Where they believe they are, shape (nworld, nrobot, 3); without robots if none
+            uses it.
     """
 
     def __init__(self, robots: list[StageRobot], nworld: int, seed: int) -> None:
@@ -32,6 +34,8 @@ class Odometry:
         self.used = np.array([p.localization == "odom" for p in positions], np.bool_)
         errors = np.array([(p.odom_error[0], p.odom_error[1], p.odom_error[3]) for p in positions])
         self._limits: Floats = errors.reshape(-1, 3)
+        if not self.needed:  # for tens of thousands of robots it would be something
+            robots, self._limits = [], np.zeros((0, 3))
         self._first = np.array([_start_of(robot) for robot in robots]).reshape(-1, 3)
         self._stream = Stream(seed, "odometry", nworld)
         self.pose = np.tile(self._first, (nworld, 1, 1))
@@ -66,7 +70,8 @@ class Odometry:
 
     def _draw(self, worlds: Worlds | None) -> None:
         rows = slice(None) if worlds is None else worlds
-        numbers = self._stream.uniform(self._limits.size, worlds).reshape(-1, *self._limits.shape)
+        drawn = self._stream.uniform(self._limits.size, worlds)
+        numbers = drawn.reshape(len(drawn), *self._limits.shape)
         self.share[rows] = (numbers - 0.5) * self._limits
 
 
