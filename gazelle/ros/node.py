@@ -35,6 +35,7 @@ from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 if TYPE_CHECKING:
     from gazelle.ros.clock import Clock
+    from gazelle.ros.services import ServiceServer
 
 _REQUIRED: Any = object()
 _neighbours: dict[str, Node] = {}
@@ -245,6 +246,14 @@ class Node(TopicUser, ServiceUser):
         """The node of this process at that URI."""
         node = _neighbours.get(uri)
         return None if node is None or node.closed else node
+
+    @staticmethod
+    def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
+        """The service of that name, if a node of this process offers it there."""
+        for node in list(_neighbours.values()):
+            if node.tcpros_port == port and node.host == host and not node.closed:
+                return node.service(name)
+        return None
 
     def _lost(self, uri: str) -> None:
         """A connection to a peer closed while nothing was asked."""

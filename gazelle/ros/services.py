@@ -17,6 +17,7 @@ from gazelle.ros.errors import (
     NodeClosedError,
     RosTimeoutError,
     ServiceError,
+    ServiceFailedError,
     ServiceNotFoundError,
     UnreachableError,
     report,
@@ -69,6 +70,24 @@ class ServiceServer:
             self._closed = True
             self.node.unserve(self)
 
+    @property
+    def closed(self) -> bool:
+        """True when the service is offered no longer."""
+        return self._closed or self.node.closed
+
+    def check(self, fields: Mapping[str, str]) -> None:
+        """Judge the header of a client.
+
+        Raises:
+            Md5MismatchError: It wants another type.
+        """
+        mine, theirs = self.service_class._md5sum, fields["md5sum"]  # noqa: SLF001  # genpy's name
+        if theirs not in {headers.ANY, mine}:
+            raise Md5MismatchError(
+                f"request from [{fields['callerid']}]: md5sums do not match: "
+                f"[{theirs}] vs. [{mine}]"
+            )
+
     # Connections; only on the leader -------------------------------------------------------
 
     def adopt(self, sock: socket.socket, fields: dict[str, str], rest: bytes) -> None:
@@ -77,12 +96,7 @@ class ServiceServer:
         Raises:
             Md5MismatchError: It wants another type.
         """
-        mine, theirs = self.service_class._md5sum, fields["md5sum"]  # noqa: SLF001  # genpy's names
-        if theirs not in {headers.ANY, mine}:
-            raise Md5MismatchError(
-                f"request from [{fields['callerid']}]: md5sums do not match: "
-                f"[{theirs}] vs. [{mine}]"
-            )
+        self.check(fields)
         net.ignore_delay(sock)
         connection = ServiceConnection(
             self.node.loop, sock, fields, self.answer, self.node.limits, self._forget
@@ -90,7 +104,7 @@ class ServiceServer:
         self._connections.add(connection)
         reply = {
             "callerid": self.node.name,
-            "md5sum": mine,
+            "md5sum": self.service_class._md5sum,  # noqa: SLF001  # genpy's name
             "service": self.name,
             "type": self.service_class._type,  # noqa: SLF001
         }
@@ -175,8 +189,8 @@ class ServiceClient:
         self.persistent = persistent
         self.fields: dict[str, str] = {}
         """More fields for the connection header."""
-        self._channel: ServiceChannel | None = None
-        self._lock = threading.Lock()
+        self._channel: ServiceChannel | NearChannel | None = None
+        self._lock = threading.RLock()
         self._closed = False
 
     def call(self, request: Any, timeout: float | None = None) -> Any:
@@ -197,7 +211,6 @@ class ServiceClient:
             raise NodeClosedError(f"the client of {self.name} is closed")
         deadline = None if timeout is None else time.monotonic() + timeout
         data = frame(request)
-        give_way()
         if self.persistent:
             with self._lock:
                 body = self._call_persistent(data, deadline)
@@ -221,6 +234,10 @@ class ServiceClient:
 
     def _call_persistent(self, data: bytes, deadline: float | None) -> bytes:
         channel = self._channel
+        if isinstance(channel, ServiceChannel):
+            give_way()
+        elif deadline is not None:
+            channel = None  # a handler on this thread cannot be left behind
         if channel is not None and channel.is_stale():
             channel.close()
             channel = self._channel = None
@@ -239,7 +256,8 @@ class ServiceClient:
                 self._channel = None
         return body
 
-    def _connect(self, deadline: float | None) -> ServiceChannel:
+    def _connect(self, deadline: float | None) -> ServiceChannel | NearChannel:
+        give_way()
         host, port = find_service(self.node, self.name)
         fields = {
             "callerid": self.node.name,
@@ -250,7 +268,48 @@ class ServiceClient:
         }
         if self.persistent:
             fields["persistent"] = "1"
+        # Who sets a limit of time may have to leave the handler behind, on a thread of its own.
+        server = self.node.neighbour_service(host, port, self.name) if deadline is None else None
+        if server is not None:
+            return NearChannel(server, fields)
         return ServiceChannel(host, port, fields, self.node.limits, deadline)
+
+
+class NearChannel:
+    """A way to a service of this process: the calling thread runs the handler itself.
+
+    Request and response are serialised all the same, so that the two sides share nothing and
+    wrong types are found. What the handler does is as if it ran elsewhere: the caller waits.
+
+    Raises:
+        ServiceError: The types differ.
+    """
+
+    def __init__(self, server: ServiceServer, fields: dict[str, str]) -> None:
+        self._server = server
+        self._fields = fields
+        try:
+            server.check(fields)
+        except Md5MismatchError as error:
+            raise ServiceError(f"unable to connect to service: {error.message}") from None
+
+    def is_stale(self) -> bool:
+        """True if the service is offered no longer."""
+        return self._server.closed
+
+    def call(self, request: bytes, _deadline: float | None) -> bytes:
+        """Have a framed request handled; returns the body of the response.
+
+        Raises:
+            ServiceFailedError: The handler failed.
+        """
+        answer = self._server.answer(request[4:], self._fields)
+        if answer[0] != 1:
+            raise ServiceFailedError(answer[5:].decode(errors="replace"))
+        return answer[5:]
+
+    def close(self) -> None:
+        """Nothing to close."""
 
 
 def find_service(node: Node, name: str) -> tuple[str, int]:

@@ -72,6 +72,10 @@ class ServiceUser(NodeBase):
         """All services this node offers."""
         return list(self._services.values())
 
+    def service(self, name: str) -> ServiceServer | None:
+        """The service of that name."""
+        return self._services.get(name)
+
     def unserve(self, server: ServiceServer) -> None:
         """A service is closed."""
         with self._lock:

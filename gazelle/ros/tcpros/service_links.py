@@ -10,6 +10,7 @@ from collections.abc import Callable
 from gazelle.ros import net
 from gazelle.ros.errors import (
     ProtocolError,
+    RosError,
     RosTimeoutError,
     ServiceError,
     ServiceFailedError,
@@ -18,11 +19,13 @@ from gazelle.ros.limits import Limits
 from gazelle.ros.loop import READ, EventLoop
 from gazelle.ros.strand import Strand
 from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.attendant import Attendant
 from gazelle.ros.tcpros.frames import LENGTH, FrameReader
-from gazelle.ros.tcpros.outbound import wait_writable
+from gazelle.ros.tcpros.outbound import AT_ONCE, wait_writable
 
 _MOST_WAITING = 1000
 _SEND_PATIENCE_S = 30.0
+_FLAGS = AT_ONCE or 0
 _LINGER_S = 0.1
 """A roscpp client loses an answer now and then if the connection ends right behind it; clients end
 theirs when they have the answer, and this is how long they are given for that."""
@@ -62,6 +65,7 @@ class ServiceConnection:
         self._strand = Strand(loop, self._work, f"service call of {self.peer}")
         self._closed = False
         self._working = False
+        self._attendant = Attendant(loop, self._attend, self._attended)
 
     def start(self, reply: bytes, rest: bytes) -> None:
         """Send the header and take requests. Only for the leader."""
@@ -79,8 +83,11 @@ class ServiceConnection:
         if self._closed:
             return
         self._closed = True
-        self._loop.watch(self._sock, 0, self._ready)
         self._on_close(self)
+        if self._attendant.active:
+            self._attendant.abandon(self._sock)
+            return
+        self._loop.watch(self._sock, 0, self._ready)
         if not self._working:
             self._sock.close()
         else:  # the worker closes it; end its waiting
@@ -92,6 +99,25 @@ class ServiceConnection:
             self._take(self._reader.read(self._sock))
         except (OSError, ProtocolError):
             self.close()
+            return
+        if self._persistent and self._attendant.is_wanted() and not self._closed:
+            self._loop.watch(self._sock, 0, self._ready)
+            self._attendant.begin(self._sock)
+
+    def _attend(self) -> bool:
+        """Wait for requests and answer them; runs on a worker while there are many."""
+        before = self._reader.received
+        requests = self._reader.read(self._sock)
+        if requests:
+            self._strand.handle_all(requests)
+        return self._reader.received > before
+
+    def _attended(self, error: RosError | None) -> None:
+        """The socket is the event loop's again."""
+        if error is not None:
+            self.close()
+        elif not self._closed:
+            self._loop.watch(self._sock, READ, self._ready)
 
     def _take(self, requests: list[bytes]) -> None:
         if not requests:
@@ -125,7 +151,7 @@ class ServiceConnection:
 
     def _send(self, data: bytes) -> None:
         try:
-            sent = self._sock.send(data)
+            sent = self._sock.send(data, _FLAGS)
         except (BlockingIOError, InterruptedError):
             sent = 0
         except OSError:
@@ -140,7 +166,7 @@ class ServiceConnection:
         try:
             while rest and not self._closed:
                 try:
-                    rest = rest[self._sock.send(rest) :]
+                    rest = rest[self._sock.send(rest, _FLAGS) :]
                 except (BlockingIOError, InterruptedError):
                     if time.monotonic() > deadline:
                         raise ConnectionError("the client does not take its answer") from None
