@@ -53,6 +53,11 @@ def _check_size(picture: Image, path: Path) -> None:
 
 def _pixels(picture: Image) -> Bytes:
     mode = picture.mode
+    if mode == "F":
+        raise FormatError(
+            "a picture of elevations, with fractions, cannot be read",
+            hint="save it as a grey PNG; <size> says how high white is",
+        )
     if mode.startswith("I"):
         deep: NDArray[np.int64] = np.asarray(picture).astype(np.int64)
         grey: Bytes = np.clip(deep >> 8, 0, 255).astype(np.uint8)

@@ -87,4 +87,5 @@ def _pixels(shape: Heightmap | Image) -> Bytes:
         raise FormatError(
             f"the {kind} '{shape.path}' cannot be used: {error.message}",
             source=shape.source or Source(str(shape.path)),
+            hint=error.hint,
         ) from error

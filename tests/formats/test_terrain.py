@@ -65,3 +65,11 @@ def test_pictures_that_cannot_be_used_name_the_place(tmp_path, shape):
         with pytest.raises(FormatError) as caught:
             load(shape("p.png", path, source=source))
         assert (caught.value.file, caught.value.line) == ("w.world", 7)
+
+
+def test_elevation_models_are_refused_with_advice(tmp_path):
+    file = tmp_path / "dem.tif"
+    Picture.fromarray(np.full((3, 3), 812.5, np.float32)).save(file)
+    with pytest.raises(FormatError, match="elevations") as caught:
+        load_heights(Heightmap("dem.tif", file))
+    assert "grey PNG" in caught.value.hint
