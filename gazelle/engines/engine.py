@@ -361,7 +361,7 @@ class Engine(Protocol):
             origins: In the link frame [m], shape (rays, 3).
             directions: Unit vectors in the link frame, shape (rays, 3).
             worlds: Which worlds.
-            ignore_own: Whether rays pass through the shapes of the link, if it can move.
+            ignore_own: Whether rays pass through the shapes of the link.
         """
 
     def spawn(self, model: Model) -> None:

@@ -43,8 +43,10 @@ def test_nothing_is_the_largest_range_and_too_near_the_smallest():
     assert sonar_on(near, pose=AHEAD).measure()[0, 0] == pytest.approx(0.1)
 
 
-def test_it_does_not_see_the_link_that_it_is_on():
-    world = scenes.world(scenes.ground(), scenes.box(size=(0.4, 0.4, 0.4), pose=Pose(z=1.0)))
+@pytest.mark.parametrize("static", [False, True])
+def test_it_does_not_see_the_link_that_it_is_on(static):
+    carrier = scenes.box(size=(0.4, 0.4, 0.4), pose=Pose(z=1.0), static=static)
+    world = scenes.world(scenes.ground(), carrier)
     engine = make_engine("mujoco", world)
     model = SonarModel(Sonar("cone", 0.0, 4.0, 0.5), engine, "box::link", DOWN, 0, "s")
     assert model.measure()[0, 0] == pytest.approx(1.0, abs=1e-6)

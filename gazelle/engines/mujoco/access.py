@@ -11,16 +11,14 @@ from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
-from gazelle.engines.mujoco.compiler import COLLISION_GROUP
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
+from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate, turns
 
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
-
-_GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
 
 
 class StateAccess(ABC):
@@ -286,12 +284,17 @@ class StateAccess(ABC):
         place = self.link_placement(link, worlds)
         turn = turns(place.quaternion)
         start, along = place.position[:, None, :] + origins @ turn, directions @ turn
-        own = self._layout.link(link).body if ignore_own else 0
-        distance, _, normal = self._batch.ray(
-            start, along, geomgroup=_GROUPS, bodyexclude=own or -1, ids=worlds, normal=True
-        )
-        from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
-        return Hits(np.where(distance < 0.0, np.inf, distance), from_inside)
+        body = self._layout.link(link).body if ignore_own else 0
+        if ignore_own and not body:
+            inside = f"{link}::"
+            own = [
+                geom
+                for name, geoms in self._layout.collisions.items()
+                if name.startswith(inside)
+                for geom in geoms
+            ]
+            return behind(self._batch, start, along, worlds, own)
+        return nearest(self._batch, start, along, worlds, body)[0]
 
     def _refresh(self) -> None:
         """Compute the placement and motion of links that are not roots."""

@@ -1,0 +1,54 @@
+"""Rays that may pass through shapes of the link that they start from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from gazelle.engines.engine import Floats, Hits, Worlds
+from gazelle.engines.mujoco.compiler import COLLISION_GROUP
+
+_GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
+
+# How far behind a surface that is passed through a ray goes on [m].
+_BEHIND = 1e-6
+_MOST_PASSED = 8
+
+
+def nearest(
+    batch: Batch, start: Floats, along: Floats, worlds: Worlds | None, excluded: int = 0
+) -> tuple[Hits, NDArray[np.int32]]:
+    """What rays meet first, and which geom it is (-1 for nothing).
+
+    Args:
+        batch: The worlds.
+        start: In the world frame [m], shape (n, rays, 3).
+        along: Unit vectors, shape (n, rays, 3).
+        worlds: Which worlds.
+        excluded: A body that rays pass through; the world's, 0, for none.
+    """
+    distance, geom, normal = batch.ray(
+        start, along, geomgroup=_GROUPS, bodyexclude=excluded or -1, ids=worlds, normal=True
+    )
+    from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
+    return Hits(np.where(distance < 0.0, np.inf, distance), from_inside), geom
+
+
+def behind(
+    batch: Batch, start: Floats, along: Floats, worlds: Worlds | None, own: Sequence[int]
+) -> Hits:
+    """What rays meet first that is none of some geoms of the world's body.
+
+    MuJoCo passes through whole bodies only. Rays that meet one of these go on behind it.
+    """
+    passed = np.zeros(along.shape[:2])
+    for _ in range(_MOST_PASSED):
+        hits, geom = nearest(batch, start + passed[..., None] * along, along, worlds)
+        met = np.isin(geom, own)
+        if not met.any():
+            break
+        passed = np.where(met, passed + hits.distance + _BEHIND, passed)
+    return Hits(passed + hits.distance, hits.from_inside)
