@@ -64,6 +64,8 @@ def _run(options: argparse.Namespace, scratch: Path) -> int:
         environment = _prepare(stack, found, scratch / name)
         for suite in _chosen(options, stack):
             if suite.package in found:
+                for program in suite.programs:
+                    sources.build(scratch / name / "packages" / suite.package / program)
                 good &= _suite(suite, stack, environment, scratch / name, options.log)
             else:
                 print(f"| {suite.name} | {name} | - | - | {suite.reference} | | no sources |")

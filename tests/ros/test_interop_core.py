@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 import signal
 import time
 
 import pytest
 from ros import real
-from ros.graph import Flag, FlagResponse, Text, until
+from ros.graph import Flag, FlagResponse, Text, Word, until
 
 from gazelle.ros import Master, MasterProxy, Node
 from gazelle.ros.errors import ServiceFailedError
@@ -195,6 +196,19 @@ rospy.spin()
             assert node.clock.sleep(50 * 10**9)
             assert 150 * 10**9 <= node.clock.now() <= 200 * 10**9
             assert time.monotonic() - begin < 20
+
+
+def test_a_real_publisher_of_another_type_is_named(graph, node, caplog):
+    publish = 'rospy.Publisher("chatter", String, queue_size=1); say("ready"); rospy.spin()'
+    with real.RealNode(graph, f'rospy.init_node("real_talker"); {publish}') as talker:
+        talker.expect("ready")
+        with caplog.at_level(logging.ERROR):
+            subscriber = node.subscribe("chatter", Word, lambda message: None)
+            until(lambda: "/chatter" in caplog.text)
+        assert subscriber.num_connections == 0
+        time.sleep(0.5)
+        refusals = [each for each in caplog.messages if "refused" in each]
+        assert len(refusals) == 1, refusals
 
 
 def test_our_node_registers_again_with_a_restarted_roscore():

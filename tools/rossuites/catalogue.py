@@ -16,6 +16,7 @@ class Suite:
             (1.15.15) passes. Launch files go through rostest; Python files are run as they are.
         quick: Whether it is among those that CI runs.
         uses: Which parts it exercises; a stack that replaces none of them does not run it.
+        programs: C++ sources in the package that its tests start as nodes.
         less: For a stack, how many fewer pass there, and the reason.
     """
 
@@ -24,6 +25,7 @@ class Suite:
     files: dict[str, int]
     quick: bool = False
     uses: frozenset[str] = frozenset({"master", "clients"})
+    programs: tuple[str, ...] = ()
     less: dict[str, tuple[int, str]] = field(default_factory=dict)
 
     @property
@@ -90,11 +92,12 @@ SUITES = (
         "test_rosbag",
         {
             "test/latched_pub.test": 1,
-            "test/record_one_publisher_two_topics.test": 0,  # its publisher is a C++ program
+            "test/record_one_publisher_two_topics.test": 1,
             "test/record_sigint_cleanup.test": 1,
             "test/record_sigterm_cleanup.test": 1,
             "test/record_two_publishers.test": 1,
         },
+        programs=("test/double_pub.cpp",),
     ),
     Suite(
         "actionlib",

@@ -71,6 +71,10 @@ def packages(folder: Path) -> dict[str, Path]:
     return found
 
 
+_OWN_NODES = "rostest"
+"""A package whose nodes its tests start by name; those of the installed one would be found first."""
+
+
 def overlay(found: dict[str, Path], names: Iterable[str], folder: Path, python: Path) -> None:
     """Make a folder with copies of some packages, whose scripts run with a given Python.
 
@@ -82,9 +86,35 @@ def overlay(found: dict[str, Path], names: Iterable[str], folder: Path, python: 
     for name in sorted(set(names)):
         if name in found:
             shutil.copytree(found[name], folder / name)
+    if _OWN_NODES in found:
+        _copy_as(found[_OWN_NODES], folder, f"{_OWN_NODES}_copy")
     for file in folder.rglob("*"):
         if file.is_file():
             _use_python(file, python)
+
+
+def build(source: Path) -> None:
+    """Compile a node of one source file with roscpp, beside its source.
+
+    Raises:
+        subprocess.CalledProcessError: There is no compiler or no roscpp, or they refuse it.
+    """
+    question = ["pkg-config", "--cflags", "--libs", "roscpp"]
+    flags = subprocess.run(question, check=True, capture_output=True, text=True).stdout.split()
+    command = ["g++", "-std=c++17", str(source), "-o", str(source.with_suffix("")), *flags]
+    subprocess.run(command, check=True, timeout=300)
+
+
+def _copy_as(package: Path, folder: Path, name: str) -> None:
+    """Copy a package under another name, and let the other packages' tests start its nodes."""
+    shutil.copytree(package, folder / name)
+    _replace(folder / name / "package.xml", f"<name>{package.name}<", f"<name>{name}<")
+    for file in (*folder.glob("*/test/*.test"), *folder.glob("*/test/*.launch")):
+        _replace(file, f'pkg="{package.name}"', f'pkg="{name}"')
+
+
+def _replace(file: Path, old: str, new: str) -> None:
+    file.write_text(file.read_text().replace(old, new))
 
 
 def _use_python(script: Path, python: Path) -> None:

@@ -57,10 +57,14 @@ def check_publisher(fields: Mapping[str, str], topic: str, md5sum: str, kind: st
 
     Raises:
         ProtocolError: The publisher refused, or left out what it must tell.
-        Md5MismatchError: It publishes another type.
+        Md5MismatchError: It publishes another type, as it says or as we see.
     """
     if "error" in fields:
-        raise ProtocolError(f"the publisher of {topic} refused: {fields['error']}")
+        refusal = fields["error"]
+        # The words of roscpp, and those of rospy.
+        types_differ = "md5sum" in refusal or "types do not match" in refusal
+        kind_of_error = Md5MismatchError if types_differ else ProtocolError
+        raise kind_of_error(f"the publisher of {topic} refused: {refusal}")
     require(fields, "md5sum", "type")
     if ANY not in {md5sum, fields["md5sum"]} and fields["md5sum"] != md5sum:
         raise Md5MismatchError(
