@@ -28,6 +28,7 @@ _OF_SOLVER = {
     "iterations": "iters",
     "precon_iterations": "precon_iters",
     "sor": "sor",
+    "friction_model": "friction_model",
     "erp": "erp",
     "cfm": "cfm",
     "contact_surface_layer": "contact_surface_layer",
@@ -35,20 +36,24 @@ _OF_SOLVER = {
 }
 _NAMES = (*_OF_WORLD, *_OF_PROFILE, *_OF_SOLVER)
 
-# What the engine has no use for: it is kept and reported. Contacts have the stiffness that
-# their surfaces ask for, whatever ODE's solver would make of them.
-_WITHOUT_EFFECT = (
-    "sor",
-    "precon_iterations",
+# What the engine has no use for: it is kept and reported. Joints have no error to reduce, and
+# contacts the stiffness that their surfaces ask for, whatever ODE's solver would make of them;
+# docs/physics.md says more.
+_WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
+
+_FRICTION_MODELS = ("pyramid_model", "box_model", "cone_model")
+
+_POSITIVE = ("time_step", "iterations")
+_NOT_NEGATIVE = (
+    "update_rate",
+    "real_time_factor",
     "max_contacts",
     "erp",
     "cfm",
+    "sor",
     "contact_surface_layer",
     "contact_max_correcting_velocity",
 )
-
-_POSITIVE = ("time_step", "iterations")
-_NOT_NEGATIVE = ("update_rate", "real_time_factor", "max_contacts", "erp", "cfm", "sor")
 
 
 class PhysicsProperties:
@@ -177,6 +182,15 @@ class PhysicsProperties:
         self.set(sor=value)
 
     @property
+    def friction_model(self) -> str:
+        """``cone_model``: the same friction in all directions; others: a pyramid, faster."""
+        return self.profile.ode.friction_model
+
+    @friction_model.setter
+    def friction_model(self, value: str) -> None:
+        self.set(friction_model=value)
+
+    @property
     def erp(self) -> float:
         """Share of a constraint's error that ODE reduces in a step: kept, without effect."""
         return self.profile.ode.erp
@@ -196,7 +210,7 @@ class PhysicsProperties:
 
     @property
     def contact_surface_layer(self) -> float:
-        """Penetration that ODE leaves uncorrected [m]: kept, without effect."""
+        """Overlap that is not let out slowly, but left to the contact [m]."""
         return self.profile.ode.contact_surface_layer
 
     @contact_surface_layer.setter
@@ -205,7 +219,7 @@ class PhysicsProperties:
 
     @property
     def contact_max_correcting_velocity(self) -> float:
-        """Largest velocity with which ODE corrects a penetration [m/s]: kept, without effect."""
+        """Largest velocity with which what overlaps in a file or when spawned is let out [m/s]."""
         return self.profile.ode.contact_max_correcting_vel
 
     @contact_max_correcting_velocity.setter
@@ -311,5 +325,9 @@ def _check(name: str, value: Any) -> None:
         raise SimulationError(f"the physics property '{name}' must be positive, not {value}")
     if name in _NOT_NEGATIVE and not value >= 0:
         raise SimulationError(f"the physics property '{name}' must not be negative, not {value}")
+    if name == "friction_model" and value not in _FRICTION_MODELS:
+        raise SimulationError(
+            f"there is no friction model '{value}'", hint=did_you_mean(str(value), _FRICTION_MODELS)
+        )
     if name in ("gravity", "magnetic_field", "wind") and len(value) != 3:
         raise SimulationError(f"the physics property '{name}' needs three numbers, not {value}")

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import scenes
 
-from gazelle.description import Box, Light, Link, Model, Physics, Pose, Visual, World
-from gazelle.errors import EngineError, SimulationError, SimulationWarning
+from gazelle.description import Box, Light, Link, Model, Pose, Visual, World
+from gazelle.errors import EngineError, SimulationError
 from gazelle.simulation import Simulation
 
 
@@ -193,68 +193,6 @@ def test_a_light_changes_what_is_seen():
         dark = sim.render(view)
         sim.set_light("lamp", diffuse=(1.0, 1.0, 1.0, 1.0))
         assert sim.render(view).sum() > dark.sum()
-
-
-# -- physics -----------------------------------------------------------------------------
-
-
-def test_physics_properties_change_in_the_middle_of_a_run_and_keep_time_exact():
-    with Simulation(scenes.world(scenes.ball(pose=Pose(z=100.0)))) as sim:
-        sim.run(0.5)
-        sim.physics.set(time_step=0.002, gravity=(0.0, 0.0, 9.8), iterations=30, wind=(1, 2, 3))
-        assert sim.engine.time_step == sim.physics.time_step == 0.002
-        sim.run(0.5)
-        assert sim.clock.now_ns == 1_000_000_000
-        assert speed(sim, 2)[0] == pytest.approx(0.0, abs=1e-9)
-        assert (sim.physics.iterations, sim.physics.wind) == (30, (1.0, 2.0, 3.0))
-
-
-def test_every_physics_property_can_be_read_and_set():
-    with Simulation(scenes.world(scenes.ball())) as sim:
-        physics = sim.physics
-        values = {
-            "update_rate": 500.0,
-            "real_time_factor": 2.0,
-            "magnetic_field": (1e-5, 0.0, 0.0),
-            "wind": (1.0, 2.0, 3.0),
-            "auto_disable": True,
-            "speculative_contacts": True,
-        }
-        for name, value in values.items():
-            setattr(physics, name, value)
-            assert getattr(physics, name) == value
-        sim.step(5)
-        kept = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
-        kept += ("contact_surface_layer", "contact_max_correcting_velocity")
-        for name in kept:
-            with pytest.warns(SimulationWarning, match=f"'{name}' has no effect"):
-                setattr(physics, name, 7)
-            assert getattr(physics, name) == 7
-            setattr(physics, name, 7)  # nothing new, nothing said
-
-
-def test_wrong_physics_is_refused_and_nothing_changes():
-    with Simulation(scenes.world(scenes.ball())) as sim:
-        before = sim.world
-        with pytest.raises(SimulationError, match="did you mean 'time_step'"):
-            sim.physics.set(time_steps=0.1)
-        with pytest.raises(SimulationError, match="positive"):
-            sim.physics.time_step = 0.0
-        with pytest.raises(SimulationError, match="three numbers"):
-            sim.physics.gravity = (0.0, 1.0)
-        assert sim.world is before
-
-
-def test_the_physics_profiles_of_a_file_are_presets():
-    fine, coarse = Physics("fine", max_step_size=0.001), Physics("coarse", max_step_size=0.01)
-    with Simulation(World("w", models=(scenes.ball(),), physics=(fine, coarse))) as sim:
-        assert sim.physics.presets == ("fine", "coarse")
-        sim.physics.use("coarse")
-        assert sim.physics.time_step == 0.01
-        sim.physics.use("fine")
-        assert sim.physics.time_step == 0.001
-        with pytest.raises(SimulationError, match="did you mean 'coarse'"):
-            sim.physics.use("course")
 
 
 # -- parameters --------------------------------------------------------------------------

@@ -1,0 +1,91 @@
+"""What holds for a whole run, and changes in the middle of it: ``Simulation.physics``."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import Physics, Pose, World
+from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.simulation import Simulation
+
+
+def speed(sim, axis=0):
+    return sim.robots["ball"].motion().linear[:, axis]
+
+
+def test_physics_properties_change_in_the_middle_of_a_run_and_keep_time_exact():
+    with Simulation(scenes.world(scenes.ball(pose=Pose(z=100.0)))) as sim:
+        sim.run(0.5)
+        sim.physics.set(time_step=0.002, gravity=(0.0, 0.0, 9.8), iterations=30, wind=(1, 2, 3))
+        assert sim.engine.time_step == sim.physics.time_step == 0.002
+        sim.run(0.5)
+        assert sim.clock.now_ns == 1_000_000_000
+        assert speed(sim, 2)[0] == pytest.approx(0.0, abs=1e-9)
+        assert (sim.physics.iterations, sim.physics.wind) == (30, (1.0, 2.0, 3.0))
+
+
+def test_every_physics_property_can_be_read_and_set():
+    with Simulation(scenes.world(scenes.ball())) as sim:
+        physics = sim.physics
+        values = {
+            "update_rate": 500.0,
+            "real_time_factor": 2.0,
+            "magnetic_field": (1e-5, 0.0, 0.0),
+            "wind": (1.0, 2.0, 3.0),
+            "auto_disable": True,
+            "speculative_contacts": True,
+            "friction_model": "cone_model",
+            "contact_surface_layer": 0.01,
+            "contact_max_correcting_velocity": 0.1,
+        }
+        for name, value in values.items():
+            setattr(physics, name, value)
+            assert getattr(physics, name) == value
+        sim.step(5)
+        for name in ("sor", "precon_iterations", "max_contacts", "erp", "cfm"):
+            with pytest.warns(SimulationWarning, match=f"'{name}' has no effect"):
+                setattr(physics, name, 7)
+            assert getattr(physics, name) == 7
+            setattr(physics, name, 7)  # nothing new, nothing said
+
+
+def test_a_cone_makes_friction_the_same_in_all_directions():
+    def slid(model):
+        pull = 9.8 * 0.42 / math.sqrt(2.0)  # down a slope of 0.42, between x and y; mu is 0.5
+        block = scenes.box(size=(0.4, 0.4, 0.05), pose=Pose(z=0.025), mu=0.5)
+        world = scenes.world(scenes.ground(), block, gravity=(pull, pull, -9.8))
+        with Simulation(world) as sim:
+            sim.physics.friction_model = model
+            sim.run(1.0)
+            return np.linalg.norm(sim.robots["box"].placement().position[0, :2])
+
+    assert slid("pyramid_model") > 0.1
+    assert slid("cone_model") < 0.002
+
+
+def test_wrong_physics_is_refused_and_nothing_changes():
+    with Simulation(scenes.world(scenes.ball())) as sim:
+        before = sim.world
+        with pytest.raises(SimulationError, match="did you mean 'time_step'"):
+            sim.physics.set(time_steps=0.1)
+        with pytest.raises(SimulationError, match="positive"):
+            sim.physics.time_step = 0.0
+        with pytest.raises(SimulationError, match="three numbers"):
+            sim.physics.gravity = (0.0, 1.0)
+        with pytest.raises(SimulationError, match="did you mean 'cone_model'"):
+            sim.physics.friction_model = "cone_modell"
+        assert sim.world is before
+
+
+def test_the_physics_profiles_of_a_file_are_presets():
+    fine, coarse = Physics("fine", max_step_size=0.001), Physics("coarse", max_step_size=0.01)
+    with Simulation(World("w", models=(scenes.ball(),), physics=(fine, coarse))) as sim:
+        assert sim.physics.presets == ("fine", "coarse")
+        sim.physics.use("coarse")
+        assert sim.physics.time_step == 0.01
+        sim.physics.use("fine")
+        assert sim.physics.time_step == 0.001
+        with pytest.raises(SimulationError, match="did you mean 'coarse'"):
+            sim.physics.use("course")
