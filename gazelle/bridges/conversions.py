@@ -13,6 +13,7 @@ from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation import JointStates, Odometry, Transforms, WrenchValue
+from gazelle.simulation.values import RangeValue, Touches
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +147,47 @@ def _imu(message: Any, value: ImuReading, view: View) -> None:
     set_quaternion(message.orientation, value.orientation[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
     set_point(message.linear_acceleration, value.linear_acceleration[view.world])
+    covariance = [value.variance, 0.0, 0.0, 0.0, value.variance, 0.0, 0.0, 0.0, value.variance]
+    message.orientation_covariance = covariance
+    message.angular_velocity_covariance = covariance
+    message.linear_acceleration_covariance = covariance
+
+
+def _touches(message: Any, value: Touches, view: View) -> None:
+    """One ``ContactState`` for each pair of collisions, as Gazebo groups them."""
+    set_header(message, view, value.stamp)
+    contacts = value.contacts[view.world]
+    pairs: dict[tuple[str, str], Any] = {}
+    state: Any = load_message("gazebo_msgs/ContactState")
+    vector: Any = load_message("geometry_msgs/Vector3")
+    for i, pair in enumerate(zip(contacts.collisions, contacts.others, strict=True)):
+        one = pairs.get(pair)
+        if one is None:
+            one = pairs[pair] = state(collision1_name=pair[0], collision2_name=pair[1])
+            one.info = f"{pair[0]} touches {pair[1]}"
+            message.states.append(one)
+        wrench: Any = load_message("geometry_msgs/Wrench")()
+        set_point(wrench.force, contacts.force[i])
+        set_point(wrench.torque, contacts.torque[i])
+        one.wrenches.append(wrench)
+        one.contact_positions.append(vector(*contacts.position[i].tolist()))
+        one.contact_normals.append(vector(*contacts.normal[i].tolist()))
+        one.depths.append(float(contacts.depth[i]))
+        _add(one.total_wrench, contacts.force[i], contacts.torque[i])
+
+
+def _add(wrench: Any, force: Any, torque: Any) -> None:
+    total, turning = point(wrench.force), point(wrench.torque)
+    set_point(wrench.force, np.add(total, force))
+    set_point(wrench.torque, np.add(turning, torque))
+
+
+def _range(message: Any, value: RangeValue, view: View) -> None:
+    set_header(message, view, value.stamp)
+    message.radiation_type = 0 if value.ultrasound else 1
+    message.field_of_view = value.field_of_view
+    message.min_range, message.max_range = value.least, value.most
+    message.range = float(value.distance[view.world])
 
 
 def _wrench(message: Any, value: WrenchValue, view: View) -> None:
@@ -169,6 +211,8 @@ _ENCODERS: dict[type[Any], Encoder] = {
     LaserScan: Encoder("sensor_msgs/LaserScan", _scan),
     ImuReading: Encoder("sensor_msgs/Imu", _imu),
     WrenchValue: Encoder("geometry_msgs/WrenchStamped", _wrench),
+    Touches: Encoder("gazebo_msgs/ContactsState", _touches),
+    RangeValue: Encoder("sensor_msgs/Range", _range),
     bool: Encoder("std_msgs/Bool", _data),
     int: Encoder("std_msgs/Int32", _data),
     float: Encoder("std_msgs/Float64", _data),

@@ -26,12 +26,14 @@ class ImuReading:
         angular_velocity: [rad/s], shape (..., 3).
         linear_acceleration: What an accelerometer feels, +g upwards at rest [m/s²],
             shape (..., 3).
+        variance: Of every value, as who publishes it claims.
     """
 
     stamp: int
     orientation: Floats
     angular_velocity: Floats
     linear_acceleration: Floats
+    variance: float = 0.0
 
 
 class ImuModel(NoisySensor):

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines import Contacts
+
 Floats = NDArray[np.float64]
 SixNumbers = tuple[float, float, float, float, float, float]
 
@@ -102,3 +104,37 @@ class WrenchValue:
     stamp: int
     force: Floats
     torque: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """Contacts, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        contacts: One for each world.
+    """
+
+    stamp: int
+    contacts: tuple[Contacts, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RangeValue:
+    """One distance, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        distance: [m], shape (nworld,).
+        least: Shortest that is measured [m].
+        most: Longest that is measured [m].
+        field_of_view: Angle of the cone [rad].
+        ultrasound: Whether by sound; else by infrared light.
+    """
+
+    stamp: int
+    distance: Floats
+    least: float
+    most: float
+    field_of_view: float
+    ultrasound: bool

@@ -1,0 +1,43 @@
+"""What a joint carries: what ``libgazebo_ros_ft_sensor.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.description import Noise, Parameters
+from gazelle.plugins.publishing import Publishing
+from gazelle.plugins.stateful import Noisy
+from gazelle.rotations import conjugate, rotate
+from gazelle.sensors import NoiseModel
+from gazelle.simulation import Output, Robot, WrenchValue, absolute, namespace_of
+
+
+class ForceTorqueSensor(Noisy, Publishing):
+    """Publishes force and torque in a joint, on its child and in the child's axes."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the joint, open the port."""
+        joint = parameters.require("jointName", str)
+        topic = parameters.require("topicName", str)
+        child = robot.joint_description(joint).child
+        simulation = robot.simulation
+        self._engine, self._clock = simulation.engine, simulation.clock
+        self._joint = f"{robot.name}::{joint}"
+        self._link = robot.links[child]
+        noise = Noise("gaussian", stddev=parameters.get("gaussianNoise", 0.0))
+        self._noise = NoiseModel(
+            noise, simulation.seed, f"{self._joint}::ft_sensor", simulation.nworld, 6
+        )
+        self._noises = {"noise": self._noise}
+        self.update_rate = parameters.get("updateRate", 0.0)
+        name = absolute(namespace_of(robot, parameters), topic)
+        robot.outputs[topic.strip("/")] = Output(name, WrenchValue, self._measure, frame=child)
+        self._published.append(robot.outputs[topic.strip("/")])
+
+    def _measure(self) -> WrenchValue:
+        wrench = self._engine.joint_wrench(self._joint)
+        back = conjugate(self._link.placement().quaternion)
+        # The engine gives what the child exerts on the parent; the original what it bears.
+        felt = np.concatenate((rotate(back, -wrench.force), rotate(back, -wrench.torque)), axis=1)
+        felt = self._noise.apply(felt, 0.0)
+        return WrenchValue(self._clock.now_ns, felt[:, :3], felt[:, 3:])

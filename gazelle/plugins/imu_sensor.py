@@ -1,0 +1,69 @@
+"""An IMU sensor's topic: what ``libgazebo_ros_imu_sensor.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.description import Noise, Parameters, Pose
+from gazelle.plugins.stateful import Noisy
+from gazelle.rotations import conjugate, multiply
+from gazelle.sensors import ImuReading, NoiseModel
+from gazelle.simulation import Output, SensorPlugin, SensorUnit, absolute, namespace_of
+
+
+class ImuSensor(Noisy, SensorPlugin):
+    """Publishes an IMU sensor's readings at a rate of its own, gravity included."""
+
+    def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
+        """Read the tags, open the port."""
+        robot = sensor.robot
+        simulation = robot.simulation
+        self._sensor, self._clock = sensor, simulation.clock
+        self.update_rate = parameters.get("updateRateHZ", 1.0)
+        self._variance = parameters.get("gaussianNoise", 0.0) ** 2
+        noise = Noise("gaussian", stddev=parameters.get("gaussianNoise", 0.0))
+        self._noise = NoiseModel(
+            noise, simulation.seed, f"{sensor.name}::imu_sensor", simulation.nworld, 10
+        )
+        self._noises = {"noise": self._noise}
+        turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
+        self._turn = np.asarray(Pose(0.0, 0.0, 0.0, *turn).quaternion)
+        self._from_start = parameters.get("initialOrientationAsReference", False)
+        self._start = self._orientation()
+        topic = parameters.get("topicName", "imu_data")
+        self._output = robot.outputs[topic.strip("/")] = Output(
+            absolute(namespace_of(robot, parameters, robot.name), topic),
+            ImuReading,
+            self._measure,
+            frame=parameters.get("frameName", sensor.description.name),
+        )
+
+    @property
+    def active(self) -> bool:
+        """Whether anybody listens."""
+        return self._output.wanted
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the reading has its stamp
+        """Publish."""
+        self._output.publish()
+
+    def _orientation(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+        values = self._sensor.measure()
+        reading: ImuReading = self._sensor.model.reading(values, self._clock.now_ns)
+        return reading.orientation
+
+    def _measure(self) -> ImuReading:
+        values = self._noise.apply(self._sensor.measure(), 0.0)
+        reading: ImuReading = self._sensor.model.reading(values, self._clock.now_ns)
+        orientation = multiply(
+            reading.orientation, np.broadcast_to(self._turn, reading.orientation.shape)
+        )
+        if self._from_start:
+            orientation = multiply(conjugate(self._start), orientation)
+        return ImuReading(
+            reading.stamp,
+            orientation / np.linalg.norm(orientation, axis=1, keepdims=True),
+            reading.angular_velocity,
+            reading.linear_acceleration,
+            self._variance,
+        )

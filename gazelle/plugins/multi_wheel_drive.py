@@ -1,0 +1,68 @@
+"""Bases on six or any number of wheels: Hector's ``diffdrive_plugin_6w`` and ``_multi_wheel``."""
+
+from __future__ import annotations
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.plugins.odometry import as_transforms, true_odometry
+from gazelle.plugins.wheels import Side, WheeledDrive
+from gazelle.simulation import Odometry, Output, Robot, Transforms, absolute, namespace_of
+
+
+class MultiWheelDrive(WheeledDrive):
+    """Turns velocity commands into the speeds of any number of wheels a side."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, put motors on the wheels, open ``cmd_vel`` and ``odom``."""
+        self._robot = robot
+        self.drive(
+            robot,
+            self._joints(parameters),
+            separation=parameters.get("wheelSeparation", 0.34),
+            diameter=parameters.get("wheelDiameter", 0.15),
+            torque=parameters.get("torque", 5.0),
+            source=parameters.source,
+        )
+        self.update_rate = parameters.get("updateRate", 100.0)
+        namespace = namespace_of(robot, parameters)
+        self.listen(robot, absolute(namespace, self._command_topic(parameters)))
+        self._frame = parameters.get("odometryFrame", "odom")
+        self._base = parameters.get("robotBaseFrame", "base_footprint")
+        topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
+        if parameters.get("publishOdometryMsg", True):
+            self.publish(robot, "odom", Output(topic, Odometry, self._measure))
+        if parameters.get("publishOdometryTf", True):
+            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames))
+
+    def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
+        """Names of the joints, and their sides."""
+        found = []
+        for tag, side in (("leftJoints", Side.LEFT), ("rightJoints", Side.RIGHT)):
+            names = parameters.require(tag, str).split()
+            if not names:
+                raise SimulationError(f"<{tag}> names no joint", source=parameters.source)
+            found += [(name, side) for name in names]
+        return found
+
+    def _command_topic(self, parameters: Parameters) -> str:
+        return parameters.get("commandTopic", "cmd_vel")
+
+    def _measure(self) -> Odometry:
+        return true_odometry(self._robot, self._frame, self._base)
+
+    def _frames(self) -> Transforms:
+        return as_transforms(self._measure())
+
+
+class SixWheelDrive(MultiWheelDrive):
+    """Turns velocity commands into the speeds of three wheels a side."""
+
+    def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
+        return [
+            (parameters.require(f"{place}{word}Joint", str), side)
+            for word, side in (("Left", Side.LEFT), ("Right", Side.RIGHT))
+            for place in ("front", "mid", "rear")
+        ]
+
+    def _command_topic(self, parameters: Parameters) -> str:
+        return parameters.get("topicName", "cmd_vel")

@@ -1,0 +1,84 @@
+"""The true pose of a body: what ``libgazebo_ros_p3d.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.description import Noise, Parameters, Pose
+from gazelle.engines import Motion, Placement
+from gazelle.plugins.frames import placed, relative
+from gazelle.plugins.publishing import Publishing
+from gazelle.plugins.stateful import Noisy
+from gazelle.rotations import conjugate, multiply, rotate
+from gazelle.sensors import NoiseModel
+from gazelle.simulation import Odometry, Output, Robot, absolute, namespace_of
+
+_INERTIAL = frozenset({"", "world", "/world", "map", "/map"})
+
+
+class P3D(Noisy, Publishing):
+    """Publishes where a body is, and how it moves, as the simulation knows it.
+
+    The offset is added to the position as seen from the frame, and turns before the body's own
+    turn. Noise is on the velocities only. Both are so in the original.
+    """
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find body and frame, open the port."""
+        self._robot = robot
+        body = parameters.require("bodyName", str)
+        topic = parameters.require("topicName", str)
+        self._body = robot.frame(body)
+        self._frame_name = parameters.get("frameName", "world")
+        self._frame = None
+        if self._frame_name not in _INERTIAL:
+            self._frame = robot.frame(self._frame_name.lstrip("/"))
+        offset = parameters.numbers("xyzOffset", (0.0, 0.0, 0.0))
+        turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
+        self._offset = np.asarray(offset)
+        self._turn = np.asarray(Pose(0.0, 0.0, 0.0, *turn).quaternion)
+        self._variance = parameters.get("gaussianNoise", 0.0) ** 2
+        self._make_noise(robot, body, parameters.get("gaussianNoise", 0.0))
+        self.update_rate = parameters.get("updateRate", 0.0)
+        self._child = body
+        name = absolute(namespace_of(robot, parameters), topic)
+        robot.outputs[topic.strip("/")] = Output(name, Odometry, self._measure)
+        self._published.append(robot.outputs[topic.strip("/")])
+
+    def _make_noise(self, robot: Robot, body: str, stddev: float) -> None:
+        simulation = robot.simulation
+        noise = Noise("gaussian", stddev=stddev)
+        name = f"{robot.name}::{body}::p3d"
+        self._noise = NoiseModel(noise, simulation.seed, name, simulation.nworld, 6)
+        self._noises = {"noise": self._noise}
+
+    def _measure(self) -> Odometry:
+        place, motion = placed(self._body), self._body[0].motion()
+        if self._frame is not None:
+            place, motion = self._seen_from_frame(place, motion)
+        turn = np.broadcast_to(self._turn, place.quaternion.shape)
+        twist = np.concatenate((motion.linear, motion.angular), axis=1)
+        twist = self._noise.apply(twist, 0.0)
+        six = (self._variance,) * 6
+        return Odometry(
+            self._robot.simulation.clock.now_ns,
+            self._frame_name,
+            self._child,
+            place.position + self._offset,
+            multiply(turn, place.quaternion),
+            twist[:, :3],
+            twist[:, 3:],
+            six,
+            six,
+        )
+
+    def _seen_from_frame(self, place: Placement, motion: Motion) -> tuple[Placement, Motion]:
+        frame = self._frame
+        if frame is None:
+            return place, motion
+        origin, own = placed(frame), frame[0].motion()
+        back = conjugate(origin.quaternion)
+        moved = Motion(
+            rotate(back, motion.linear - own.linear), rotate(back, motion.angular - own.angular)
+        )
+        return relative(origin, place), moved

@@ -1,0 +1,24 @@
+"""What plugins that only publish have in common: they sleep until somebody listens."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.simulation import ModelPlugin, Output
+
+
+class Publishing(ModelPlugin):
+    """Publishes its outputs at its rate, and needs no updates while nobody listens."""
+
+    def __init__(self) -> None:
+        self._published: list[Output[Any]] = []
+
+    @property
+    def active(self) -> bool:
+        """Whether anybody listens."""
+        return any(output.wanted for output in self._published)
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  values carry their own stamps
+        """Publish."""
+        for output in self._published:
+            output.publish()
