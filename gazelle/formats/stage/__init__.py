@@ -21,7 +21,7 @@ from gazelle.formats.stage.world import read_world
 SUFFIXES = (".world", ".inc")
 
 _START = re.compile(
-    rb"""(?: \s | \#[^\r\n]* | \xef\xbb\xbf )*
+    rb"""(?: \s++ | \#[^\r\n]*+ | \xef\xbb\xbf )*+
     (?: include \s* " | define \s+ [A-Za-z][\w.-]* \s+ [A-Za-z] | [A-Za-z][\w.-]* \s* ["(\[\d.+-] )
     """,
     re.VERBOSE,

@@ -22,6 +22,8 @@ WALL = 127
 BOUNDARY = 0.01
 """Thickness of the walls of ``boundary`` [m]."""
 MAX_POINTS = 100_000
+MAX_EDGES = 4_000_000
+"""Edges between walls and free pixels of a bitmap; maps have far fewer, noise has more."""
 
 UNIT_BLOCK = StageBlock(((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)), (0.0, 1.0))
 """The body of a model that names none."""
@@ -57,10 +59,18 @@ class Pictures:
             rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
             if not len(rows):
                 raise given.fail(f"the picture '{path}' shows no walls: it has no dark pixel")
-            self.cells[path] = np.ascontiguousarray(
-                dark[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-            )
+            cells = np.ascontiguousarray(dark[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1])
+            if _edges(cells) > MAX_EDGES:
+                raise given.fail(f"the picture '{path}' has more than {MAX_EDGES} edges")
+            self.cells[path] = cells
         return self.cells[path]
+
+
+def _edges(cells: NDArray[np.bool_]) -> int:
+    return sum(
+        int(np.count_nonzero(one != other))
+        for one, other in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1]))
+    )
 
 
 def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> Body:

@@ -18,12 +18,13 @@ from gazelle.errors import FormatError
 
 Value = float | str | tuple[float | str, ...]
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.+-])"
+# quantifiers that never give back, so that no file can make the search slow
+_NUMBER = r"[+-]?(?:\d++(?:\.\d*+)?+|\.\d++)(?:[eE][+-]?\d++)?(?![\w.+-])"
 _STRING = r'"[^"\r\n]*"'
 _TOKEN = re.compile(
     rf"""
-    [ \t\r\n\f\v]+ | \#[^\r\n]*
-  | ( [A-Za-z][\w.\-]*(?:\[\s*\d+\s*\][\w.\-]*)* )
+    [ \t\r\n\f\v]++ | \#[^\r\n]*+
+  | ( [A-Za-z][\w.\-]*+(?:\[[ \t]*+\d++[ \t]*+\][\w.\-]*+)* )
   | ( {_NUMBER} )
   | ( {_STRING} )
   | ( \[[^\]\r\n\#]*\] )
@@ -91,15 +92,16 @@ def tokenize(script: Script) -> list[Token]:
     Raises:
         FormatError: There is a character that no token begins with.
     """
-    found = [
-        # words come again and again, and are looked up in dictionaries
-        Token(kind, intern(match[kind]) if kind == Kind.WORD else match[kind], match.start())
-        for match in _TOKEN.finditer(script.text)
-        if (kind := match.lastindex)
-    ]
-    bad = next((token for token in found if token.kind == Kind.END), None)
-    if bad is not None:
-        raise _unexpected(script, bad)
+    found: list[Token] = []
+    for match in _TOKEN.finditer(script.text):
+        kind = match.lastindex
+        if kind == Kind.WORD:
+            # they come again and again, and are looked up in dictionaries
+            found.append(Token(kind, intern(match[kind]), match.start()))
+        elif kind == Kind.END:
+            raise _unexpected(script, Token(kind, match[kind], match.start()))
+        elif kind:
+            found.append(Token(kind, match[kind], match.start()))
     return [*found, Token(Kind.END, "", len(script.text))]
 
 

@@ -80,8 +80,9 @@ class _Parser:
                 self._item(self._world, token, depth=1)
 
     def _next(self) -> Token:
+        """The next token; at the end of the file again and again its end."""
         token = self._tokens[self._at]
-        self._at += 1
+        self._at = min(self._at + 1, len(self._tokens) - 1)
         return token
 
     def _fail(self, message: str, token: Token, hint: str | None = None) -> FormatError:

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.description import (
     Box,
@@ -53,6 +54,8 @@ MAX_BOXES = 5_000
 DEFAULT_MASS = 10.0
 """Of a robot whose file gives none [kg]; Stage's manual names it as the default."""
 
+_MANY = 40
+"""Runs of pixels a box beyond which rectangles need not be tried."""
 _FLATTEST = 1e-3
 """Least height of a collision [m]: what has none in Stage would be no body at all."""
 _GOLDEN = 0.61803398875
@@ -161,10 +164,11 @@ class _Builder:
     def boxes(self, bitmap: StageBitmap, source: Source | None) -> list[tuple[Geometry, Pose]]:
         """Boxes that cover the walls of a bitmap."""
         cells, step = bitmap.cells, 1
+        while _runs(cells) > _MANY * MAX_BOXES:
+            cells, step = _coarser(cells), 2 * step
         rows = rectangles(cells)
         while len(rows) > MAX_BOXES:
-            step *= 2
-            cells = _coarser(cells)
+            cells, step = _coarser(cells), 2 * step
             rows = rectangles(cells)
         if step > 1:
             self.reading.remark(
@@ -185,18 +189,24 @@ class _Builder:
         ]
 
 
+def _runs(cells: NDArray[np.bool_]) -> int:
+    """Walls in the rows, each counted once."""
+    return int(np.count_nonzero(cells[:, 1:] & ~cells[:, :-1]) + np.count_nonzero(cells[:, 0]))
+
+
 def _extent(bitmap: StageBitmap) -> list[float]:
     return [bitmap.high[0] - bitmap.low[0], bitmap.high[1] - bitmap.low[1]] * 2
 
 
-def _coarser(
-    cells: np.ndarray[tuple[int, int], np.dtype[np.bool_]],
-) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
+def _coarser(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Four cells as one, which is a wall if any of them is."""
     rows, columns = cells.shape
     even = np.zeros((rows + rows % 2, columns + columns % 2), np.bool_)
     even[:rows, :columns] = cells
-    return even[::2, ::2] | even[1::2, ::2] | even[::2, 1::2] | even[1::2, 1::2]
+    joined: NDArray[np.bool_] = even[::2, ::2] | even[1::2, ::2]
+    joined |= even[::2, 1::2]
+    joined |= even[1::2, 1::2]
+    return joined
 
 
 def _prism(block: StageBlock) -> tuple[Geometry, Pose]:

@@ -5,12 +5,14 @@ import re
 import time
 import warnings
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 from stage_samples import draw, write
 
-from gazelle import Error, formats
+from gazelle import Error, FormatError, formats
 from gazelle.formats.stage import load_stage
 from gazelle.formats.stage.devices import KINDS
 
@@ -119,6 +121,38 @@ def test_poses_come_out_as_written(folder, robots):
     for model, (x, y, angle) in zip(stage.models, robots, strict=True):
         assert model.pose[:2] == (x, y)
         assert math.isclose(model.pose.yaw, math.radians(angle), abs_tol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"#" * 100_000 + b"\n<",
+        (b"#" * 50 + b"\n") * 5_000 + b"<",
+        b"1" * 200_000 + b"x",
+        b"model ( pose [" + b"1" * 100_000 + b"x] )",
+        b"model ( " + b"a[1]" * 50_000 + b"[",
+        b'name "' + b"x" * 200_000,
+        b"( " * 100_000,
+        b"[" * 200_000,
+        b"[1" * 200_000,
+        b"model ( name " * 20_000,
+        b"\n" * 500_000 + b"model (",
+        b"block ( points 1e9 )",
+        b"model ( block ( points 100000 ) )",
+        b"bumper ( bcount 1e9 )",
+        b"model ( blocks 1e9 )",
+        b"ranger ( sensor ( samples 1e9 ) )",
+    ],
+)
+def test_files_made_to_be_slow_are_not(folder, data):
+    survives(folder, data)
+
+
+def test_a_picture_of_noise_is_refused(folder):
+    noise = np.random.default_rng(0).integers(0, 256, (3000, 3000), np.uint8)
+    Image.fromarray(noise).save(folder / "noise.png")
+    with pytest.raises(FormatError, match="edges"):
+        load_stage(write(folder, 'model ( bitmap "noise.png" )'))
 
 
 def test_ten_thousand_robots_load_in_a_second(folder):
