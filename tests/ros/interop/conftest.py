@@ -1,0 +1,71 @@
+"""The roscpp node of the tests, compiled once."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from missing import skip_or_fail
+from ros import real
+
+from gazelle.ros import Master, Node
+
+SOURCE = Path(__file__).parent / "peer.cpp"
+
+
+@pytest.fixture(scope="session")
+def peer_program(tmp_path_factory):
+    """Where the compiled node is."""
+    if not real.INSTALLED:
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+    if shutil.which("g++") is None or shutil.which("pkg-config") is None:
+        skip_or_fail("no C++ compiler (Debian: g++ pkg-config)")
+    flags = subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "roscpp"], capture_output=True, text=True, check=False
+    )
+    if flags.returncode:
+        skip_or_fail("roscpp is not installed (Debian: libroscpp-dev)")
+    program = tmp_path_factory.mktemp("roscpp") / "peer"
+    command = ["g++", "-std=c++17", "-O0", str(SOURCE), "-o", str(program), *flags.stdout.split()]
+    subprocess.run(command, check=True, timeout=300)
+    return program
+
+
+class CppNode(real.RealNode):
+    """The roscpp node in one of its modes."""
+
+    def __init__(self, uri, program, *arguments):
+        self.process = subprocess.Popen(
+            [program, *map(str, arguments)],
+            env=real.environment(uri),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+
+
+@pytest.fixture(params=["our master", "real roscore"])
+def graph(request):
+    """The URI of a master of either kind."""
+    if request.param == "our master":
+        with Master(port=0) as running:
+            yield running.uri
+    else:
+        with real.master() as uri:
+            yield uri
+
+
+@pytest.fixture
+def node(graph):
+    with Node("ours", master_uri=graph) as made:
+        yield made
+
+
+@pytest.fixture
+def start(peer_program, graph):
+    """Start the roscpp node in a mode; it ends with the test."""
+    with contextlib.ExitStack() as running:
+        yield lambda *words: running.enter_context(CppNode(graph, peer_program, *words))
