@@ -6,28 +6,11 @@ import threading
 from types import SimpleNamespace
 
 import pytest
+from door_client import Client
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master, Node, WallClock, load_message, load_service
-
-
-class Client:
-    """A node that calls services by short names."""
-
-    def __init__(self, uri):
-        self.node = Node("client", master_uri=uri, clock=WallClock())
-
-    def call(self, name, kind, **fields):
-        service = load_service(kind if "/" in kind else f"gazebo_msgs/{kind}")
-        full = name if name.startswith("/") else f"/gazebo/{name}"
-        return self.node.client(full, service).call(service._request_class(**fields))
-
-    def listen(self, topic, kind):
-        """The messages of a topic from now on, in a list."""
-        heard = []
-        self.node.subscribe(topic, load_message(kind), heard.append)
-        return heard
+from gazelle.ros import Master
 
 
 @pytest.fixture

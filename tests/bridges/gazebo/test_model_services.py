@@ -4,33 +4,17 @@ import math
 
 import numpy as np
 import pytest
+from door_client import BALL, model_state, pose
 from ros.graph import until
 
 from gazelle.ros import load_message
 from gazelle.ros.errors import ServiceError
 
-BALL = """<sdf version="1.6"><model name="ball"><link name="link"><inertial><mass>2</mass></inertial>
-<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
-</link></model></sdf>"""
 ARM = """<?xml version="1.0"?><!-- a comment --><robot name="arm"><link name="base"><inertial><mass
 value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="tip">
 <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <joint name="elbow" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
 </robot>"""
-
-
-def pose(x=0.0, y=0.0, z=0.0, yaw=0.0):
-    message = load_message("geometry_msgs/Pose")()
-    message.position.x, message.position.y, message.position.z = x, y, z
-    message.orientation.z, message.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-    return message
-
-
-def model_state(name, place, frame="", linear=(0.0, 0.0, 0.0)):
-    state = load_message("gazebo_msgs/ModelState")()
-    state.model_name, state.pose, state.reference_frame = name, place, frame
-    state.twist.linear.x, state.twist.linear.y, state.twist.linear.z = linear
-    return state
 
 
 def spawn(graph, text=BALL, name="ball", kind="sdf", **fields):
