@@ -18,7 +18,7 @@ from gazelle.description import (
     Source,
 )
 from gazelle.engines import make_engine
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 from gazelle.rotations import from_yaw
 
 SOURCE = Source("robot.sdf", 12, "joint[@name='hinge']")
@@ -260,3 +260,9 @@ def test_shapes_without_volume_are_nothing_to_hit():
     link = Link("l", collisions=(Collision("e", Empty()), Collision("m", Mesh("x.stl", None))))
     engine = make(Model("m", links=(link,), static=True), scenes.solid("b", Box((0.1, 0.1, 0.1))))
     engine.step(3)
+
+
+def test_velocity_decay_is_not_dropped_in_silence():
+    link = Link("link", inertial=Inertial(), velocity_decay_linear=0.01)
+    with pytest.warns(EngineWarning, match="<velocity_decay> of link 'm::link' has no effect"):
+        make(Model("m", links=(link,)))

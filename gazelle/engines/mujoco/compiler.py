@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -26,7 +27,7 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 
 COLLISION_GROUP = 0
 VISUAL_GROUP = 1
@@ -290,6 +291,13 @@ def _set_inertial(handle: Any, body: Body) -> None:
     handle.inertia, handle.iquat = principal
     if not body.link.gravity:
         handle.gravcomp = 1.0
+    if body.link.velocity_decay_linear or body.link.velocity_decay_angular:
+        warnings.warn(
+            EngineWarning(
+                f"<velocity_decay> of link '{body.name}' has no effect; give its joints <damping>"
+            ),
+            stacklevel=2,
+        )
 
 
 def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float]]:
