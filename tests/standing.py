@@ -241,7 +241,7 @@ def main() -> None:
     for path in chosen:
         try:
             o = stand(path, args.corpus, long=args.long, budget=args.budget)
-        except Exception as error:  # the sweep goes on, and the line says what to mend
+        except Exception as error:  # noqa: BLE001  the sweep goes on, and the line says so
             o = Outcome(str(path.relative_to(args.corpus)), fault="crash", where=repr(error))
         figures = f"{o.moving}\t{o.seconds:.0f}\t{o.sunk * 1e3:.2f}\t{o.fastest:.3g}"
         figures += f"\t{o.thrown:.3g}\t{o.cpu:.1f}"
