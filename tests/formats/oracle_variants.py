@@ -238,3 +238,77 @@ URDF = {
         + urdf_joint("bc", "b", "c", "revolute", ORIGIN + "<limit effort='0' velocity='0'/>")
     ),
 }
+
+
+def _extended(body):
+    """Two links and one lumped into the second, with extensions."""
+    return robot(
+        urdf_link(
+            "a", inertial(2) + shape("collision", "1 0 0", BALL) + shape("visual", "1 0 0", BRICK)
+        )
+        + urdf_link(
+            "b",
+            inertial(3)
+            + shape("collision", "0 1 0", BRICK)
+            + shape("visual", "1 0 0", BALL)
+            + shape("visual", "0 2 0", BALL),
+        )
+        + urdf_link(
+            "c", inertial(1) + shape("collision", "0 1 0", BRICK) + shape("visual", "1 0 0", BALL)
+        )
+        + urdf_joint(
+            "ab",
+            "a",
+            "b",
+            "revolute",
+            ORIGIN
+            + AXIS
+            + "<dynamics damping='.7' friction='.3'/><safety_controller k_velocity='1' "
+            "k_position='2' soft_lower_limit='-.5' soft_upper_limit='.5'/>",
+        )
+        + urdf_joint("bc", "b", "c", "fixed", ORIGIN)
+        + body
+    )
+
+
+_BODIES = {
+    "surface": gazebo(
+        "a",
+        "<mu1>.1</mu1><mu2>.2</mu2><kp>1e5</kp><kd>10</kd><maxVel>.3</maxVel><minDepth>.001</minDepth><fdir1>1 0 0</fdir1><maxContacts>7</maxContacts><laserRetro>3</laserRetro><selfCollide>true</selfCollide><dampingFactor>.2</dampingFactor><material>Gazebo/Red</material>",
+    ),
+    "surface lumped": gazebo(
+        "c",
+        "<mu1>.1</mu1><mu2>.2</mu2><kp>1e5</kp><maxContacts>7</maxContacts><laserRetro>3</laserRetro><selfCollide>1</selfCollide><dampingFactor>.2</dampingFactor><material>Gazebo/Red</material><turnGravityOff>1</turnGravityOff>",
+    ),
+    "attr values": gazebo("a", "<mu1 value='.1'/><mu2 value='.2'/><turnGravityOff value='true'/>"),
+    "twice": gazebo("a", "<mu1>.1</mu1>") + gazebo("a", "<mu1>.4</mu1><mu2>.3</mu2>"),
+    "joint": gazebo(
+        "ab",
+        "<stopCfm>.1</stopCfm><stopErp>.3</stopErp><fudgeFactor>.5</fudgeFactor><implicitSpringDamper>1</implicitSpringDamper><springReference>.2</springReference><springStiffness>4</springStiffness><provideFeedback>true</provideFeedback>",
+    ),
+    "joint cfm": gazebo("ab", "<cfmDamping>true</cfmDamping>"),
+    "joint sensor": gazebo(
+        "ab", "<sensor name='ft' type='force_torque'><update_rate>30</update_rate></sensor>"
+    ),
+    "model": "<gazebo><static>false</static><self_collide>true</self_collide><allow_auto_disable>false</allow_auto_disable><plugin name='p' filename='f.so'><x>1</x></plugin></gazebo>",
+    "sdf words": gazebo(
+        "a",
+        "<gravity>false</gravity><self_collide>true</self_collide><kinematic>1</kinematic><velocity_decay><linear>.1</linear><angular>.2</angular></velocity_decay><enable_wind>true</enable_wind>",
+    ),
+    "light": gazebo("b", "<light name='l' type='point'><pose>1 2 3 0 0 0</pose></light>"),
+    "visual blob": gazebo(
+        "a",
+        "<visual><material><ambient>1 0 0 1</ambient><diffuse>0 1 0 1</diffuse></material></visual>",
+    ),
+    "visual blob lumped": gazebo(
+        "c",
+        "<visual><material><ambient>1 0 0 1</ambient><diffuse>0 1 0 1</diffuse></material></visual>",
+    ),
+    "collision blob": gazebo(
+        "a",
+        "<collision><surface><friction><ode><mu>.77</mu></ode></friction><bounce><restitution_coefficient>.4</restitution_coefficient></bounce></surface></collision>",
+    ),
+    "no gravity": gazebo("a", "<turnGravityOff>false</turnGravityOff>"),
+    "joint in the model": "<gazebo><joint name='fix' type='fixed'><parent>world</parent><child>a</child></joint></gazebo>",
+}
+EXTENDED = {name: _extended(body) for name, body in _BODIES.items()}

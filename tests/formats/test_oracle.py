@@ -7,14 +7,13 @@ import subprocess
 import numpy as np
 import pytest
 from missing import skip_or_fail
+from oracle_variants import EXTENDED
 
 from gazelle import Error, formats
 from gazelle.formats import xacro
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.urdf.lump import tensor
-
-pytestmark = pytest.mark.corpus
 
 ROBOTS = "ROBOTIS-GIT__turtlebot3/turtlebot3_description/urdf"
 MODELS = "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models"
@@ -140,6 +139,7 @@ def assert_same_joint(joint, theirs):
 
 
 @pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+@pytest.mark.corpus
 @pytest.mark.parametrize("file", XACROS)
 def test_robots_are_what_libsdformat_makes_of_them(corpus, tmp_path, file):
     path = corpus / file
@@ -150,6 +150,7 @@ def test_robots_are_what_libsdformat_makes_of_them(corpus, tmp_path, file):
 
 
 @pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+@pytest.mark.corpus
 @pytest.mark.parametrize("file", FILES)
 def test_sdf_files_are_what_libsdformat_reads(corpus, monkeypatch, file):
     models = corpus / "osrf__gazebo_models"
@@ -157,7 +158,39 @@ def test_sdf_files_are_what_libsdformat_reads(corpus, monkeypatch, file):
     assert_same(formats.load(corpus / file, paths=[models]), oracle(corpus / file))
 
 
+@pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+@pytest.mark.parametrize("text", EXTENDED.values(), ids=EXTENDED)
+def test_gazebo_extensions_mean_what_libsdformat_makes_of_them(tmp_path, text):
+    file = tmp_path / "robot.urdf"
+    file.write_text(text)
+    ours, theirs = formats.load(file), oracle(file)
+    assert_same(ours, theirs)
+    for name in ("static", "self_collide", "allow_auto_disable", "enable_wind"):
+        assert getattr(ours.models[0], name) == getattr(theirs.models[0], name)
+    (links, joints), (their_links, their_joints) = parts(ours), parts(theirs)
+    for name, (_, link) in links.items():
+        assert details(link) == details(their_links[name][1])
+    for name, joint in joints.items():
+        assert joint.physics == their_joints[name].physics
+        assert [(a.spring_reference, a.spring_stiffness) for a in joint.axes] == [
+            (a.spring_reference, a.spring_stiffness) for a in their_joints[name].axes
+        ]
+        assert [s.type for s in joint.sensors] == [s.type for s in their_joints[name].sensors]
+
+
+def details(link):
+    """What else extensions say of a link."""
+    return (
+        (link.gravity, link.self_collide, link.kinematic, link.enable_wind),
+        (link.velocity_decay_linear, link.velocity_decay_angular),
+        [(c.max_contacts, c.laser_retro, c.surface) for c in link.collisions],
+        [visual.material for visual in link.visuals],
+        link.lights,
+    )
+
+
 @pytest.mark.slow
+@pytest.mark.corpus
 @pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
 def test_whole_corpus_agrees(corpus, monkeypatch):
     """Every file that both read is the same, but for those listed."""
