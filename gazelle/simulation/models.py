@@ -43,6 +43,7 @@ class Mount:
         scope: Scoped name of the model that it is in.
         link: The link, or the child of the joint, that it moves with.
         joint: The joint that it is on, if it is on one.
+        static: Whether its top-level model never moves.
         seed: The run's seed.
     """
 
@@ -51,6 +52,7 @@ class Mount:
     scope: str
     link: Link
     joint: Joint | None
+    static: bool
     seed: int
 
     @property
@@ -71,11 +73,11 @@ def mounts(engine: Engine, model: Model, seed: int) -> Iterator[Mount]:
         links = {link.name: link for link in placed.model.links}
         for link in placed.model.links:
             for sensor in link.sensors:
-                yield Mount(engine, sensor, placed.scope, link, None, seed)
+                yield Mount(engine, sensor, placed.scope, link, None, model.static, seed)
         for joint in placed.model.joints:
             for sensor in joint.sensors:
                 child = links.get(joint.child) or Link(joint.child)
-                yield Mount(engine, sensor, placed.scope, child, joint, seed)
+                yield Mount(engine, sensor, placed.scope, child, joint, model.static, seed)
 
 
 def sensor_model(mount: Mount) -> SensorModel | None:
@@ -130,8 +132,9 @@ def _force_torque(mount: Mount) -> SensorModel:
     joint, scope = mount.joint, mount.scope
     if joint is None:
         raise EngineError("it is on a link, not on a joint")
+    if mount.static:
+        raise EngineError("its model never moves, so its joints carry nothing")
     name = f"{scope}::{joint.name}"
-    mount.engine.joint_wrench(name)  # refuses what carries nothing
     parent = "world" if joint.parent == "world" else f"{scope}::{joint.parent}"
     return ForceTorqueModel(
         ForceTorque.read(mount.sensor.settings),

@@ -183,7 +183,7 @@ def test_a_force_sensor_of_a_model_that_never_moves_is_left_out_with_a_warning()
     joints = (Joint("j", "fixed", "a", "b", sensors=(ft,)),)
     with (
         pytest.warns(
-            SimulationWarning, match="'m::j::ft'.*is not measured yet.*no joint between moving"
+            SimulationWarning, match="'m::j::ft'.*is not measured yet.*never moves"
         ),
         Simulation(scenes.world(Model("m", static=True, links=links, joints=joints))) as sim,
     ):
