@@ -94,7 +94,10 @@ def _load(args: argparse.Namespace) -> int:
     from gazelle.ros.tools.params import load_parameters
 
     with _graph() as graph:
-        _tell(args, load_parameters(graph, args.file, args.space))
+        done = load_parameters(graph, args.file, args.space)
+    if args.verbose:
+        sys.stdout.write(f"reading parameters from [{args.file}]\n")
+        sys.stdout.write("".join(f"{name}={value}\n" for name, value in done))
     return 0
 
 
@@ -105,13 +108,15 @@ def _tell(args: argparse.Namespace, done: list[tuple[str, Any]]) -> None:
 
 
 def _dump(args: argparse.Namespace) -> int:
-    from gazelle.ros.tools.params import dump_parameters
+    from gazelle.ros.tools.params import dump_parameters, get_parameter, leaves
 
     with _graph() as graph:
         text = dump_parameters(graph, args.space)
         if args.verbose:
             space = graph.resolve(args.space or "/")
             sys.stdout.write(f"dumping namespace [{space}] to file [{args.file or ''}]\n")
+            for name, value in leaves(get_parameter(graph, space), space):
+                sys.stdout.write(f"{name}={value}\n")
     if args.file:
         Path(args.file).write_text(text, encoding="utf-8")
     else:

@@ -72,6 +72,7 @@ _OWN = {
         }),
         BuiltinPackage("tf2_ros", {
             "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf2",
+            "buffer_server": "gazelle.ros.builtin.buffer_server:main",
         }),
         BuiltinPackage("topic_tools", {
             "relay": "gazelle.ros.builtin.topic_tools:relay",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -146,6 +147,15 @@ def dump_parameters(graph: Graph, space: str | None = None) -> str:
 
     value = get_parameter(graph, space or names.namespace_of(graph.caller))
     return str(yaml.dump(_plain(value)))
+
+
+def leaves(value: Any, name: str) -> Iterator[tuple[str, Any]]:
+    """All parameters of a namespace that are no namespaces themselves, with their names."""
+    if not isinstance(value, dict):
+        yield name, value
+        return
+    for key, inner in value.items():
+        yield from leaves(inner, names.join(name, key))
 
 
 def delete_parameter(graph: Graph, name: str) -> None:

@@ -64,6 +64,17 @@ client.cancel_goal()
 client.wait_for_result(rospy.Duration(10))
 say(client.get_state(), client.get_result().result)
 """
+BUFFER_CLIENT = """
+import tf2_ros
+rospy.init_node("real_asker")
+client = tf2_ros.BufferClient("/frames")
+say(client.wait_for_server(rospy.Duration(10)))
+say(client.lookup_transform("map", "base", rospy.Time(5), rospy.Duration(1)).transform.translation.x)
+try:
+    client.lookup_transform("map", "nothing", rospy.Time(0))
+except tf2_ros.LookupException as error:
+    say(error)
+"""
 QUICK_CLIENT = """
 import actionlib
 from actionlib.msg import *
@@ -164,6 +175,19 @@ def test_a_real_client_sends_goals_to_our_server(node, master):
     server.start()
     with real.RealNode(master.uri, ACTION_CLIENT) as client:
         client.expect("True", "3 3 [7]", "2 -1")
+
+
+def test_a_real_client_asks_our_buffer(node, master):
+    tf2_ros = importlib.import_module("tf2_ros")
+    made = importlib.import_module("geometry_msgs.msg").TransformStamped()
+    made.header.frame_id, made.child_frame_id, made.header.stamp = "map", "base", node.Time(5)
+    made.transform.translation.x, made.transform.rotation.w = 1.5, 1.0
+    buffer = tf2_ros.Buffer()
+    buffer.set_transform(made, "test")
+    tf2_ros.BufferServer(buffer, "/frames")
+    with real.RealNode(master.uri, BUFFER_CLIENT) as client:
+        client.expect("True", "1.5")
+        assert "does not exist" in client.line()
 
 
 def test_a_real_client_misses_nothing_of_goals_that_are_done_at_once(node, master):

@@ -2,6 +2,7 @@
 
 import importlib
 import math
+import threading
 import time
 
 import pytest
@@ -133,3 +134,38 @@ def test_a_twist_is_measured(node):
     linear, angular = frames.lookupTwist("base", "map", node.Time(1, 5 * 10**8), node.Duration(0.4))
     assert linear == pytest.approx((1.0, 0.0, 0.0))
     assert angular == pytest.approx((0.0, 0.0, 0.5))
+
+
+def test_a_buffer_answers_other_nodes(node, tf2):
+    buffer = tf2.Buffer()
+    buffer.set_transform(transform("map", "base", Time(5), 1.0), "test")
+    buffer.set_transform(transform("map", "base", Time(6), 2.0), "test")
+    server = tf2.BufferServer(buffer, "/frames")
+    client = tf2.BufferClient("/frames")
+    assert client.wait_for_server(node.Duration(5))
+    found = client.lookup_transform("map", "base", node.Time(5.5), node.Duration(1))
+    assert found.transform.translation.x == 1.5
+    moved = client.lookup_transform_full(
+        "base", node.Time(6), "base", node.Time(5), "map", node.Duration(1)
+    )
+    assert moved.transform.translation.x == -1.0
+    with pytest.raises(tf2.LookupException, match="does not exist"):
+        client.lookup_transform("map", "nothing", node.Time(0))
+    with pytest.raises(tf2.ExtrapolationException):
+        client.lookup_transform("map", "base", node.Time(9), node.Duration(0.1))
+    assert not client.can_transform("map", "nothing", node.Time(0))
+    server.start()
+
+
+def test_a_buffer_answers_when_the_transform_comes(node, tf2):
+    buffer = tf2.Buffer()
+    tf2.BufferServer(buffer, "/frames", check_period=node.Duration(0.01))
+    client = tf2.BufferClient("/frames")
+    assert client.wait_for_server(node.Duration(5))
+    later = threading.Timer(
+        0.3, lambda: buffer.set_transform(transform("map", "base", Time(5), 1.0), "test")
+    )
+    later.start()
+    found = client.lookup_transform("map", "base", node.Time(5), node.Duration(5))
+    assert found.transform.translation.x == 1.0
+    later.join()

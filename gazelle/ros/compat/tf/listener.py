@@ -28,6 +28,11 @@ def strip_leading_slash(s: str) -> str:
     return s.removeprefix("/")
 
 
+def _plain(*frames: str) -> list[str]:
+    """Names without a slash in front."""
+    return [strip_leading_slash(frame) for frame in frames]
+
+
 def xyz_to_mat44(pos: Any) -> Any:
     """The matrix of a position message."""
     return translation_matrix((pos.x, pos.y, pos.z))
@@ -65,7 +70,7 @@ class Transformer:
 
     def canTransform(self, target_frame: str, source_frame: str, time: Any) -> bool:
         """Whether there is a transform at a time."""
-        target, source = strip_leading_slash(target_frame), strip_leading_slash(source_frame)
+        target, source = _plain(target_frame, source_frame)
         return bool(self._buffer.can_transform(target, source, time))
 
     def canTransformFull(
@@ -77,7 +82,7 @@ class Transformer:
         fixed_frame: str,
     ) -> bool:
         """Whether there is a transform from one time to another."""
-        names = [strip_leading_slash(name) for name in (target_frame, source_frame, fixed_frame)]
+        names = _plain(target_frame, source_frame, fixed_frame)
         found = self._buffer.can_transform_full(
             names[0], target_time, names[1], source_time, names[2]
         )
@@ -98,7 +103,7 @@ class Transformer:
         """
         del polling_sleep_duration
         self._check_thread()
-        target, source = strip_leading_slash(target_frame), strip_leading_slash(source_frame)
+        target, source = _plain(target_frame, source_frame)
         _demand(self._buffer.can_transform(target, source, time, timeout, True), target, source)
 
     def waitForTransformFull(
@@ -118,7 +123,7 @@ class Transformer:
         """
         del polling_sleep_duration
         self._check_thread()
-        names = [strip_leading_slash(name) for name in (target_frame, source_frame, fixed_frame)]
+        names = _plain(target_frame, source_frame, fixed_frame)
         answer = self._buffer.can_transform_full(
             names[0], target_time, names[1], source_time, names[2], timeout, True
         )
@@ -162,7 +167,7 @@ class Transformer:
         Raises:
             TransformException: There is none.
         """
-        source, target = strip_leading_slash(source_frame), strip_leading_slash(dest_frame)
+        source, target = _plain(source_frame, dest_frame)
         return self._buffer.get_latest_common_time(target, source)
 
     def lookupTransform(self, target_frame: str, source_frame: str, time: Any) -> Pair:
@@ -171,7 +176,7 @@ class Transformer:
         Raises:
             TransformException: There is none; its class says why.
         """
-        target, source = strip_leading_slash(target_frame), strip_leading_slash(source_frame)
+        target, source = _plain(target_frame, source_frame)
         return _pair(self._buffer.lookup_transform(target, source, time))
 
     def lookupTransformFull(
@@ -187,7 +192,7 @@ class Transformer:
         Raises:
             TransformException: There is none; its class says why.
         """
-        names = [strip_leading_slash(name) for name in (target_frame, source_frame, fixed_frame)]
+        names = _plain(target_frame, source_frame, fixed_frame)
         found = self._buffer.lookup_transform_full(
             names[0], target_time, names[1], source_time, names[2]
         )

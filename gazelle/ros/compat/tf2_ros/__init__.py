@@ -20,6 +20,7 @@ from gazelle.ros.compat.tf2_ros.buffer_interface import (
     TypeException,
     convert,
 )
+from gazelle.ros.compat.tf2_ros.buffer_server import BufferServer
 from gazelle.ros.compat.tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_broadcaster import TransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_listener import TransformListener
@@ -35,6 +36,7 @@ __all__ = [
     "BufferClient",
     "BufferCore",
     "BufferInterface",
+    "BufferServer",
     "ConnectivityException",
     "ConvertRegistration",
     "ExtrapolationException",

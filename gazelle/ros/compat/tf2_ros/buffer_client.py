@@ -19,8 +19,7 @@ from gazelle.ros.messages import load_message
 
 _ZERO = Duration(0)
 _PADDING = Duration(2)
-# The numbers of tf2_msgs/TF2Error.
-_ERRORS = {
+ERRORS = {
     1: LookupException,
     2: ConnectivityException,
     3: ExtrapolationException,
@@ -28,6 +27,7 @@ _ERRORS = {
     5: TimeoutException,
     6: TransformException,
 }
+"""What the numbers of tf2_msgs/TF2Error stand for."""
 
 
 class BufferClient(BufferInterface):
@@ -131,6 +131,6 @@ class BufferClient(BufferInterface):
         if result is None:
             raise TransformException("The BufferServer gave up on the LookupTransform goal")
         if result.error.error:
-            kind = _ERRORS.get(result.error.error, TransformException)
+            kind = ERRORS.get(result.error.error, TransformException)
             raise kind(result.error.error_string)
         return result.transform
