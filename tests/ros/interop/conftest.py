@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -11,7 +12,8 @@ import pytest
 from missing import skip_or_fail
 from ros import real
 
-from gazelle.ros import Master, Node
+from gazelle.ros import Master, MasterProxy, Node
+from gazelle.ros.errors import ApiError
 
 SOURCE = Path(__file__).parent / "peer.cpp"
 
@@ -46,9 +48,16 @@ class CppNode(real.RealNode):
             text=True,
         )
 
+    def __exit__(self, *error):
+        # This it takes as a request to unregister and end; others just end it.
+        self.process.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self.process.wait(5)
+        super().__exit__(*error)
 
-@pytest.fixture(params=["our master", "real roscore"])
-def graph(request):
+
+@pytest.fixture(scope="module", params=["our master", "real roscore"])
+def running_master(request):
     """The URI of a master of either kind."""
     if request.param == "our master":
         with Master(port=0) as running:
@@ -56,6 +65,17 @@ def graph(request):
     else:
         with real.master() as uri:
             yield uri
+
+
+@pytest.fixture
+def graph(running_master):
+    """The URI of a master without parameters of other tests."""
+    yield running_master
+    proxy = MasterProxy(running_master, "/test")
+    for name in ("use_sim_time", "shared", "theirs", "followed", "gain", "cpp"):
+        with contextlib.suppress(ApiError):
+            proxy.delete_param(f"/{name}")
+    proxy.close()
 
 
 @pytest.fixture
