@@ -22,6 +22,7 @@ PRIMITIVE: Final = 8
 SEGMENT: Final = 0.0
 CIRCLE: Final = 1.0
 GHOST: Final = 2.0  # added to KIND where nothing bumps into it
+OPEN: Final = 4.0  # added to the KIND of lines that enclose nothing: seen from both sides
 
 # Bodies. Heading and its cosine and sine are kept together.
 X: Final = 0

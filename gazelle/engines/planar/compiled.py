@@ -29,6 +29,14 @@ def kernel(function: Function) -> Function:
     return cast("Function", made)
 
 
+def part(function: Function) -> Function:
+    """Compile a function that only kernels call; it becomes part of them."""
+    made = numba.njit(
+        nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+    )(function)
+    return cast("Function", made)
+
+
 def _follow_all_sources(made: Any) -> None:
     """Let the cache of one kernel also depend on the kernels that it calls.
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_scan
+from gazelle.engines.planar import kernels_noise, kernels_scan
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import EngineError
 
@@ -18,6 +19,7 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
+_BLOCK = 64  # primitives and bodies that are prepared at once
 _SHARE = 4000  # beams that are worth a thread
 
 
@@ -70,6 +72,25 @@ class Mount:
     z: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class RangeNoise:
+    """Normal noise on ranges: of standard deviation ``constant`` [m] plus ``share`` of them."""
+
+    constant: float = 0.0
+    share: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Scratch:
+    """What a thread writes on while it scans."""
+
+    beams: Floats
+    view: Floats
+    stamp: NDArray[np.int64]
+    walls: Floats = field(default_factory=lambda: np.zeros((8, _BLOCK)))
+    others: Floats = field(default_factory=lambda: np.zeros((8, _BLOCK)))
+
+
 class Scanner:
     """The same fan on some bodies of a fleet.
 
@@ -78,20 +99,31 @@ class Scanner:
         fan: The beams.
         mounts: Where they start, the same in all worlds.
         named: Whether to remember what each beam met.
+        noise: On the ranges; None for none.
+        seed: Of the noise.
+
+    Attributes:
+        ranges: Of the last scan [m], shape (nworld, mounts, count).
+        names: What each beam met, as ``columns.NAMES`` says, a row a sensor, if ``named``.
+        owners: Body of each sensor, counted through all worlds, shape (nworld * mounts,).
+        tick: Number of scans so far; the noise of a scan depends on it.
 
     Raises:
         EngineError: The fan cannot be, or there is no such body.
     """
 
     def __init__(
-        self, fleet: Fleet, fan: Fan, mounts: Sequence[Mount], *, named: bool = False
+        self, fleet: Fleet, fan: Fan, mounts: Sequence[Mount], *, named: bool = False,
+        noise: RangeNoise | None = None, seed: int = 0,
     ) -> None:
         _check(fan, fleet, mounts)
         self.fleet, self.fan = fleet, fan
+        self.noise, self.seed, self.tick = noise, seed, 0
         self._mounts = np.array(
             [[m.x, m.y, math.cos(m.yaw), math.sin(m.yaw), m.z] for m in mounts]
         ).reshape(-1, c.SENSOR)
         self._carriers = np.array([mount.body for mount in mounts], np.int64)
+        self.owners = self._owners_in(np.arange(fleet.nworld))
         begin = 1.0 / fan.begin if fan.begin > 0.0 else math.inf
         self._fan = np.array([fan.start, 1.0 / fan.step, fan.reach, begin, _ANGLES])
         beams = np.zeros((4, fan.count))
@@ -99,13 +131,18 @@ class Scanner:
         self._outline = _outline(fan)
         statics = len(fleet.scene.table.rows)
         self._scratch = [
-            (beams.copy(), np.zeros_like(self._outline), np.zeros(statics + 1, np.int64))
+            _Scratch(beams.copy(), np.zeros_like(self._outline), np.zeros(statics + 1, np.int64))
             for _ in range(fleet.crew.size)
         ]
         total = fleet.nworld * len(mounts)
         self._sensors = np.zeros((total, c.SENSOR))
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
         self.names = np.zeros((total if named else 0, fan.count))
+
+    @property
+    def flat_ranges(self) -> Floats:
+        """``ranges`` with one row a sensor, shape (nworld * mounts, count)."""
+        return self.ranges.reshape(-1, self.fan.count)
 
     def scan(self, worlds: Worlds | None = None) -> Floats:
         """Distances now [m], shape (n, mounts, count); the fan's reach where nothing is met.
@@ -115,24 +152,45 @@ class Scanner:
         Args:
             worlds: Which worlds; all if None.
         """
-        which = np.arange(self.fleet.nworld) if worlds is None else worlds
-        owners = (which[:, None] * self.fleet.nbody + self._carriers).ravel()
-        ranges = self.ranges.reshape(-1, self.fan.count)
-        self.fleet.crew.share(
-            lambda a, b, part: self._scan(a, b, owners, ranges, part),
-            len(owners),
-            max(1, _SHARE // self.fan.count),
-        )
-        return self.ranges[: len(which)]
+        owners, count = self.owners, self.fleet.nworld
+        if worlds is not None:
+            owners, count = self._owners_in(worlds), len(worlds)
+        least = max(1, _SHARE // self.fan.count)
+        ranges, tick = self.flat_ranges, self.tick
 
-    def _scan(self, first: int, last: int, owners: Worlds, ranges: Floats, part: int) -> None:
+        def work(first: int, last: int, part: int) -> None:
+            own = self.arguments(part)
+            kernels_scan.scan(
+                first, last, own[0], owners, *own[2:5], self.fleet.widest, *self._looks(),
+                *own[5:], ranges, self.names,
+            )  # fmt: skip
+            if self.noise is not None:
+                constant, share = self.noise.constant, self.noise.share
+                kernels_noise.blur(
+                    first, last, owners, ranges, self._fan, constant, share, self.seed, tick
+                )
+
+        self.fleet.crew.share(work, len(owners), least)
+        self.tick += 1
+        return self.ranges[:count]
+
+    def _owners_in(self, worlds: Worlds) -> NDArray[np.int64]:
+        rows = worlds[:, None] * self.fleet.nbody + self._carriers
+        return np.ascontiguousarray(rows.ravel(), np.int64)
+
+    def _looks(self) -> tuple[Any, ...]:
         fleet, scene = self.fleet, self.fleet.scene
-        kernels_scan.aim(first, last, owners, self._mounts, fleet.rows, self._sensors)
-        beams, view, stamp = self._scratch[part]
-        kernels_scan.scan(
-            first, last, self._sensors, owners, self._fan, self._outline, fleet.widest,
+        return (
             scene.grid, scene.table.rows, scene.start, scene.items, fleet.kinds, fleet.looks,
-            fleet.rows, fleet.head, fleet.follow, beams, view, stamp, ranges, self.names,
+            fleet.rows, fleet.head, fleet.follow,
+        )  # fmt: skip
+
+    def arguments(self, part: int) -> tuple[Any, ...]:
+        """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
+        own = self._scratch[part]
+        return (
+            self._sensors, self.owners, self._mounts, self._fan, self._outline,
+            own.beams, own.view, own.stamp, own.walls, own.others,
         )  # fmt: skip
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -255,11 +255,15 @@ class Fleet:
             self._step_together()
 
     def _advance(self, first: int, last: int, count: int) -> None:
-        kernels_step.advance(
-            first * self.nbody, last * self.nbody, count, self._widest, self.drives,
-            self._command, self._velocity, self.rows, self._goal, self._state, self._stalled,
-            self.time_step, self.euler, self.kinds, self.pieces, self.corners,
-            *self._statics(), self.head, self.follow, self.cell,
+        own = self.arguments()
+        kernels_step.advance(first * self.nbody, last * self.nbody, count, *own)
+
+    def arguments(self) -> tuple[Any, ...]:
+        """What ``kernels_step.advance`` works on, after the range and the count."""
+        return (
+            self._widest, self.drives, self._command, self._velocity, self.rows, self._goal,
+            self._state, self._stalled, self.time_step, self.euler, self.kinds, self.pieces,
+            self.corners, *self._statics(), self.head, self.follow, self.cell,
         )  # fmt: skip
 
     def _step_together(self) -> None:

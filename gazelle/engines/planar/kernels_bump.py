@@ -39,13 +39,13 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.compiled import part
 from gazelle.engines.planar.kernels_grid import place_in
 
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
 
-@kernel
+@part
 def reaches(x, y, x0, y0, x1, y1, radius):
     """Whether a disc meets a segment."""
     ex, ey = x1 - x0, y1 - y0
@@ -57,7 +57,7 @@ def reaches(x, y, x0, y0, x1, y1, radius):
     return dx * dx + dy * dy < radius * radius
 
 
-@kernel
+@part
 def separates(corners, i, j, x0, y0, x1, y1):
     """Whether both points are on the right of the edge from corner i to corner j, outside."""
     ax, ay = corners[i, 0], corners[i, 1]
@@ -66,7 +66,7 @@ def separates(corners, i, j, x0, y0, x1, y1):
     return ex * (y0 - ay) - ey * (x0 - ax) <= most and ex * (y1 - ay) - ey * (x1 - ax) <= most
 
 
-@kernel
+@part
 def crosses(corners, first, count, x0, y0, x1, y1):
     """Whether a segment has a part inside a convex polygon."""
     for i in range(first, first + count):
@@ -81,7 +81,7 @@ def crosses(corners, first, count, x0, y0, x1, y1):
     return low < -least and high > least
 
 
-@kernel
+@part
 def piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
     """Whether a piece meets a static primitive, given in the frame of the piece's body."""
     cx, cy = pieces[p, CENTRE_X], pieces[p, CENTRE_Y]
@@ -97,7 +97,7 @@ def piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
     return count == 0 or near_polygon(corners, first, count, x0, y0, radius - TOUCH)
 
 
-@kernel
+@part
 def near_polygon(corners, first, count, x, y, radius):
     """Whether a disc meets a convex polygon."""
     inside = True
@@ -110,7 +110,7 @@ def near_polygon(corners, first, count, x, y, radius):
     return inside
 
 
-@kernel
+@part
 def static_meets(b, k, kinds, pieces, corners, goal, statics, s):
     """Whether body b at its goal meets a static primitive."""
     if (int(statics[s, KIND]) & int(GHOST)) != 0:
@@ -134,7 +134,7 @@ def static_meets(b, k, kinds, pieces, corners, goal, statics, s):
     return False
 
 
-@kernel
+@part
 def statics_meet(b, k, kinds, pieces, corners, goal, statics, grid, start, items):
     """Whether body b at its goal meets anything static."""
     x, y, r = goal[b, X], goal[b, Y], kinds[k, RADIUS]
@@ -154,7 +154,7 @@ def statics_meet(b, k, kinds, pieces, corners, goal, statics, grid, start, items
     return False
 
 
-@kernel
+@part
 def outside(corners, first, count, cos, sin, x, y, start, number):
     """Whether an edge of a polygon separates it from another one.
 
@@ -177,7 +177,7 @@ def outside(corners, first, count, cos, sin, x, y, start, number):
     return False
 
 
-@kernel
+@part
 def pieces_meet(pieces, corners, p, q, x, y, cos, sin):
     """Whether two pieces overlap; the frame of q's body is at (x, y, cos, sin) in that of p's."""
     qx = x + cos * pieces[q, CENTRE_X] - sin * pieces[q, CENTRE_Y]
@@ -202,7 +202,7 @@ def pieces_meet(pieces, corners, p, q, x, y, cos, sin):
     return not outside(corners, start, number, cos, -sin, bx, by, first, count)
 
 
-@kernel
+@part
 def bodies_meet(a, ka, b, kb, kinds, pieces, corners, goal, at):
     """Whether body a at its goal overlaps body b where it is in the table ``at``."""
     ox, oy = at[b, X] - goal[a, X], at[b, Y] - goal[a, Y]
@@ -223,15 +223,17 @@ def bodies_meet(a, ka, b, kb, kinds, pieces, corners, goal, at):
     return False
 
 
-@kernel
+@part
 def obstructed(
-    a, ordered, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
+    a, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
 ):
     """Whether body a's way is barred by a body.
 
-    Not ``ordered``: by any body, where it is or where it would be. Else by those with lower
-    indices where they have got to, and by the others where they are.
+    For one that is MOVING: by any body, where it is or where it would be. For one that is
+    UNDECIDED: by those with lower indices where they have got to, and by the others where
+    they are.
     """
+    ordered = state[a] == UNDECIDED
     k = a % nbody
     world = a // nbody
     x, y, r = goal[a, X], goal[a, Y], kinds[k, RADIUS] + reach

@@ -14,17 +14,17 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import NEAR, RATE, REACH, SLACK, START
-from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.compiled import part
 
 TURN = 2.0 * math.pi
 FEW = 48  # beams from which it pays to find out which ones are missed
 
 
-@kernel
+@part
 def angle_of(y, x):
     """atan2 to 1e-5 rad: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.47."""
     ax, ay = abs(x), abs(y)
-    q = min(ax, ay) / max(ax, ay)
+    q = min(ax, ay) / max(max(ax, ay), 1e-300)
     s = q * q
     a = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))))
     a = 0.5 * math.pi - a if ay > ax else a
@@ -32,7 +32,7 @@ def angle_of(y, x):
     return -a if y < 0.0 else a
 
 
-@kernel
+@part
 def draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, near, name):
     """Beams lo to hi, each of which may pass a segment on either side."""
     for k in range(np.uint64(lo), np.uint64(hi)):
@@ -45,7 +45,7 @@ def draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, near, name):
         beams[3, k] = name if met else who
 
 
-@kernel
+@part
 def draw_circle(beams, lo, hi, x, y, square, inverse, near, name):
     """Beams lo to hi, each of which may pass a circle; what they meet from inside is negative."""
     for k in range(np.uint64(lo), np.uint64(hi)):
@@ -63,57 +63,57 @@ def draw_circle(beams, lo, hi, x, y, square, inverse, near, name):
         beams[3, k] = seen if met else who
 
 
-@kernel
-def draw_between(beams, lo, hi, circle, square, x0, y0, x1, y1, cross, near, name):
+@part
+def draw(beams, lo, hi, fan, circle, x0, y0, x1, y1, radius, name):
     """Beams lo to hi, which may meet a segment that is solid on its left, or a circle."""
-    if circle:
-        draw_circle(beams, lo, hi, x0, y0, square, 1.0 / cross, near, name)
-    else:
-        seen = name if cross < 0.0 else -name
-        draw_segment(beams, lo, hi, x0, y0, x1, y1, 1.0 / cross, near, seen)
-
-
-@kernel
-def covered(circle, radius, x0, y0, x1, y1, cross):
-    """The angles that a primitive covers: the first, and how many from there [rad]."""
-    if not circle:
-        first, last = angle_of(y0, x0), angle_of(y1, x1)
-        if cross < 0.0:
-            first, last = last, first
-        return first, last - first if last >= first else last - first + TURN
-    if cross <= 0.0:
-        return 0.0, TURN
-    half = angle_of(radius, math.sqrt(cross))
-    return angle_of(y0, x0) - half, 2.0 * half
-
-
-@kernel
-def draw(beams, fan, circle, radius, x0, y0, x1, y1, name):
-    """A segment that is solid on its left, or a circle about (x0, y0)."""
-    square = radius * radius
-    reach = fan[REACH]
-    if circle:
-        cross = x0 * x0 + y0 * y0 - square
-        if cross > reach * (reach + 2.0 * radius):
-            return
-    else:
-        cross = x0 * y1 - x1 * y0
-        ex, ey = x1 - x0, y1 - y0
-        if cross * cross > reach * reach * (ex * ex + ey * ey):
-            return
+    cross = x0 * x0 + y0 * y0 - radius * radius if circle else x0 * y1 - x1 * y0
     if cross == 0.0:
         return
-    count = beams.shape[1]
-    if count <= FEW:
-        draw_between(beams, 0, count, circle, square, x0, y0, x1, y1, cross, fan[NEAR], name)
-        return
-    first, span = covered(circle, radius, x0, y0, x1, y1, cross)
-    first -= fan[START] + fan[SLACK]
-    first -= TURN * math.floor(first / TURN)
-    span += 2.0 * fan[SLACK]
-    for turn in range(-1, 2):
-        angle = first + turn * TURN
-        lo = int(max(math.ceil(angle * fan[RATE]), 0.0))
-        hi = int(min(math.floor((angle + span) * fan[RATE]) + 1.0, float(count)))
-        if lo < hi:
-            draw_between(beams, lo, hi, circle, square, x0, y0, x1, y1, cross, fan[NEAR], name)
+    if circle:
+        draw_circle(beams, lo, hi, x0, y0, radius * radius, 1.0 / cross, fan[NEAR], name)
+    else:
+        seen = name if cross < 0.0 else -name
+        draw_segment(beams, lo, hi, x0, y0, x1, y1, 1.0 / cross, fan[NEAR], seen)
+
+
+@part
+def cover(found, number, fan):
+    """Find the angles that segments and discs cover, many at once.
+
+    Args:
+        found: Rows of a ``number`` of them: x and y of one end or the middle, x and y of
+            the other end, the radius, 0 for a segment; what comes out are the first angle
+            from that of the first beam, less what it may be wrong by, and how many from there.
+        number: How many.
+        fan: The fan.
+    """
+    for i in range(np.uint64(number)):
+        x0, y0, x1, y1, radius = found[0, i], found[1, i], found[2, i], found[3, i], found[4, i]
+        disc = radius > 0.0
+        outside = x0 * x0 + y0 * y0 - radius * radius
+        half = angle_of(radius, math.sqrt(max(outside, 1e-300)))
+        first, other = angle_of(y0, x0), angle_of(y1, x1)
+        left = x0 * y1 - x1 * y0 > 0.0
+        start = first if left else other
+        span = (other if left else first) - start
+        span = span + TURN if span < 0.0 else span
+        start = first - half if disc else start
+        span = 2.0 * half if disc else span
+        span = TURN if disc & (outside <= 0.0) else span
+        start -= fan[START] + fan[SLACK]
+        found[5, i] = start - TURN * math.floor(start / TURN)
+        found[6, i] = span + 2.0 * fan[SLACK]
+
+
+@part
+def beams_in(fan, count, first, span, turn):
+    """The beams among angles found by ``cover``, from the first to before the last.
+
+    ``turn`` is 0, -1 and 1: a fan may go once around.
+    """
+    first += TURN * turn
+    lo = math.ceil(first * fan[RATE])
+    hi = math.floor((first + span) * fan[RATE]) + 1.0
+    if hi <= 0.0 or lo >= count:
+        return 0, 0
+    return int(max(lo, 0.0)), int(min(hi, float(count)))

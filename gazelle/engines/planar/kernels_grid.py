@@ -11,17 +11,17 @@ from __future__ import annotations
 import math
 
 from gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1
-from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.compiled import kernel, part
 
 
-@kernel
+@part
 def place_in(value, corner, side, count):
     """Column or row of a coordinate."""
     f = math.floor((value - corner) / side)
     return int(min(max(f, 0.0), count - 1.0))
 
 
-@kernel
+@part
 def cell_of(grid, x, y):
     """The cell of a point."""
     column = place_in(x, grid[0], grid[2], grid[3])
@@ -29,7 +29,7 @@ def cell_of(grid, x, y):
     return row * int(grid[3]) + column
 
 
-@kernel
+@part
 def stretch(low, high, y0, y1, x0, x1):
     """Where a segment is between two heights: its least and greatest x; (inf, -inf) if nowhere."""
     if (y0 < low and y1 < low) or (y0 > high and y1 > high):
@@ -81,7 +81,7 @@ def list_statics(statics, grid, start, items):
                 start[cell] += 1
 
 
-@kernel
+@part
 def link(head, follow, body, cell):
     """Put a body into the sorted list of a cell."""
     at = head[cell]
@@ -95,7 +95,7 @@ def link(head, follow, body, cell):
     follow[at] = body
 
 
-@kernel
+@part
 def unlink(head, follow, body, cell):
     """Take a body out of the list of a cell."""
     at = head[cell]

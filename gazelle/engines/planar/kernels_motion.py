@@ -24,10 +24,10 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.compiled import part
 
 
-@kernel
+@part
 def toward(now, wanted, drives, k, axis, dt):
     """The velocity along an axis after a step, within the bounds of a drive."""
     wanted = min(max(wanted, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis])
@@ -36,7 +36,7 @@ def toward(now, wanted, drives, k, axis, dt):
     return wanted if least <= change <= most else now + min(max(change, least), most)
 
 
-@kernel
+@part
 def go(pose, goal, b, vx, vy, turn, dt, euler):
     """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
 
@@ -62,7 +62,7 @@ def go(pose, goal, b, vx, vy, turn, dt, euler):
     goal[b, YAW], goal[b, COS], goal[b, SIN], goal[b, Z] = yaw, cos, sin, pose[b, Z]
 
 
-@kernel
+@part
 def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler):
     """Decide where the bodies first to last would go; returns the longest way of one [m].
 
@@ -87,11 +87,11 @@ def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler
         state[b] = STILL
         if kind == PASSIVE:
             continue
-        vx = toward(velocity[b, 0], command[b, 0], drives, k, 0, dt)
-        vy = toward(velocity[b, 1], command[b, 1], drives, k, 1, dt)
-        turn = toward(velocity[b, 2], command[b, 2], drives, k, 2, dt)
-        vy = 0.0 if kind in (DIFFERENTIAL, CAR) else vy
-        velocity[b, 0], velocity[b, 1], velocity[b, 2] = vx, vy, turn
+        for axis in range(3):
+            velocity[b, axis] = toward(velocity[b, axis], command[b, axis], drives, k, axis, dt)
+        vx, vy, turn = velocity[b, 0], velocity[b, 1], velocity[b, 2]
+        if kind in (DIFFERENTIAL, CAR):
+            vy = velocity[b, 1] = 0.0
         if kind == CAR:
             vx, turn = vx * math.cos(turn), vx * math.sin(turn) / drives[k, WHEELBASE]
         if vx == 0.0 and vy == 0.0 and turn == 0.0:
@@ -102,7 +102,7 @@ def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler
     return math.sqrt(longest) * dt
 
 
-@kernel
+@part
 def commit(first, last, pose, goal, state, stalled):
     """Let the bodies first to last be where they may go; remember who could not."""
     moved = 0

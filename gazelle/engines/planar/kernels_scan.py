@@ -23,6 +23,7 @@ from gazelle.engines.planar.columns import (
     LAST_LOOK,
     LOW,
     NAMES,
+    OPEN,
     RADIUS,
     REACH,
     S_COS,
@@ -39,43 +40,124 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel
-from gazelle.engines.planar.kernels_fan import draw
+from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover, draw
 from gazelle.engines.planar.kernels_grid import place_in, stretch
 
 
-@kernel
-def draw_row(beams, fan, table, p, height, x, y, cos, sin, name):
-    """A primitive of a table whose frame is at (x, y, cos, sin) in the sensor's frame.
+@part
+def find_static(found, n, fan, statics, s, height, x, y, cos, sin):
+    """Write down a static primitive as the n-th found if it can be seen; returns how many.
 
-    ``height`` is the sensor's in the frame of the table.
+    The world's frame is at (x, y, cos, sin) in the sensor's.
     """
-    if table[p, GLOW] < 0.0 or height < table[p, LOW] or height > table[p, HIGH]:
-        return
-    circle = (int(table[p, KIND]) & int(CIRCLE)) != 0
-    ax, ay, bx, by = table[p, X0], table[p, Y0], table[p, X1], table[p, Y1]
+    if statics[s, GLOW] < 0.0 or height < statics[s, LOW] or height > statics[s, HIGH]:
+        return n
+    ax, ay, bx, by = statics[s, X0], statics[s, Y0], statics[s, X1], statics[s, Y1]
     x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
     x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-    draw(beams, fan, circle, bx if circle else 0.0, x0, y0, x1, y1, name)
+    radius = bx if (int(statics[s, KIND]) & int(CIRCLE)) != 0 else 0.0
+    if radius > 0.0:
+        far = fan[REACH] + radius
+        if x0 * x0 + y0 * y0 > far * far:
+            return n
+    else:
+        cross, ex, ey = x0 * y1 - x1 * y0, x1 - x0, y1 - y0
+        if cross * cross > fan[REACH] * fan[REACH] * (ex * ex + ey * ey):
+            return n
+    found[0, n], found[1, n], found[2, n], found[3, n] = x0, y0, x1, y1
+    found[4, n], found[7, n] = radius, s + 1.0
+    return n + 1
 
 
-@kernel
-def draw_body(beams, fan, sensors, m, kinds, looks, pose, k, b):
-    """Body b, of kind k, if sensor m can see it."""
+@part
+def draw_statics(beams, fan, found, n):
+    """Draw the static primitives found."""
+    count = beams.shape[1]
+    if count > FEW:
+        cover(found, n, fan)
+    for i in range(n):
+        lo, hi = 0, count
+        for turn in range(2 if count > FEW else 1):
+            if count > FEW:
+                lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
+            if lo < hi:
+                draw(
+                    beams, lo, hi, fan, found[4, i] > 0.0, found[0, i], found[1, i], found[2, i],
+                    found[3, i], found[4, i], found[7, i],
+                )  # fmt: skip
+
+
+@part
+def hidden(beams, lo, hi, inverse):
+    """Whether beams lo to hi all meet something nearer than one over ``inverse``."""
+    for k in range(lo, hi):
+        if beams[2, k] < inverse:
+            return False
+    return True
+
+
+@part
+def draw_looks(beams, lo, hi, fan, looks, first, last, height, x, y, cos, sin, away, name):
+    """Primitives of a body whose frame is at (x, y, cos, sin) in the sensor's frame.
+
+    Of closed outlines that the sensor is ``away`` from only the front is drawn.
+    """
+    for p in range(first, last):
+        if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
+            continue
+        ax, ay, bx, by = looks[p, X0], looks[p, Y0], looks[p, X1], looks[p, Y1]
+        x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
+        x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
+        kind = int(looks[p, KIND])
+        circle = (kind & int(CIRCLE)) != 0
+        if away and x0 * y1 - x1 * y0 > 0.0 and not circle and (kind & int(OPEN)) == 0:
+            continue
+        draw(beams, lo, hi, fan, circle, x0, y0, x1, y1, bx, name + p)
+
+
+@part
+def find_body(found, n, fan, sensors, m, kinds, pose, k, b):
+    """Write down body b, of kind k, as the n-th found if it can be seen; returns how many."""
     ox, oy = pose[b, X] - sensors[m, S_X], pose[b, Y] - sensors[m, S_Y]
-    far = fan[REACH] + kinds[k, RADIUS]
+    radius = kinds[k, RADIUS]
+    far = fan[REACH] + radius
     if ox * ox + oy * oy > far * far:
-        return
-    c, n = sensors[m, S_COS], sensors[m, S_SIN]
-    x, y = c * ox + n * oy, c * oy - n * ox
-    cos = c * pose[b, COS] + n * pose[b, SIN]
-    sin = c * pose[b, SIN] - n * pose[b, COS]
-    height = sensors[m, S_Z] - pose[b, Z]
-    for p in range(int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK])):
-        draw_row(beams, fan, looks, p, height, x, y, cos, sin, NAMES * (b + 1.0) + p)
+        return n
+    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    found[0, n], found[1, n] = c * ox + s * oy, c * oy - s * ox
+    found[2, n], found[3, n] = c * pose[b, COS] + s * pose[b, SIN], c * pose[b, SIN] - s * pose[b, COS]
+    found[4, n], found[7, n] = radius, b
+    return n + 1
 
 
-@kernel
+@part
+def draw_bodies(beams, fan, found, n, sensors, m, kinds, looks, pose, world):
+    """Draw the bodies found."""
+    count = beams.shape[1]
+    if count > FEW:
+        cover(found, n, fan)
+    for i in range(n):
+        b = int(found[7, i])
+        k = b - world * kinds.shape[0]
+        x, y, radius = found[0, i], found[1, i], found[4, i]
+        square = x * x + y * y
+        away = square > radius * radius
+        nearest = math.sqrt(square) - radius
+        height = sensors[m, S_Z] - pose[b, Z]
+        lo, hi = 0, count
+        for turn in range(2 if count > FEW else 1):
+            if count > FEW:
+                lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
+                if away and hidden(beams, lo, hi, 1.0 / nearest):
+                    continue
+            draw_looks(
+                beams, lo, hi, fan, looks, int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK]),
+                height, x, y, found[2, i], found[3, i], away, NAMES * (b + 1.0),
+            )  # fmt: skip
+
+
+@part
 def put_view(view, outline, sensors, m):
     """Corners of the convex outline of all that a sensor can see, in the world."""
     for k in range(outline.shape[0]):
@@ -84,7 +166,7 @@ def put_view(view, outline, sensors, m):
         view[k, 1] = sensors[m, S_Y] + sensors[m, S_SIN] * x + sensors[m, S_COS] * y
 
 
-@kernel
+@part
 def extent_of(view, low, high):
     """Least and greatest x of a convex outline between two heights."""
     left, right = math.inf, -math.inf
@@ -96,7 +178,7 @@ def extent_of(view, low, high):
     return left, right
 
 
-@kernel
+@part
 def rows_of(view, grid, widest):
     """First and last row of cells that a view, widened by a radius, passes."""
     if grid[4] == 1.0:
@@ -108,7 +190,7 @@ def rows_of(view, grid, widest):
     return bottom, place_in(high + widest, grid[1], grid[2], grid[4])
 
 
-@kernel
+@part
 def cells_of(view, grid, widest, r):
     """First and last cell of row r that a view, widened by a radius, passes."""
     base = r * int(grid[3])
@@ -123,10 +205,10 @@ def cells_of(view, grid, widest, r):
     return base + first, base + place_in(right + widest, grid[0], grid[2], grid[3])
 
 
-@kernel
+@part
 def draw_view(
     beams, fan, sensors, m, view, widest, grid, statics, start, items, stamp,
-    kinds, looks, pose, head, follow, nbody, world, me,
+    kinds, looks, pose, head, follow, world, me, walls, others,
 ):  # fmt: skip
     """All that is in the cells in view, but for bodies of the family ``me``.
 
@@ -134,57 +216,67 @@ def draw_view(
     """
     now = stamp[statics.shape[0]] + 1
     stamp[statics.shape[0]] = now
-    c, n = sensors[m, S_COS], sensors[m, S_SIN]
-    x = -c * sensors[m, S_X] - n * sensors[m, S_Y]
-    y = n * sensors[m, S_X] - c * sensors[m, S_Y]
+    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
+    y = s * sensors[m, S_X] - c * sensors[m, S_Y]
+    height = sensors[m, S_Z]
+    n, q = np.int64(0), np.int64(0)
     bottom, top = rows_of(view, grid, widest)
     for r in range(bottom, top + 1):
         from_cell, to_cell = cells_of(view, grid, widest, r)
         for i in range(start[from_cell], start[to_cell + 1]):
-            s = int(items[i])
-            if stamp[s] != now:
-                stamp[s] = now
-                draw_row(beams, fan, statics, s, sensors[m, S_Z], x, y, c, -n, s + 1.0)
+            p = int(items[i])
+            if stamp[p] == now:
+                continue
+            stamp[p] = now
+            n = find_static(walls, n, fan, statics, p, height, x, y, c, -s)
+            if n == walls.shape[1]:
+                draw_statics(beams, fan, walls, n)
+                n = np.int64(0)
         for cell in range(from_cell, to_cell + 1):
             b = int(head[world, cell])
             while b >= 0:
-                k = b - world * nbody
+                k = b - world * kinds.shape[0]
                 if kinds[k, FAMILY] != me:
-                    draw_body(beams, fan, sensors, m, kinds, looks, pose, k, b)
+                    q = find_body(others, q, fan, sensors, m, kinds, pose, k, b)
+                    if q == others.shape[1]:
+                        draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
+                        q = np.int64(0)
                 b = int(follow[b])
+    draw_statics(beams, fan, walls, n)
+    draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
 
 
-@kernel
-def aim(first, last, owners, mounts, pose, sensors):
-    """Where the sensors first to last are: mounted on the bodies ``owners``, by turns."""
-    for m in range(first, last):
-        b, j = owners[m], m % mounts.shape[0]
-        c, n = pose[b, COS], pose[b, SIN]
-        sensors[m, S_X] = pose[b, X] + c * mounts[j, S_X] - n * mounts[j, S_Y]
-        sensors[m, S_Y] = pose[b, Y] + n * mounts[j, S_X] + c * mounts[j, S_Y]
-        sensors[m, S_COS] = c * mounts[j, S_COS] - n * mounts[j, S_SIN]
-        sensors[m, S_SIN] = n * mounts[j, S_COS] + c * mounts[j, S_SIN]
-        sensors[m, S_Z] = pose[b, Z] + mounts[j, S_Z]
+@part
+def aim(sensors, m, owners, mounts, pose):
+    """Find where sensor m is: the mounts are on the bodies ``owners``, by turns."""
+    b, j = owners[m], m % mounts.shape[0]
+    c, s = pose[b, COS], pose[b, SIN]
+    sensors[m, S_X] = pose[b, X] + c * mounts[j, S_X] - s * mounts[j, S_Y]
+    sensors[m, S_Y] = pose[b, Y] + s * mounts[j, S_X] + c * mounts[j, S_Y]
+    sensors[m, S_COS] = c * mounts[j, S_COS] - s * mounts[j, S_SIN]
+    sensors[m, S_SIN] = s * mounts[j, S_COS] + c * mounts[j, S_SIN]
+    sensors[m, S_Z] = pose[b, Z] + mounts[j, S_Z]
 
 
 @kernel
 def scan(
-    first, last, sensors, owners, fan, outline, widest, grid, statics, start, items,
-    kinds, looks, pose, head, follow, beams, view, stamp, ranges, names,
+    first, last, sensors, owners, mounts, fan, outline, widest, grid, statics, start, items,
+    kinds, looks, pose, head, follow, beams, view, stamp, walls, others, ranges, names,
 ):  # fmt: skip
     """Scan with the sensors first to last; a beam that meets nothing gets the fan's reach."""
-    nbody = kinds.shape[0]
     nothing = 1.0 / fan[REACH]
     for m in range(first, last):
-        world = owners[m] // nbody
-        me = kinds[owners[m] - world * nbody, FAMILY]
+        aim(sensors, m, owners, mounts, pose)
+        world = owners[m] // kinds.shape[0]
+        me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
         for k in range(np.uint64(beams.shape[1])):
             beams[2, k] = nothing
             beams[3, k] = 0.0
         put_view(view, outline, sensors, m)
         draw_view(
             beams, fan, sensors, m, view, widest, grid, statics, start, items, stamp,
-            kinds, looks, pose, head, follow, nbody, world, me,
+            kinds, looks, pose, head, follow, world, me, walls, others,
         )  # fmt: skip
         for k in range(np.uint64(beams.shape[1])):
             best = beams[2, k]

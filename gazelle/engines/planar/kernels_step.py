@@ -33,7 +33,7 @@ def screen(
     nbody = kinds.shape[0]
     for b in range(first, last):
         if state[b] == MOVING and obstructed(
-            b, False, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
+            b, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
         ):
             state[b] = UNDECIDED
 
@@ -48,7 +48,7 @@ def settle(
     for b in range(first, last):
         if state[b] == UNDECIDED:
             barred = obstructed(
-                b, True, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head,
+                b, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head,
                 follow,
             )  # fmt: skip
             state[b] = BLOCKED if barred else MOVING
