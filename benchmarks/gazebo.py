@@ -1,0 +1,196 @@
+"""The Gazebo door: start to first scan, state calls, real-time factor while all is published.
+
+A burger in turtlebot3_world at physics steps of 1 ms. Clients are Debian's real rospy where it is
+installed (python3-rospy and its messages), else Gazelle's. The goals are those of the project;
+Gazebo classic is not to be had from a package registry, so no figure of it is shown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import gazelle
+from gazelle.bridges import serve_ros
+from gazelle.ros import Master, Node, WallClock, load_message, load_service
+
+DEBIAN = "/usr/bin/python3"
+TOPICS = {
+    "/clock": "rosgraph_msgs/Clock",
+    "/odom": "nav_msgs/Odometry",
+    "/scan": "sensor_msgs/LaserScan",
+    "/joint_states": "sensor_msgs/JointState",
+    "/tf": "tf2_msgs/TFMessage",
+    "/gazebo/model_states": "*",
+}
+LISTENER = """
+import sys, time
+import rospy
+rospy.init_node(sys.argv[1], anonymous=True)
+counts = {"n": 0}
+def heard(message): counts["n"] += 1
+kind = rospy.AnyMsg
+if sys.argv[3] != "*":
+    package, name = sys.argv[3].split("/")
+    kind = getattr(__import__(package + ".msg", fromlist=[name]), name)
+rospy.Subscriber(sys.argv[2], kind, heard)
+rospy.spin()
+"""
+
+
+def main() -> None:
+    """Print the figures."""
+    parser = argparse.ArgumentParser(prog="gazelle bench gazebo", description=__doc__)
+    parser.add_argument("--seconds", type=float, default=5.0, help="of each window (default 5)")
+    parser.add_argument("--runs", type=int, default=5, help="of the start (default 5)")
+    args = parser.parse_args()
+    warnings.simplefilter("ignore")
+    peer = "rospy" if has_rospy() else "gazelle exec (rospy is not installed)"
+    print(f"turtlebot3_world with a burger, 1 ms steps; subscribers: {peer}")
+    print(f"from command to first /scan      {first_scan(args.runs):8.2f} s     (goal under 1)")
+    with Master(port=0, rosout=False) as master:
+        idle, door = costs(master.uri, args.seconds)
+        print(f"without a door                   {idle:8.1f} real-time factor")
+        print(f"door, nobody listening           {door:8.1f}   cost {100 * (idle / door - 1):.1f}%"
+              " (goal under 5%)")  # fmt: skip
+        print(f"a subscriber on each of {len(TOPICS)} topics {listened(master.uri, args.seconds):8.1f}"
+              " real-time factor (goal over 10)")  # fmt: skip
+        for words, paused in (("paused", True), ("in real time", False)):
+            rate = state_calls(master.uri, args.seconds, paused=paused)
+            print(f"set_model_state, {words:<15} {rate:8.0f} calls/s (goal over 1,000)")
+
+
+def has_rospy() -> bool:
+    """Whether Debian's rospy is here."""
+    return Path("/usr/lib/python3/dist-packages/rospy").is_dir()
+
+
+def first_scan(runs: int) -> float:
+    """Median seconds from the command to a scan that a waiting node hears."""
+    times = []
+    command = [sys.executable, "-m", "gazelle", "run", "turtlebot3_world", "--ros"]
+    with Master(port=0, rosout=False) as master:
+        node = Node("listener", master_uri=master.uri, clock=WallClock())
+        arrived = threading.Event()
+        node.subscribe("/scan", load_message("sensor_msgs/LaserScan"), lambda _scan: arrived.set())
+        for _ in range(runs):
+            arrived.clear()
+            start = time.perf_counter()
+            process = subprocess.Popen(
+                [*command, "--spawn", "turtlebot3_burger"],
+                env={**os.environ, "ROS_MASTER_URI": master.uri},
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            arrived.wait(60.0)
+            times.append(time.perf_counter() - start)
+            process.terminate()
+            process.wait()
+        node.close()
+    return statistics.median(times)
+
+
+@contextmanager
+def world() -> Iterator[gazelle.Simulation]:
+    """The world with its robot."""
+    with gazelle.Simulation("turtlebot3_world") as sim:
+        sim.spawn("turtlebot3_burger", name="burger", namespace="/")
+        sim.run(seconds=1.0)
+        yield sim
+
+
+def costs(uri: str, seconds: float) -> tuple[float, float]:
+    """Real-time factors without a door and with one, measured in turns; the best of each."""
+    with world() as bare, world() as served, serve_ros(served, uri):
+        pairs = [(pace(bare, seconds / 5), pace(served, seconds / 5)) for _ in range(5)]
+    return max(a for a, _ in pairs), max(b for _, b in pairs)
+
+
+def pace(sim: gazelle.Simulation, seconds: float) -> float:
+    """Simulated seconds a wall second."""
+    start, began = time.perf_counter(), sim.time
+    while time.perf_counter() - start < seconds:
+        sim.run(seconds=0.25)
+    return (sim.time - began) / (time.perf_counter() - start)
+
+
+def listened(uri: str, seconds: float) -> float:
+    """Real-time factor with a process that listens to each topic."""
+    with world() as sim, serve_ros(sim, uri) as door, listeners(uri):
+        deadline = time.monotonic() + 60.0
+        while not heard_everywhere(door.node) and time.monotonic() < deadline:
+            sim.step(10)
+            time.sleep(0.02)
+        return pace(sim, seconds)
+
+
+def heard_everywhere(node: Node) -> bool:
+    """Whether each topic has a subscriber."""
+    _, subscribers, _ = node.master.system_state()
+    return set(TOPICS) <= set(subscribers)
+
+
+@contextmanager
+def listeners(uri: str) -> Iterator[None]:
+    """A program for each topic."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / "listener.py"
+        script.write_text(LISTENER, encoding="utf-8")
+        python = [DEBIAN] if has_rospy() else [sys.executable, "-m", "gazelle", "exec"]
+        env = {
+            **os.environ,
+            "ROS_MASTER_URI": uri,
+            "ROS_IP": "127.0.0.1",
+            "PYTHONWARNINGS": "ignore",
+        }
+        programs = [
+            subprocess.Popen(
+                [*python, str(script), f"listener{i}", topic, kind],
+                env=env,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            for i, (topic, kind) in enumerate(TOPICS.items())
+        ]
+        try:
+            yield
+        finally:
+            for program in programs:
+                program.kill()
+                program.wait()
+
+
+def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
+    """Persistent calls of ``set_model_state`` a second, from one client."""
+    service = load_service("gazebo_msgs/SetModelState")
+    request = service._request_class()  # noqa: SLF001  # genpy's name
+    request.model_state.model_name = "burger"
+    with world() as sim, serve_ros(sim, uri) as door:
+        if paused:
+            sim.pause()
+        thread = threading.Thread(target=door.run)
+        thread.start()
+        with Node("caller", master_uri=uri, clock=WallClock()) as node:
+            client = node.client("/gazebo/set_model_state", service, persistent=True)
+            count, start = 0, time.perf_counter()
+            while time.perf_counter() - start < seconds:
+                client.call(request)
+                count += 1
+            taken = time.perf_counter() - start
+        door.stop()
+        thread.join()
+    return count / taken
+
+
+if __name__ == "__main__":
+    main()
