@@ -14,6 +14,7 @@ from gazelle.ros.parameters import Parameters
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
+    from gazelle.ros.services import ServiceServer
 
 
 class Guest:
@@ -35,6 +36,13 @@ class Guest:
     def wait_closed(self, timeout: float | None = None) -> bool:
         """Guests are never closed; this only waits."""
         return process.shutdown.wait(timeout)
+
+    @staticmethod
+    def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
+        """The server of a service in this process, if it is here."""
+        from gazelle.ros.node import Node
+
+        return Node.neighbour_service(host, port, name)
 
     def forget_client(self, client: Any) -> None:
         """Guests do not keep their clients."""
