@@ -153,3 +153,15 @@ def test_a_threshold_that_nothing_reaches_means_no_bounce():
     engine = make_engine("mujoco", scenes.world(floor, ball))
     engine.step(700)
     assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-3)
+
+
+def test_slip_is_warned_about_once():
+    slippery = Surface(Friction(1.0, 1.0, slip1=0.1))
+    blocks = [
+        with_surface(scenes.box(n, pose=Pose(x, z=0.1)), slippery) for n, x in (("a", 0), ("b", 1))
+    ]
+    with pytest.warns(
+        EngineWarning, match=r"slip1 and slip2 of collision 'c' and 1 others"
+    ) as caught:
+        make_engine("mujoco", scenes.world(scenes.ground(), *blocks))
+    assert len(caught) == 1

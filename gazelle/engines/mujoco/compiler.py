@@ -16,6 +16,7 @@ from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
+from gazelle.engines.mujoco.directions import warn_of_slip
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.options import add_force_probe, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
@@ -176,6 +177,7 @@ def draft_world(recipe: Recipe) -> Draft:
     add_attachments(spec, recipe.attachments, bodies)
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    warn_of_slip(solid.collision for solid in builder.solids)
     gravity = math.hypot(*recipe.world.gravity)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
     if pairs.springs or pairs.bounces:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,6 +61,17 @@ def friction_between(first: Rubbing, second: Rubbing) -> tuple[float, float]:
         _warn(owner, along, across)
         return along, along
     return (along, across) if axis == "y" else (across, along)
+
+
+def warn_of_slip(collisions: Iterable[Collision]) -> None:
+    """Say that slip in proportion to the force is not simulated, if some surface has it."""
+    slips = [c for c in collisions if c.surface.friction.slip1 or c.surface.friction.slip2]
+    if slips:
+        others = f" and {len(slips) - 1} others" if len(slips) > 1 else ""
+        warnings.warn(
+            EngineWarning(f"slip1 and slip2 of collision '{slips[0].name}'{others} have no effect"),
+            stacklevel=2,
+        )
 
 
 def _axis_of(owner: Rubbing) -> str | None:
