@@ -91,6 +91,8 @@ param get /a/b
 param get /a/c
 param get -p /a
 param get -p /a/d/e
+param get -v /a/b
+param set -v /n 4
 param set /n -5
 param get /n
 param set /m {x:\u00a01}
@@ -149,6 +151,12 @@ def test_a_command_writes_the_same(uri, line):
         mine = ours(uri, kind, *rest)
     theirs = tool(uri, f"ros{kind}", *rest)
     assert same_form(mine) == same_form(theirs)
+
+
+def test_loading_and_dumping_are_told_the_same(uri, tmp_path):
+    file = str(tmp_path / "x.yaml")
+    for words in (["dump", "-v", file, "/a"], ["load", "-v", file, "/copy"]):
+        assert ours(uri, "param", *words) == tool(uri, "rosparam", *words)
 
 
 def test_what_we_publish_the_real_one_echoes(uri):
