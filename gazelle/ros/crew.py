@@ -99,11 +99,13 @@ class Crew(ABC):
             if me not in (self._leader, self._inline_ident):
                 self._ring()  # deposed in this very moment
             return  # the leader looks at the tasks before it sleeps
-        if quick and self._sentry is not None and self._inline is None:
-            # The leader is woken faster than an idle thread, and need not give up the lead.
-            self._quick.append(task)
-            self._ring()
-            return
+        if quick:
+            if self._sentry is not None and self._inline is None:
+                # The leader is woken faster than an idle thread, and need not give up the lead.
+                self._quick.append(task)
+                self._ring()
+                return
+            self._last_quick = time.monotonic()  # so that the next idle thread is a sentry
         self._tasks.append(task)
         with self._mutex:
             seat = self._take_idle()
@@ -269,16 +271,15 @@ class Crew(ABC):
                 return True
             self._leader, self._inline_ident, self._inline = 0, me, seat
         for _ in range(len(quick)):  # what comes meanwhile waits until sockets had their turn
-            task = quick.popleft()
             try:
-                task()
-            except Exception as error:  # noqa: BLE001  # a task must not end its thread
-                report("a task of the event loop", error)
+                task = quick.popleft()
+            except IndexError:  # deposed in this very moment, and the new leader took it
+                break
+            self._try(task)
             if self._inline is not seat:
                 return False
-            if not quick:
-                break
-            seat.started = time.monotonic()
+            if quick:
+                seat.started = time.monotonic()
         with self._mutex:
             kept = self._inline is seat
             if kept:

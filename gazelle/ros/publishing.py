@@ -63,6 +63,8 @@ class Publication:
         self.queue_size: int | None = None
         self.tcp_nodelay = False
         self.latching = False
+        self.headers: dict[str, str] = {}
+        """More fields for the connection header, or others in the place of ours."""
         self.publishers: list[Publisher] = []
         self.messages = 0
         self.bytes = 0
@@ -144,6 +146,7 @@ class Publication:
             "message_definition": kind._full_text,  # noqa: SLF001
             "topic": self.topic,
             "type": kind._type,  # noqa: SLF001
+            **self.headers,
         }
 
     def check(self, caller: str, fields: dict[str, str]) -> None:

@@ -143,7 +143,8 @@ def _outgoing(publication: Publication) -> list[list[Any]]:
     topic = publication.topic
     found: list[list[Any]] = []
     for link in publication.remote:
-        text = f"TCPROS connection on port {link.port} to [{link.address[0]}:{link.address[1]}]"
+        host, port = link.address
+        text = _connection(link.port, host, port, link.descriptor)
         found.append([link.number, link.peer, "o", _TCPROS, topic, True, text])
     for local in publication.local:
         text = "connection within the process"
@@ -156,12 +157,17 @@ def _incoming(subscription: Subscription) -> list[list[Any]]:
     found: list[list[Any]] = []
     for link in subscription.links.values():
         host, port = link.endpoint
-        text = f"TCPROS connection on port {link.port} to [{host}:{port}]"
+        text = _connection(link.port, host, port, link.descriptor)
         found.append([link.number, link.uri, "i", _TCPROS, topic, link.up, text])
     for uri, local in subscription.local.items():
         text = "connection within the process"
         found.append([local.number, uri, "i", _INPROC, topic, True, text])
     return found
+
+
+def _connection(own_port: int, host: str, port: int, descriptor: int) -> str:
+    """A connection in the words that rosnode looks for."""
+    return f"TCPROS connection on port {own_port} to [{host}:{port} on socket {descriptor}]"
 
 
 def _bounded(value: Any) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 from gazelle.ros.errors import Md5MismatchError, NodeClosedError, RosTimeoutError
@@ -11,7 +12,7 @@ from gazelle.ros.node_base import NodeBase
 from gazelle.ros.publishing import PeerHook, Publication, Publisher
 from gazelle.ros.raw import raw_class
 from gazelle.ros.subscribing import Callback, Subscriber, Subscription
-from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.headers import ANY
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
@@ -35,6 +36,7 @@ class TopicUser(NodeBase):
         tcp_nodelay: bool = False,
         on_connect: PeerHook | None = None,
         on_disconnect: PeerHook | None = None,
+        headers: Mapping[str, str] | None = None,
     ) -> Publisher:
         """Publish on a topic.
 
@@ -47,6 +49,7 @@ class TopicUser(NodeBase):
             tcp_nodelay: Do not let the system collect small packets.
             on_connect: Called with the name of each subscriber that connects.
             on_disconnect: Called with the name of each that goes.
+            headers: More fields for the connection header that subscribers get.
 
         Raises:
             InvalidNameError: The name is not legal.
@@ -65,6 +68,7 @@ class TopicUser(NodeBase):
             publication.queue_size = _wider(publication.queue_size, queue_size, fresh=fresh)
             publication.latching |= latch
             publication.tcp_nodelay |= tcp_nodelay
+            publication.headers.update(headers or {})
             self._publications[name] = publication
         if fresh:
             self._ask("registerPublisher", name, message_class._type, self.uri)  # noqa: SLF001  # genpy's name
@@ -195,7 +199,7 @@ class TopicUser(NodeBase):
 
 def _check_same(known: Any, wanted: Any, topic: str) -> None:
     mine, theirs = known._md5sum, wanted._md5sum  # noqa: SLF001  # genpy's names
-    if headers.ANY not in {mine, theirs} and mine != theirs:
+    if ANY not in {mine, theirs} and mine != theirs:
         raise Md5MismatchError(
             f"this node uses {topic} with the type {known._type} already, not {wanted._type}"  # noqa: SLF001
         )

@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 
 import gazelle.ros.node as node_module
 from gazelle.ros import Master, Node
+
+FLOOD = """
+import sys, time
+from gazelle.ros import Node, load_message
+node = Node("flood", master_uri=sys.argv[1])
+queue = None if sys.argv[2] == "None" else int(sys.argv[2])
+publisher = node.advertise("flood", load_message("std_msgs/String"), queue_size=queue)
+while publisher.num_connections < 1: time.sleep(.001)
+text = "x" * int(sys.argv[4])
+for number in range(int(sys.argv[3])): publisher.publish(publisher.message_class(f"{number} {text}"))
+print("sent", flush=True)
+node.wait_closed()
+"""
 
 
 @pytest.fixture
@@ -31,3 +47,22 @@ def make_node(master):
 def strangers(monkeypatch):
     """Nodes of this process do not know of each other, and use sockets."""
     monkeypatch.setattr(node_module.Node, "neighbour", staticmethod(lambda uri: None))
+    alone = staticmethod(lambda host, port, name: None)
+    monkeypatch.setattr(node_module.Node, "neighbour_service", alone)
+
+
+@pytest.fixture
+def flood(master):
+    """Start another process that publishes."""
+    started = []
+
+    def start(queue, number, size):
+        arguments = [sys.executable, "-c", FLOOD, master.uri, str(queue), str(number), str(size)]
+        started.append(subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True))
+        return started[-1]
+
+    yield start
+    for process in started:
+        process.kill()
+        process.wait()
+        process.stdout.close()

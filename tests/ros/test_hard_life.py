@@ -6,8 +6,6 @@ import logging
 import resource
 import socket
 import struct
-import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -26,35 +24,6 @@ from gazelle.ros.errors import (
 from gazelle.ros.tcpros import headers
 
 DESCRIPTORS = Path("/proc/self/fd")
-FLOOD = """
-import sys, time
-from gazelle.ros import Node, load_message
-node = Node("flood", master_uri=sys.argv[1])
-queue = None if sys.argv[2] == "None" else int(sys.argv[2])
-publisher = node.advertise("flood", load_message("std_msgs/String"), queue_size=queue)
-while publisher.num_connections < 1: time.sleep(.001)
-text = "x" * int(sys.argv[4])
-for number in range(int(sys.argv[3])): publisher.publish(publisher.message_class(f"{number} {text}"))
-print("sent", flush=True)
-node.wait_closed()
-"""
-
-
-@pytest.fixture
-def flood(master):
-    """Start another process that publishes."""
-    started = []
-
-    def start(queue, number, size):
-        arguments = [sys.executable, "-c", FLOOD, master.uri, str(queue), str(number), str(size)]
-        started.append(subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True))
-        return started[-1]
-
-    yield start
-    for process in started:
-        process.kill()
-        process.wait()
-        process.stdout.close()
 
 
 def test_a_callback_that_raises_is_reported_and_changes_nothing(make_node, caplog):

@@ -71,6 +71,7 @@ class InboundLink:
         self.peer = ""
         self.endpoint: tuple[str, int] = ("", 0)
         self.port = 0
+        self.descriptor = 0
         self.closed = False
         self.up = False
         self.latching = False
@@ -244,6 +245,7 @@ class InboundLink:
         self.up = True
         if self._sock is not None:
             self.port = self._sock.getsockname()[1]
+            self.descriptor = self._sock.fileno()
         self._reader.limit = self._receiver.limits.message_bytes
         self._retry_s = _FIRST_RETRY_S
         self._complained = ""

@@ -52,6 +52,7 @@ class OutboundLink:
         self.peer = header.get("callerid", "")
         self.address = address
         self.port: int = sock.getsockname()[1]
+        self.descriptor = sock.fileno()
         self.queue_size = queue_size
         self._on_close = on_close
         self._lock = threading.Lock()

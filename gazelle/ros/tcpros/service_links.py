@@ -146,8 +146,14 @@ class ServiceConnection:
     def _linger(self) -> None:
         """Let the client be the one that ends the connection, if it does so soon."""
         if not self._closed:
-            self._loop.watch(self._sock, READ, lambda _events: self.close())
+            self._loop.watch(self._sock, READ, self._part)
             self._loop.call_later(_LINGER_S, self.close)
+
+    def _part(self, _events: int) -> None:
+        """The client closed, or sends more than it may: read, lest that counts as a reset."""
+        with contextlib.suppress(OSError):
+            self._sock.recv(65536)
+        self.close()
 
     def _send(self, data: bytes) -> None:
         try:

@@ -177,6 +177,7 @@ class Publisher(Topic):
                 tcp_nodelay=self._nodelay,
                 on_connect=self._connected,
                 on_disconnect=self._disconnected,
+                headers=impl.headers,
             )
         except RosError as error:
             raise ROSException(str(error)) from error
