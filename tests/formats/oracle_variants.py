@@ -62,6 +62,28 @@ ANGLES = (
     "</pose></link><link name='c'><pose relative_to='b'/></link></model>"
 )
 
+DEEP = (
+    "<model name='m' canonical_link='n::p'><link name='l'/><model name='n'><link name='p'>"
+    "<pose>1 0 0 0 0 1</pose></link><frame name='g' attached_to='p'><pose>0 0 1 .5 0 0</pose></frame>"
+    "<model name='o'><pose relative_to='p'>0 0 1 0 0 0</pose><link name='q'/><frame name='f' "
+    "attached_to='q'><pose>0 1 0 0 0 0</pose></frame></model></model><link name='z'>"
+    "<pose relative_to='n::o::f'>1 2 3 0 0 0</pose></link><frame name='h'><pose>1 1 1 0 0 0</pose></frame>"
+    "<joint name='j' type='revolute'><pose>0 1 0 0 0 0</pose><parent>l</parent><child>n::g</child><axis>"
+    "<xyz expressed_in='l'>1 1 0</xyz></axis></joint></model>"
+)
+ON_JOINT = (
+    "<model name='my model'><link name='a'/><link name='b link'><pose>0 0 1 0 0 1</pose></link>"
+    "<joint name='j' type='fixed'><pose>1 0 0 0 0 0</pose><parent>a</parent><child>b link</child></joint>"
+    "<frame name='f' attached_to='j'><pose>0 1 0 0 0 0</pose></frame><link name='c'>"
+    "<pose relative_to='f'/></link></model>"
+)
+LIMITS = (
+    "<model name='m'><pose frame=''>1 0 0 0 0 0</pose><link name='a'/><link name='b'/><link name='c'/>"
+    "<joint name='s' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz><limit>"
+    "<lower>-1e16</lower><upper>1e16</upper><effort>-1</effort><velocity>5</velocity></limit></axis>"
+    "</joint><joint name='u' type='universal'><parent>b</parent><child>c</child><axis><xyz>0 0 -2</xyz>"
+    "</axis><axis2><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>.5</upper></limit></axis2></joint></model>"
+)
 INCLUDED = (
     "<model name='arm' placement_frame='grip'><pose>9 9 9 0 0 1</pose>"
     "<link name='upper'><pose>1 0 0 0 0 .3</pose></link>"
@@ -86,6 +108,9 @@ SDF = {
     "axis 1.5": sdf(OLD_AXIS.format(PARENT.format("true"), ""), "1.5"),
     "axis 1.6": sdf(OLD_AXIS.format(PARENT.format("0"), PARENT.format("1")), "1.6"),
     "axis 1.7": sdf(OLD_AXIS.format("", ""), "1.7"),
+    "deep names": sdf(DEEP, "1.8"),
+    "frame on a joint": sdf(ON_JOINT, "1.8"),
+    "limits": sdf(LIMITS, "1.6"),
     "static without links": sdf("<model name='m'><static>1</static></model>"),
     "nested static without links": sdf(
         "<model name='m'><model name='n'><static>true</static></model></model>", "1.8"

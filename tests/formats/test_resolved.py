@@ -61,6 +61,8 @@ ACCEPTED = {
     "Error reading element <color>": "a colour of fog is not used",
     "specified by joint": "`__model__` may be the end of a joint since SDF 1.7",
     "provided sensor type is missing or invalid": "libsdformat 12 is older than the type",
+    "with non-unique name": "a link and a joint or frame may share a name, as before SDF 1.7",
+    "Delimiter '::'": "flattened names of SDF before 1.8 stay when such a file is saved again",
     "model with name": "models beside each other are all taken",
     "World with name": "only the first world of a file is taken",
     "can only contain one model": "models beside each other are all taken",
