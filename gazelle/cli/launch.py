@@ -23,7 +23,9 @@ from gazelle.cli.parsing import positive_float
 if TYPE_CHECKING:
     from gazelle.ros.launch import LaunchPlan, Packages
 
-_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title", "-u", "-v")
+_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title", "-v")
+_NO_EFFECT_VALUES = (("-w", "--numworkers"), ("-t", "--timeout"), ("--master-logger-level",))
+_CHILD = (("-c", "--child"), ("-u", "--server_uri"))
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     shows.add_argument("--ros-args", action="store_true", help="the arguments that the file takes")
     shows.add_argument("--files", action="store_true", help="the launch files that are read")
     shows.add_argument("--nodes", action="store_true", help="the nodes")
-    shows.add_argument("--find-node", metavar="NODE", help="the launch file a node is in")
+    shows.add_argument("--find-node", "--find", metavar="NODE", help="the launch file a node is in")
     shows.add_argument("--args", metavar="NODE", help="the command line of a node")
     shows.add_argument("--dump-params", action="store_true", help="the parameters, as YAML")
     runs = parser.add_argument_group("run")
@@ -59,6 +61,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     tests.add_argument("--reuse-master", action="store_true", help="use the master that runs")
     for option in _NO_EFFECT:
         runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
+    for options in (*_NO_EFFECT_VALUES, *_CHILD):
+        dest = "child" if options in _CHILD else None
+        runs.add_argument(*options, dest=dest, help=argparse.SUPPRESS)
     parser.set_defaults(parser=parser)
 
 
@@ -66,6 +71,8 @@ def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     from gazelle.ros.launch import Packages
 
+    if args.child is not None:
+        args.parser.error("nodes run on this machine only: there are no child launchers")
     packages = Packages()
     plan = _load(args, packages)
     for notice in plan.notices:

@@ -145,3 +145,11 @@ def test_the_test_nodes_of_rostest_are_there(run):
     assert done.results.get("failures") == "2"
     assert "too low" in done.stdout
     assert "Topic [/none] is not advertised" in done.stdout
+
+
+def test_child_launchers_are_refused():
+    done = subprocess.run(
+        [*COMMAND, "launch", "-c", "other", "x.launch"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "this machine only" in done.stderr
