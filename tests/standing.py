@@ -162,7 +162,10 @@ class _Watch:
         mujoco.mj_energyVel(model, data)
         speed = np.linalg.norm(data.cvel[self.moving, 3:], axis=1)
         spin = np.linalg.norm(data.cvel[self.moving, :3], axis=1)
-        return data.xipos[self.moving, 2].copy(), speed + 0.1 * spin, float(data.energy.sum())
+        # What has no gravity has no energy by its height either.
+        held = model.body_gravcomp * model.body_mass * (data.xipos @ model.opt.gravity)
+        energy = float(data.energy.sum() + held.sum())
+        return data.xipos[self.moving, 2].copy(), speed + 0.1 * spin, energy
 
     def look(self, seconds: float) -> None:
         """Take a sample."""
