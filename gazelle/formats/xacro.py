@@ -16,6 +16,7 @@ from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any
 from xml.dom import expatbuilder
+from xml.dom.minicompat import NodeList
 from xml.parsers.expat import ExpatError
 
 import xacro as engine
@@ -43,7 +44,7 @@ class _Made(threading.local):
 _made = _Made()
 
 
-class _Children(dom.NodeList):
+class _Children(NodeList[Any]):
     """Child nodes that are found at once near the place where the last one was.
 
     Minidom searches all children for each that it replaces, which takes long in a robot of a
@@ -88,7 +89,8 @@ class PlacedElement(dom.Element):
         copy.place = self.place
         for name, value in self.attributes.items():
             copy.setAttribute(name, value)
-        for child in self.childNodes if deep else ():
+        inner: list[Any] = list(self.childNodes) if deep else []
+        for child in inner:
             copy.appendChild(child.cloneNode(deep))
         return copy
 
@@ -183,17 +185,12 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def guarded_open(filename: str) -> Any:
         return builtins.open(_checked(filename), encoding="utf-8")  # noqa: PTH123
 
-    def eval_text(text: str, symbols: Any) -> Any:
-        """Most texts hold no expression, and need not be taken apart to find that out."""
-        return text if text and "$" not in text else evaluate_text(text, symbols)
-
     said = io.StringIO()
-    evaluate_text = engine.eval_text
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
     bounded = {"range": expressions.bounded_range}
     with contextlib.ExitStack() as stack:
         for names, values in (
-            (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": eval_text}),
+            (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": _eval_text}),
             (vars(engine), {"safe_eval": expressions.evaluate}),
             (vars(substitution_args), {"_eval_find": find, "eval": expressions.evaluate_plain}),
             (substitution_args._eval_dict, {"find": find}),  # noqa: SLF001
@@ -203,6 +200,14 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
             stack.enter_context(_replaced(names, values))
         stack.enter_context(contextlib.redirect_stderr(said))
         yield said
+
+
+_evaluate_text = engine.eval_text
+
+
+def _eval_text(text: str, symbols: Any) -> Any:
+    """Most texts hold no expression, and need not be taken apart to find that out."""
+    return text if text and "$" not in text else _evaluate_text(text, symbols)
 
 
 _MISSING = object()
