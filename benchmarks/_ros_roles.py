@@ -266,9 +266,10 @@ def within(kind: str, seconds: str) -> None:
     while time.perf_counter() - begin < float(seconds):
         publisher.publish(message)
         sent += 1
-    while got[0] < sent:
+    patience = time.perf_counter() + _PATIENCE_S
+    while got[0] < sent and time.perf_counter() < patience:  # rospy loses some now and then
         time.sleep(0.0005)
-    rate = sent / (time.perf_counter() - begin)
+    rate = got[0] / (time.perf_counter() - begin)
     hop = rospy.Publisher("/hop", String, queue_size=None, tcp_nodelay=True)
     connected(rospy.Subscriber("/hop", String, lambda _message: there.release(), tcp_nodelay=True))
     time.sleep(0.2)

@@ -53,7 +53,11 @@ class Bench:
 
     def figures(self, process: subprocess.Popen[str]) -> Figures:
         """Wait for what a role tells."""
-        out, _ = process.communicate(timeout=120)
+        try:
+            out, _ = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
         if process.returncode or not out:
             raise SystemExit(f"a program failed: {' '.join(map(str, process.args))}")  # type: ignore[arg-type]
         figures: Figures = json.loads(out)

@@ -66,14 +66,26 @@ class Strand:
         Returns:
             Whether items are quick to handle.
         """
-        self.items.extend(items)
-        if self._idle:
-            try:
-                self._idle.pop()
-            except IndexError:
-                return False  # another thread was faster, and will handle them
-            self._run()
-        return self.is_quick()
+        try:
+            self._idle.pop()
+        except IndexError:
+            self.post_all(items)  # for the thread that is at it
+        else:
+            if len(items) == 1 and not self.items:
+                self._handle_one(items[0])
+            else:
+                self.items.extend(items)
+                self._run()
+        return not self._doubt_until
+
+    def _handle_one(self, item: Any) -> None:
+        self._runner = threading.get_ident()
+        begin = time.monotonic()
+        try:
+            self._handle(item)
+        except Exception as error:  # noqa: BLE001  # a callback must not end its thread
+            report(self.what, error)
+        self._finish(begin, 1)
 
     def runs_here(self) -> bool:
         """True if it is the calling thread that handles an item of this strand."""
@@ -95,9 +107,9 @@ class Strand:
     def _run(self) -> None:
         items, handle = self.items, self._handle
         self._runner = threading.get_ident()
-        begin = end = time.monotonic()
+        begin = time.monotonic()
         count = 0
-        while items and end - begin < self.TURN:
+        while items and time.monotonic() - begin < self.TURN:
             for _ in range(min(self.BATCH, len(items))):
                 try:
                     item = items.popleft()
@@ -108,13 +120,16 @@ class Strand:
                     handle(item)
                 except Exception as error:  # noqa: BLE001  # a callback must not end its thread
                     report(self.what, error)
-            end = time.monotonic()
+        self._finish(begin, count)
+
+    def _finish(self, begin: float, count: int) -> None:
+        end = time.monotonic()
         if self._doubt_until or end - begin > QUICK:
             self._learn((end - begin) / max(1, count), end)
         # Whoever posts from here on starts another run; what was posted just before must not
         # wait for that.
         self._idle.append(True)
-        if items:
+        if self.items:
             self._start()
 
     def _learn(self, seconds: float, now: float) -> None:
