@@ -13,26 +13,20 @@ from gazelle.ros.tools.watching import NODE_NAME
 
 def topic(arguments: Sequence[str]) -> int:
     """Do what rostopic does; returns the exit code."""
-    return run_command("topic", arguments)
+    return _run("topic", arguments)
 
 
 def service(arguments: Sequence[str]) -> int:
     """Do what rosservice does; returns the exit code."""
-    return run_command("service", arguments)
+    return _run("service", arguments)
 
 
 def param(arguments: Sequence[str]) -> int:
     """Do what rosparam does; returns the exit code."""
-    return run_command("param", arguments)
+    return _run("param", arguments)
 
 
-def call_command(name: str, arguments: Sequence[str]) -> int:
-    """Run a command of Gazelle's as a process of its own; returns its exit code."""
-    command = [sys.executable, "-m", "gazelle.cli.main", name, *arguments]
-    return subprocess.call(command)  # noqa: S603  # our own program
-
-
-def run_command(tool: str, arguments: Sequence[str]) -> int:
+def _run(tool: str, arguments: Sequence[str]) -> int:
     """Run a command of Gazelle's without what roslaunch adds to a node's command line."""
     plain, mappings = names.split_arguments(arguments)
     command = [sys.executable, "-m", "gazelle.cli.main", tool, *plain]

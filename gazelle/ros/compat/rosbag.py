@@ -13,6 +13,7 @@ from gazelle.ros.bags import (
 from gazelle.ros.bags import BagError as ROSBagException
 from gazelle.ros.bags import BagFormatError as ROSBagFormatException
 from gazelle.ros.bags import BagUnindexedError as ROSBagUnindexedException
+from gazelle.ros.compat import commands
 
 __all__ = [
     "Bag",
@@ -27,9 +28,9 @@ __all__ = [
 
 
 def rosbagmain(argv: Sequence[str] | None = None) -> None:
-    """Run the command ``rosbag`` with a command line, by default this process's, and end it."""
-    import sys
+    """Do what ``rosbag`` does, with a command line, by default this process's.
 
-    from gazelle.ros.builtin.commands import call_command
-
-    sys.exit(call_command("bag", (sys.argv if argv is None else argv)[1:]))
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("bag", argv)

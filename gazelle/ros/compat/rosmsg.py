@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, cast
 
+from gazelle.ros.compat import commands
 from gazelle.ros.errors import RosError
 from gazelle.ros.tools import definitions
 from gazelle.ros.tools.definitions import Kind
@@ -103,9 +104,9 @@ def rosmsg_md5(mode: str, type_: str) -> str:
 
 
 def rosmsgmain(mode: str = MODE_MSG) -> None:
-    """Run the command ``rosmsg`` or ``rossrv`` with this process's arguments, and end it."""
-    import sys
+    """Do what ``rosmsg`` or ``rossrv`` does, with this process's command line.
 
-    from gazelle.ros.builtin.commands import run_command
-
-    sys.exit(run_command(_kind(mode), sys.argv[1:]))
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run(_kind(mode))

@@ -123,6 +123,16 @@ def cleanup_master_blacklist(master: Any, blacklist: list[str]) -> None:
     nodes.unregister(_graph(), blacklist)
 
 
+def rosnode_listnodes(
+    namespace: str | None = None,
+    list_uri: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
+    list_all: bool = False,  # noqa: FBT001, FBT002
+) -> None:
+    """Write the nodes to the screen."""
+    uris = list_uri or list_all
+    sys.stdout.write(nodes.list_nodes(_graph(), namespace, uris=uris, names=not list_uri))
+
+
 def rosnodemain(argv: Sequence[str] | None = None) -> None:
     """Do what the command rosnode does; see `gazelle.ros.compat.commands.run`.
 

@@ -95,6 +95,16 @@ def get_service_args(service_name: str) -> str:
         raise ROSServiceException(str(error)) from None
 
 
+def has_service_args(service_name: str, service_class: Any = None) -> bool:
+    """Whether a service's request has fields.
+
+    Raises:
+        ROSServiceException: There is no such service.
+    """
+    kind = service_class or get_service_class_by_name(service_name)
+    return bool(kind._request_class.__slots__)  # noqa: SLF001  # genpy's name
+
+
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
     """What a service answers to a probe.
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import Any
 
-from gazelle.ros.compat import rosunit
+from gazelle.ros.compat import commands, rosunit
 from gazelle.ros.compat.rosgraph.masterapi import Master
 from gazelle.ros.compat.rospy.core import signal_shutdown
 
@@ -55,9 +56,10 @@ def _is_in(place: int, topic: str, node: str) -> bool:
 
 
 def rostestmain() -> None:
-    """Run the command ``rostest`` with this process's arguments, and end it."""
-    import sys
+    """Do what ``rostest`` does, with this process's command line.
 
-    from gazelle.ros.builtin.commands import call_command
-
-    sys.exit(call_command("launch", ["--test", *sys.argv[1:]]))
+    Raises:
+        SystemExit: A test failed, or there is none.
+    """
+    name, *words = sys.argv
+    commands.run("launch", [name, "--test", *words])

@@ -5,12 +5,14 @@ from __future__ import annotations
 import sys
 import time
 import unittest
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
-_OUTPUT = "--gtest_output=xml:"
+_OUTPUT = XML_OUTPUT_FLAG = "--gtest_output=xml:"
+_NO_NAMES = str.maketrans(dict.fromkeys(" \"'&$!`/\\", "_"))
+"""What is not written in names of files."""
 
 
 def unitrun(
@@ -100,3 +102,25 @@ def _write(path: Path, name: str, result: _Result, seconds: float) -> None:
 def _case(root: ET.Element, test: unittest.TestCase) -> ET.Element:
     class_name, _, name = test.id().rpartition(".")
     return ET.SubElement(root, "testcase", classname=class_name, name=name, time="0")
+
+
+def xml_results_file(
+    test_pkg: str,
+    test_name: str,
+    is_rostest: bool = False,  # noqa: FBT001, FBT002  # rosunit's interface
+    env: Mapping[str, str] | None = None,
+) -> str:
+    """The file for the results of a test; its folder is made if need be."""
+    from gazelle.ros.compat.rospkg import get_test_results_dir
+
+    folder = Path(get_test_results_dir(env)) / test_pkg
+    folder.mkdir(parents=True, exist_ok=True)
+    kind = "rostest" if is_rostest else "rosunit"
+    return str(folder / f"{kind}-{test_name.translate(_NO_NAMES)}.xml")
+
+
+def rostest_name_from_path(pkg_dir: str, test_file: str) -> str:
+    """What a test file is called in results: its path in the package, with ``_`` between folders."""
+    path = Path(test_file).absolute()
+    inside = path.relative_to(pkg_dir) if path.is_relative_to(pkg_dir) else Path(test_file)
+    return "_".join(part for part in inside.with_suffix("").parts if part != "/")

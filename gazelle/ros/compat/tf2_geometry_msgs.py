@@ -48,6 +48,13 @@ def to_msg_msg(msg: Any) -> Any:
 from_msg_msg = to_msg_msg
 
 
+def transform_to_kdl(t: Any) -> Any:
+    """PyKDL's frame of a ``TransformStamped``."""
+    from gazelle.ros.compat.tf2_kdl import transform_to_kdl as convert
+
+    return convert(t)
+
+
 def do_transform_point(point: Any, transform: Any) -> Any:
     """A ``PointStamped`` in the target frame of a ``TransformStamped``."""
     result = _make("PointStamped", transform)

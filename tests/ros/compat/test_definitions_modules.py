@@ -178,3 +178,25 @@ def test_room_of_logs_is_measured(tmp_path):
     assert rosclean.get_human_readable_disk_usage(str(tmp_path)) == "1.5K"
     with pytest.raises(rosclean.CleanupException):
         rosclean.get_disk_usage(str(tmp_path / "none"))
+
+
+def test_results_of_tests_have_their_files(tmp_path):
+    rosunit = importlib.import_module("rosunit")
+    env = {"ROS_TEST_RESULTS_DIR": str(tmp_path)}
+    assert rosunit.xml_results_file("p", "a b/c", env=env) == f"{tmp_path}/p/rosunit-a_b_c.xml"
+    assert (tmp_path / "p").is_dir()
+    assert rosunit.rostest_name_from_path("/ws/p", "/ws/p/test/x.y.test") == "test_x.y"
+
+
+def test_tools_have_their_main_functions(capsys, monkeypatch, master):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    monkeypatch.setattr(sys, "argv", ["rosmsg", "md5", "std_msgs/Header"])
+    importlib.import_module("rosmsg").rosmsgmain()
+    assert capsys.readouterr().out == "2176decaecbce78abc3b96ef049fabed\n"
+    with pytest.raises(SystemExit):
+        importlib.import_module("rosbag").rosbagmain(["rosbag", "info", "/nowhere.bag"])
+    monkeypatch.setattr(sys, "argv", ["rostest", "/nowhere.test"])
+    with pytest.raises(SystemExit):
+        importlib.import_module("rostest").rostestmain()
+    with pytest.raises(SystemExit):
+        importlib.import_module("roslaunch").main(["roslaunch", "/nowhere.launch"])

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from gazelle.ros.compat import commands
 from gazelle.ros.compat.roslaunch import (
+    arg_dump,
     config,
     core,
     nodeprocess,
@@ -47,6 +49,7 @@ __all__ = [
     "Test",
     "XmlLoader",
     "XmlParseException",
+    "arg_dump",
     "config",
     "configure_logging",
     "core",
@@ -76,10 +79,4 @@ def main(argv: Sequence[str] | None = None) -> None:
     Raises:
         SystemExit: It failed; the code is that of the command.
     """
-    import sys
-
-    from gazelle.ros.builtin.commands import call_command
-
-    code = call_command("launch", (sys.argv if argv is None else argv)[1:])
-    if code:
-        sys.exit(code)
+    commands.run("launch", argv)

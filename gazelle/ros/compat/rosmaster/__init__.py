@@ -1,5 +1,8 @@
 """rosmaster's interface: a master in this process."""
 
+import sys
+
+from gazelle.ros.compat import commands
 from gazelle.ros.compat.rosmaster import master, master_api
 from gazelle.ros.compat.rosmaster.master import DEFAULT_MASTER_PORT, Master
 
@@ -7,10 +10,9 @@ __all__ = ["DEFAULT_MASTER_PORT", "Master", "master", "master_api", "rosmaster_m
 
 
 def rosmaster_main() -> None:
-    """Run the command ``rosmaster`` with this process's arguments, and end it."""
-    import sys
+    """Do what ``rosmaster`` does, with this process's command line.
 
-    from gazelle.ros.builtin.commands import run_command
-
-    arguments = [each for each in sys.argv[1:] if each != "--core"]
-    sys.exit(run_command("master", arguments))
+    Raises:
+        SystemExit: It failed.
+    """
+    commands.run("master", [word for word in sys.argv if word != "--core"])

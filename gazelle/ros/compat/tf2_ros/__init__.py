@@ -9,7 +9,7 @@ from gazelle.ros.compat.tf2_py import (
     TimeoutException,
     TransformException,
 )
-from gazelle.ros.compat.tf2_ros.buffer import Buffer
+from gazelle.ros.compat.tf2_ros.buffer import DEFAULT_CAN_TRANSFORM_POLLING_SCALE, Buffer
 from gazelle.ros.compat.tf2_ros.buffer_client import BufferClient
 from gazelle.ros.compat.tf2_ros.buffer_interface import (
     BufferInterface,
@@ -32,6 +32,7 @@ TFMessage = load_message("tf2_msgs/TFMessage")
 TransformStamped = load_message("geometry_msgs/TransformStamped")
 
 __all__ = [
+    "DEFAULT_CAN_TRANSFORM_POLLING_SCALE",
     "Buffer",
     "BufferClient",
     "BufferCore",
