@@ -250,9 +250,11 @@ def main(argv: list[str] | None = None) -> None:
         peers = [OURS]
     python = args.python or (DEBIAN if THEIRS in peers else sys.executable)
     version = subprocess.run([python, "--version"], capture_output=True, text=True, check=True)
-    print(f"both in {version.stdout.strip()}, in turns, best of {args.rounds}; ratio: how much")
-    print("better ours is, be it faster or less")
-    print(f"{'':40}{'':>4}{'gazelle':>11}{'rospy':>11}{'ratio':>8}")
+    turns = "both, in turns," if THEIRS in peers else "alone,"
+    print(f"{version.stdout.strip()}, {turns} best of {args.rounds} rounds")
+    if THEIRS in peers:
+        print("ratio: how many times better ours is, be that faster or less")
+    print(f"{'':40}{'':>4}{'gazelle':>11}" + (f"{'rospy':>11}{'ratio':>8}" if peers[1:] else ""))
     with running(python, args) as bench:
         for name, measure, lines in ROWS:
             if not args.rows or name in args.rows:
