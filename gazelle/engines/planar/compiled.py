@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 from gazelle.errors import MissingExtraError
 
@@ -15,7 +15,7 @@ try:
 except ImportError as error:
     raise MissingExtraError("numba", "planar") from error
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+Function = Callable[..., Any]
 
 
 def kernel(function: Function) -> Function:

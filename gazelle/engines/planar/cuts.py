@@ -96,14 +96,15 @@ def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[Part]:
     elif isinstance(shape, Polyline):
         from gazelle.formats.polygon import convex_polygons
 
-        for ring in convex_polygons(shape.outlines):
-            yield _prism([(float(x), float(y)) for x, y in ring], pose, 0.0, shape.height, glow)
+        for polygon in convex_polygons(shape.outlines):
+            corners = [(float(x), float(y)) for x, y in polygon]
+            yield _prism(corners, pose, 0.0, shape.height, glow)
     elif isinstance(shape, Image) and shape.path is not None:
         from gazelle.formats.terrain import load_boxes
 
         for x, y, width, depth in load_boxes(shape).tolist():
             w, d = width / 2.0, depth / 2.0
-            corners = ((x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d))
+            corners = [(x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d)]
             yield _prism(corners, pose, 0.0, shape.height, glow)
 
 

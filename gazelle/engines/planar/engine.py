@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call, Floats, Worlds
@@ -247,16 +246,10 @@ class PlanarEngine(Refusals, PlanarAccess):
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
         """Gravity, as the world has it, shape (n, 3); the plane knows no other parameter."""
-        if kind != "gravity":
+        if kind != "gravity" or name:
             raise self.refuse(f"the parameter {kind}")
         count = self.nworld if worlds is None else len(worlds)
         return np.tile(self.world.gravity, (count, 1))
-
-    def set_parameter(
-        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Refused: no physical parameter acts in the plane."""
-        raise self.refuse(f"the parameter {kind}")
 
     def close(self) -> None:
         """Free threads."""

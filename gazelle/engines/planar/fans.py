@@ -50,7 +50,8 @@ class Fan:
     @property
     def angles(self) -> Floats:
         """From the sensor's x axis [rad], shape (count,)."""
-        return self.start + self.step * np.arange(self.count)
+        angles: Floats = self.start + self.step * np.arange(self.count, dtype=np.float64)
+        return angles
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,8 +114,14 @@ class Scanner:
     """
 
     def __init__(
-        self, fleet: Fleet, fan: Fan, mounts: Sequence[Mount], *, named: bool = False,
-        noise: RangeNoise | None = None, seed: int = 0,
+        self,
+        fleet: Fleet,
+        fan: Fan,
+        mounts: Sequence[Mount],
+        *,
+        named: bool = False,
+        noise: RangeNoise | None = None,
+        seed: int = 0,
     ) -> None:
         _check(fan, fleet, mounts)
         self.fleet, self.fan = fleet, fan
@@ -173,6 +180,34 @@ class Scanner:
         self.fleet.crew.share(work, len(owners), least)
         self.tick += 1
         return self.ranges[:count]
+
+    # -- what was met ------------------------------------------------------------------
+
+    def bodies(self) -> NDArray[np.int64]:
+        """Index of the body that each beam met; -1 for a static or nothing, shape as ``ranges``."""
+        met = np.abs(self._named()) // c.NAMES
+        return np.where(met > 0.0, (met - 1.0) % max(self.fleet.nbody, 1), -1.0).astype(np.int64)
+
+    def glows(self) -> Floats:
+        """What a laser got back from what each beam met; 0 for nothing, shape as ``ranges``."""
+        table, looks = self.fleet.scene.table.rows, self.fleet.looks
+        return np.asarray(self._look_up(table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
+
+    def tags(self) -> NDArray[np.int64]:
+        """Tag of the part that each beam met; 0 for nothing, shape as ``ranges``."""
+        found = self._look_up(self.fleet.scene.table.tags, self.fleet.tags)
+        return np.asarray(found, np.int64)
+
+    def _look_up(self, statics: NDArray[Any], looks: NDArray[Any]) -> NDArray[Any]:
+        names = np.abs(self._named())
+        body, at = names // c.NAMES, (names % c.NAMES).astype(np.int64)
+        values = np.concatenate((np.zeros(1), statics, looks))
+        return np.asarray(values[np.where(body > 0.0, 1 + len(statics) + at, at)])
+
+    def _named(self) -> Floats:
+        if not len(self.names):
+            raise EngineError("the scanner does not remember what it met", hint="make it named")
+        return self.names.reshape(self.ranges.shape)
 
     def _owners_in(self, worlds: Worlds) -> NDArray[np.int64]:
         rows = worlds[:, None] * self.fleet.nbody + self._carriers

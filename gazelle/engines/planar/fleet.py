@@ -240,7 +240,7 @@ class Fleet:
         for b in which.tolist():
             relink(b, b + 1, self.nbody, *self._lists())
 
-    def _lists(self) -> tuple[NDArray[np.generic], ...]:
+    def _lists(self) -> tuple[Any, ...]:
         return self.scene.grid, self.rows, self.head, self.follow, self.cell
 
     # -- time --------------------------------------------------------------------------
@@ -285,7 +285,7 @@ class Fleet:
         )
         kernels_step.settle(0, self.nbody, reach, *bodies, self._stalled, *lists, self.cell)
 
-    def _statics(self) -> tuple[NDArray[np.generic], ...]:
+    def _statics(self) -> tuple[Any, ...]:
         scene = self.scene
         return scene.table.rows, scene.grid, scene.start, scene.items
 

@@ -41,12 +41,13 @@ from gazelle.engines.planar.columns import (
 )
 from gazelle.engines.planar.compiled import part
 from gazelle.engines.planar.kernels_grid import place_in
+from gazelle.engines.planar.tables import Cells, Floats, Marks
 
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
 
 @part
-def reaches(x, y, x0, y0, x1, y1, radius):
+def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radius: float) -> bool:
     """Whether a disc meets a segment."""
     ex, ey = x1 - x0, y1 - y0
     square = ex * ex + ey * ey
@@ -54,20 +55,23 @@ def reaches(x, y, x0, y0, x1, y1, radius):
     if square > 0.0:
         t = min(max(((x - x0) * ex + (y - y0) * ey) / square, 0.0), 1.0)
     dx, dy = x0 + t * ex - x, y0 + t * ey - y
-    return dx * dx + dy * dy < radius * radius
+    return bool(dx * dx + dy * dy < radius * radius)
 
 
 @part
-def separates(corners, i, j, x0, y0, x1, y1):
+def separates(corners: Floats, i: int, j: int, x0: float, y0: float, x1: float, y1: float) -> bool:
     """Whether both points are on the right of the edge from corner i to corner j, outside."""
     ax, ay = corners[i, 0], corners[i, 1]
     ex, ey = corners[j, 0] - ax, corners[j, 1] - ay
     most = TOUCH * math.sqrt(ex * ex + ey * ey)
-    return ex * (y0 - ay) - ey * (x0 - ax) <= most and ex * (y1 - ay) - ey * (x1 - ax) <= most
+    left = max(ex * (y0 - ay) - ey * (x0 - ax), ex * (y1 - ay) - ey * (x1 - ax))
+    return bool(left <= most)
 
 
 @part
-def crosses(corners, first, count, x0, y0, x1, y1):
+def crosses(
+    corners: Floats, first: int, count: int, x0: float, y0: float, x1: float, y1: float,
+) -> bool:  # fmt: skip
     """Whether a segment has a part inside a convex polygon."""
     for i in range(first, first + count):
         if separates(corners, i, i + 1 if i + 1 < first + count else first, x0, y0, x1, y1):
@@ -82,7 +86,10 @@ def crosses(corners, first, count, x0, y0, x1, y1):
 
 
 @part
-def piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
+def piece_meets(
+    pieces: Floats, corners: Floats, p: int, statics: Floats, s: int, x0: float, y0: float,
+    x1: float, y1: float,
+) -> bool:  # fmt: skip
     """Whether a piece meets a static primitive, given in the frame of the piece's body."""
     cx, cy = pieces[p, CENTRE_X], pieces[p, CENTRE_Y]
     bound = pieces[p, BOUND]
@@ -98,7 +105,9 @@ def piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
 
 
 @part
-def near_polygon(corners, first, count, x, y, radius):
+def near_polygon(
+    corners: Floats, first: int, count: int, x: float, y: float, radius: float,
+) -> bool:  # fmt: skip
     """Whether a disc meets a convex polygon."""
     inside = True
     for i in range(first, first + count):
@@ -111,7 +120,10 @@ def near_polygon(corners, first, count, x, y, radius):
 
 
 @part
-def static_meets(b, k, kinds, pieces, corners, goal, statics, s):
+def static_meets(
+    b: int, k: int, kinds: Floats, pieces: Floats, corners: Floats, goal: Floats,
+    statics: Floats, s: int,
+) -> bool:  # fmt: skip
     """Whether body b at its goal meets a static primitive."""
     if (int(statics[s, KIND]) & int(GHOST)) != 0:
         return False
@@ -128,14 +140,17 @@ def static_meets(b, k, kinds, pieces, corners, goal, statics, s):
     x0, y0, x1, y1 = c * ax + n * ay, c * ay - n * ax, c * bx + n * by, c * by - n * bx
     for p in range(int(kinds[k, FIRST_PIECE]), int(kinds[k, LAST_PIECE])):
         low, high = goal[b, Z] + pieces[p, PIECE_LOW], goal[b, Z] + pieces[p, PIECE_HIGH]
-        if low < statics[s, HIGH] and high > statics[s, LOW]:
-            if piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
-                return True
+        level = low < statics[s, HIGH] and high > statics[s, LOW]
+        if level and piece_meets(pieces, corners, p, statics, s, x0, y0, x1, y1):
+            return True
     return False
 
 
 @part
-def statics_meet(b, k, kinds, pieces, corners, goal, statics, grid, start, items):
+def statics_meet(
+    b: int, k: int, kinds: Floats, pieces: Floats, corners: Floats, goal: Floats,
+    statics: Floats, grid: Floats, start: Cells, items: Cells,
+) -> bool:  # fmt: skip
     """Whether body b at its goal meets anything static."""
     x, y, r = goal[b, X], goal[b, Y], kinds[k, RADIUS]
     left, right = (
@@ -155,7 +170,10 @@ def statics_meet(b, k, kinds, pieces, corners, goal, statics, grid, start, items
 
 
 @part
-def outside(corners, first, count, cos, sin, x, y, start, number):
+def outside(
+    corners: Floats, first: int, count: int, cos: float, sin: float, x: float, y: float,
+    start: int, number: int,
+) -> bool:  # fmt: skip
     """Whether an edge of a polygon separates it from another one.
 
     The other's frame is at (x, y, cos, sin) in the frame of the first.
@@ -178,7 +196,9 @@ def outside(corners, first, count, cos, sin, x, y, start, number):
 
 
 @part
-def pieces_meet(pieces, corners, p, q, x, y, cos, sin):
+def pieces_meet(
+    pieces: Floats, corners: Floats, p: int, q: int, x: float, y: float, cos: float, sin: float,
+) -> bool:  # fmt: skip
     """Whether two pieces overlap; the frame of q's body is at (x, y, cos, sin) in that of p's."""
     qx = x + cos * pieces[q, CENTRE_X] - sin * pieces[q, CENTRE_Y]
     qy = y + sin * pieces[q, CENTRE_X] + cos * pieces[q, CENTRE_Y]
@@ -191,19 +211,22 @@ def pieces_meet(pieces, corners, p, q, x, y, cos, sin):
     if count == 0 and number == 0:
         return True
     if number == 0:
-        return near_polygon(corners, first, count, qx, qy, pieces[q, BOUND] - TOUCH)
+        return bool(near_polygon(corners, first, count, qx, qy, pieces[q, BOUND] - TOUCH))
     # The frame of p's body in that of q's.
     bx, by = -cos * x - sin * y, sin * x - cos * y
     if count == 0:
         cx, cy = bx + cos * px + sin * py, by - sin * px + cos * py
-        return near_polygon(corners, start, number, cx, cy, pieces[p, BOUND] - TOUCH)
+        return bool(near_polygon(corners, start, number, cx, cy, pieces[p, BOUND] - TOUCH))
     if outside(corners, first, count, cos, sin, x, y, start, number):
         return False
     return not outside(corners, start, number, cos, -sin, bx, by, first, count)
 
 
 @part
-def bodies_meet(a, ka, b, kb, kinds, pieces, corners, goal, at):
+def bodies_meet(
+    a: int, ka: int, b: int, kb: int, kinds: Floats, pieces: Floats, corners: Floats,
+    goal: Floats, at: Floats,
+) -> bool:  # fmt: skip
     """Whether body a at its goal overlaps body b where it is in the table ``at``."""
     ox, oy = at[b, X] - goal[a, X], at[b, Y] - goal[a, Y]
     far = kinds[ka, RADIUS] + kinds[kb, RADIUS]
@@ -217,16 +240,17 @@ def bodies_meet(a, ka, b, kb, kinds, pieces, corners, goal, at):
         for q in range(int(kinds[kb, FIRST_PIECE]), int(kinds[kb, LAST_PIECE])):
             over = pieces[q, PIECE_LOW] + lift >= pieces[p, PIECE_HIGH]
             under = pieces[q, PIECE_HIGH] + lift <= pieces[p, PIECE_LOW]
-            if not over and not under:
-                if pieces_meet(pieces, corners, p, q, x, y, cos, sin):
-                    return True
+            level = not over and not under
+            if level and pieces_meet(pieces, corners, p, q, x, y, cos, sin):
+                return True
     return False
 
 
 @part
 def obstructed(
-    a, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
-):
+    a: int, reach: float, nbody: int, kinds: Floats, pieces: Floats, corners: Floats,
+    pose: Floats, goal: Floats, state: Marks, grid: Floats, head: Cells, follow: Cells,
+) -> bool:  # fmt: skip
     """Whether body a's way is barred by a body.
 
     For one that is MOVING: by any body, where it is or where it would be. For one that is

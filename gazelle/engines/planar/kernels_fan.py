@@ -7,24 +7,27 @@ within the angles that a primitive covers are tested. Distances are exact; angle
 which beams are certainly missed.
 """
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 import math
 
 import numpy as np
 
-from gazelle.engines.planar.columns import NEAR, RATE, REACH, SLACK, START
+from gazelle.engines.planar.columns import NEAR, RATE, SLACK, START
 from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.tables import Floats
 
 TURN = 2.0 * math.pi
 FEW = 48  # beams from which it pays to find out which ones are missed
 
 
 @part
-def angle_of(y, x):
+def angle_of(y: float, x: float) -> float:
     """atan2 to 1e-5 rad: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.47."""
     ax, ay = abs(x), abs(y)
-    q = min(ax, ay) / max(max(ax, ay), 1e-300)
+    q = min(ax, ay) / max(ax, ay, 1e-300)
     s = q * q
     a = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))))
     a = 0.5 * math.pi - a if ay > ax else a
@@ -33,7 +36,10 @@ def angle_of(y, x):
 
 
 @part
-def draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, near, name):
+def draw_segment(
+    beams: Floats, lo: int, hi: int, x0: float, y0: float, x1: float, y1: float, inverse: float,
+    near: float, name: float,
+) -> None:  # fmt: skip
     """Beams lo to hi, each of which may pass a segment on either side."""
     for k in range(np.uint64(lo), np.uint64(hi)):
         dx, dy, best, who = beams[0, k], beams[1, k], beams[2, k], beams[3, k]
@@ -46,7 +52,10 @@ def draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, near, name):
 
 
 @part
-def draw_circle(beams, lo, hi, x, y, square, inverse, near, name):
+def draw_circle(
+    beams: Floats, lo: int, hi: int, x: float, y: float, square: float, inverse: float,
+    near: float, name: float,
+) -> None:  # fmt: skip
     """Beams lo to hi, each of which may pass a circle; what they meet from inside is negative."""
     for k in range(np.uint64(lo), np.uint64(hi)):
         dx, dy, best, who = beams[0, k], beams[1, k], beams[2, k], beams[3, k]
@@ -64,7 +73,10 @@ def draw_circle(beams, lo, hi, x, y, square, inverse, near, name):
 
 
 @part
-def draw(beams, lo, hi, fan, circle, x0, y0, x1, y1, radius, name):
+def draw(
+    beams: Floats, lo: int, hi: int, fan: Floats, circle: bool, x0: float, y0: float, x1: float,
+    y1: float, radius: float, name: float,
+) -> None:  # fmt: skip
     """Beams lo to hi, which may meet a segment that is solid on its left, or a circle."""
     cross = x0 * x0 + y0 * y0 - radius * radius if circle else x0 * y1 - x1 * y0
     if cross == 0.0:
@@ -77,7 +89,7 @@ def draw(beams, lo, hi, fan, circle, x0, y0, x1, y1, radius, name):
 
 
 @part
-def cover(found, number, fan):
+def cover(found: Floats, number: int, fan: Floats) -> None:
     """Find the angles that segments and discs cover, many at once.
 
     Args:
@@ -106,7 +118,7 @@ def cover(found, number, fan):
 
 
 @part
-def beams_in(fan, count, first, span, turn):
+def beams_in(fan: Floats, count: int, first: float, span: float, turn: int) -> tuple[int, int]:
     """The beams among angles found by ``cover``, from the first to before the last.
 
     ``turn`` is 0, -1 and 1: a fan may go once around.

@@ -12,25 +12,28 @@ import math
 
 from gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1
 from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.tables import Cells, Floats
 
 
 @part
-def place_in(value, corner, side, count):
+def place_in(value: float, corner: float, side: float, count: float) -> int:
     """Column or row of a coordinate."""
     f = math.floor((value - corner) / side)
     return int(min(max(f, 0.0), count - 1.0))
 
 
 @part
-def cell_of(grid, x, y):
+def cell_of(grid: Floats, x: float, y: float) -> int:
     """The cell of a point."""
     column = place_in(x, grid[0], grid[2], grid[3])
     row = place_in(y, grid[1], grid[2], grid[4])
-    return row * int(grid[3]) + column
+    return int(row * int(grid[3]) + column)
 
 
 @part
-def stretch(low, high, y0, y1, x0, x1):
+def stretch(
+    low: float, high: float, y0: float, y1: float, x0: float, x1: float,
+) -> tuple[float, float]:  # fmt: skip
     """Where a segment is between two heights: its least and greatest x; (inf, -inf) if nowhere."""
     if (y0 < low and y1 < low) or (y0 > high and y1 > high):
         return math.inf, -math.inf
@@ -44,7 +47,7 @@ def stretch(low, high, y0, y1, x0, x1):
 
 
 @kernel
-def list_statics(statics, grid, start, items):
+def list_statics(statics: Floats, grid: Floats, start: Cells, items: Cells) -> None:
     """Count the statics of each cell into ``start``, or, once summed up, list them.
 
     Args:
@@ -82,7 +85,7 @@ def list_statics(statics, grid, start, items):
 
 
 @part
-def link(head, follow, body, cell):
+def link(head: Cells, follow: Cells, body: int, cell: int) -> None:
     """Put a body into the sorted list of a cell."""
     at = head[cell]
     if at < 0 or body < at:
@@ -96,7 +99,7 @@ def link(head, follow, body, cell):
 
 
 @part
-def unlink(head, follow, body, cell):
+def unlink(head: Cells, follow: Cells, body: int, cell: int) -> None:
     """Take a body out of the list of a cell."""
     at = head[cell]
     if at == body:
@@ -108,7 +111,10 @@ def unlink(head, follow, body, cell):
 
 
 @kernel
-def relink(first, last, nbody, grid, pose, head, follow, cell):
+def relink(
+    first: int, last: int, nbody: int, grid: Floats, pose: Floats, head: Cells, follow: Cells,
+    cell: Cells,
+) -> None:  # fmt: skip
     """Keep the lists right for bodies first to last, counted through all worlds."""
     for b in range(first, last):
         now = cell_of(grid, pose[b, 0], pose[b, 1])

@@ -1,5 +1,7 @@
 """Where bodies would go in a step: limits, drives and the way along an arc."""
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 import math
@@ -25,10 +27,11 @@ from gazelle.engines.planar.columns import (
     Z,
 )
 from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.tables import Flags, Floats, Marks
 
 
 @part
-def toward(now, wanted, drives, k, axis, dt):
+def toward(now: float, wanted: float, drives: Floats, k: int, axis: int, dt: float) -> float:
     """The velocity along an axis after a step, within the bounds of a drive."""
     wanted = min(max(wanted, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis])
     change = wanted - now
@@ -37,7 +40,10 @@ def toward(now, wanted, drives, k, axis, dt):
 
 
 @part
-def go(pose, goal, b, vx, vy, turn, dt, euler):
+def go(
+    pose: Floats, goal: Floats, b: int, vx: float, vy: float, turn: float, dt: float,
+    euler: bool,
+) -> None:  # fmt: skip
     """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
 
     With ``euler`` the body slides along its old heading and then turns, as Stage has it; else
@@ -63,7 +69,10 @@ def go(pose, goal, b, vx, vy, turn, dt, euler):
 
 
 @part
-def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler):
+def propose(
+    first: int, last: int, drives: Floats, command: Floats, velocity: Floats, pose: Floats,
+    goal: Floats, state: Marks, dt: float, euler: bool,
+) -> float:  # fmt: skip
     """Decide where the bodies first to last would go; returns the longest way of one [m].
 
     Args:
@@ -103,7 +112,7 @@ def propose(first, last, drives, command, velocity, pose, goal, state, dt, euler
 
 
 @part
-def commit(first, last, pose, goal, state, stalled):
+def commit(first: int, last: int, pose: Floats, goal: Floats, state: Marks, stalled: Flags) -> int:
     """Let the bodies first to last be where they may go; remember who could not."""
     moved = 0
     for b in range(first, last):

@@ -8,15 +8,17 @@ threads and for any other bodies. The hash is that of SplitMix64: Steele, Lea an
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from gazelle.engines.planar.columns import REACH
 from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.tables import Floats, Indices
 
 
 @part
-def mixed(value):
+def mixed(value: Any) -> Any:
     """64 bits, each of which depends on all of a 64 bit value."""
     value += np.uint64(0x9E3779B97F4A7C15)
     value = (value ^ (value >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
@@ -25,19 +27,22 @@ def mixed(value):
 
 
 @part
-def stream(seed, body, tick):
+def stream(seed: int, body: int, tick: int) -> Any:
     """The beginning of the random numbers of a body at a time."""
     return mixed(mixed(mixed(np.uint64(seed)) ^ np.uint64(body)) ^ np.uint64(tick))
 
 
 @part
-def uniform(start, place):
+def uniform(start: np.uint64, place: int) -> float:
     """A number in (0, 1]."""
-    return ((mixed(start ^ np.uint64(place)) >> np.uint64(11)) + np.uint64(1)) * 2.0**-53
+    return float(((mixed(start ^ np.uint64(place)) >> np.uint64(11)) + np.uint64(1)) * 2.0**-53)
 
 
 @kernel
-def blur(first, last, owners, ranges, fan, constant, share, seed, tick):
+def blur(
+    first: int, last: int, owners: Indices, ranges: Floats, fan: Floats, constant: float,
+    share: float, seed: int, tick: int,
+) -> None:  # fmt: skip
     """Add noise to the ranges of sensors first to last, but to those that met nothing.
 
     Normal, of standard deviation ``constant`` [m] plus ``share`` of the range, by Box and

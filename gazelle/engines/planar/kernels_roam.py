@@ -1,11 +1,14 @@
 """A controller in native code: roam about, turn away from what is near, back off when stuck."""
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.kernels_noise import stream, uniform
 from gazelle.engines.planar.kernels_scan import scan
 from gazelle.engines.planar.kernels_step import advance
+from gazelle.engines.planar.tables import Cells, Flags, Floats, Indices, Marks
 
 # Columns of a manner: cruising speed [m/s], fastest turn [rad/s], distance at which to turn
 # away [m], and for how many steps a turn and a way back are kept.
@@ -13,7 +16,7 @@ CRUISE, TURNING, SHY, KEEP, BACK = 0, 1, 2, 3, 4
 
 
 @part
-def sides(ranges, m):
+def sides(ranges: Floats, m: int) -> tuple[float, float]:
     """The shortest range on the right half and on the left half of a fan."""
     count = ranges.shape[1]
     right, left = ranges[m, 0], ranges[m, count - 1]
@@ -24,7 +27,10 @@ def sides(ranges, m):
 
 
 @kernel
-def roam(first, last, manner, seed, tick, sensor, ranges, command, stalled, mood):
+def roam(
+    first: int, last: int, manner: Floats, seed: int, tick: int, sensor: Indices, ranges: Floats,
+    command: Floats, stalled: Flags, mood: Indices,
+) -> None:  # fmt: skip
     """Choose the commands of the bodies first to last.
 
     Args:
@@ -67,11 +73,14 @@ def roam(first, last, manner, seed, tick, sensor, ranges, command, stalled, mood
 
 @kernel
 def rounds(
-    count, manner, seed, tick, sensor, mood, widest, drives, command, velocity, pose, goal,
-    state, stalled, dt, euler, kinds, pieces, corners, statics, grid, start, items, head, follow,
-    cell, looks, sensors, owners, mounts, fan, outline, beams, view, stamp, walls, others,
-    ranges, names,
-):  # fmt: skip
+    count: int, manner: Floats, seed: int, tick: int, sensor: Indices, mood: Indices,
+    widest: float, drives: Floats, command: Floats, velocity: Floats, pose: Floats, goal: Floats,
+    state: Marks, stalled: Flags, dt: float, euler: bool, kinds: Floats, pieces: Floats,
+    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells, head: Cells,
+    follow: Cells, cell: Cells, looks: Floats, sensors: Floats, owners: Indices, mounts: Floats,
+    fan: Floats, outline: Floats, beams: Floats, view: Floats, stamp: Indices, walls: Floats,
+    others: Floats, ranges: Floats, names: Floats,
+) -> None:  # fmt: skip
     """Let all bodies roam for ``count`` steps, scanning with all sensors after each."""
     total = pose.shape[0]
     for now in range(count):

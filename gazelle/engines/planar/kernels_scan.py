@@ -6,6 +6,8 @@ grows with what is in view, not with the number of beams times the way they go, 
 number of bodies in the world.
 """
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 import math
@@ -43,10 +45,14 @@ from gazelle.engines.planar.columns import (
 from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover, draw
 from gazelle.engines.planar.kernels_grid import place_in, stretch
+from gazelle.engines.planar.tables import Cells, Floats, Indices
 
 
 @part
-def find_static(found, n, fan, statics, s, height, x, y, cos, sin):
+def find_static(
+    found: Floats, n: int, fan: Floats, statics: Floats, s: int, height: float, x: float,
+    y: float, cos: float, sin: float,
+) -> int:  # fmt: skip
     """Write down a static primitive as the n-th found if it can be seen; returns how many.
 
     The world's frame is at (x, y, cos, sin) in the sensor's.
@@ -71,7 +77,7 @@ def find_static(found, n, fan, statics, s, height, x, y, cos, sin):
 
 
 @part
-def draw_statics(beams, fan, found, n):
+def draw_statics(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
     """Draw the static primitives found."""
     count = beams.shape[1]
     if count > FEW:
@@ -89,16 +95,19 @@ def draw_statics(beams, fan, found, n):
 
 
 @part
-def hidden(beams, lo, hi, inverse):
+def hidden(beams: Floats, lo: int, hi: int, inverse: float) -> bool:
     """Whether beams lo to hi all meet something nearer than one over ``inverse``."""
-    for k in range(lo, hi):
+    for k in range(lo, hi):  # noqa: SIM110  # compiled code knows no generators
         if beams[2, k] < inverse:
             return False
     return True
 
 
 @part
-def draw_looks(beams, lo, hi, fan, looks, first, last, height, x, y, cos, sin, away, name):
+def draw_looks(
+    beams: Floats, lo: int, hi: int, fan: Floats, looks: Floats, first: int, last: int,
+    height: float, x: float, y: float, cos: float, sin: float, away: bool, name: float,
+) -> None:  # fmt: skip
     """Primitives of a body whose frame is at (x, y, cos, sin) in the sensor's frame.
 
     Of closed outlines that the sensor is ``away`` from only the front is drawn.
@@ -117,7 +126,10 @@ def draw_looks(beams, lo, hi, fan, looks, first, last, height, x, y, cos, sin, a
 
 
 @part
-def find_body(found, n, fan, sensors, m, kinds, pose, k, b):
+def find_body(
+    found: Floats, n: int, fan: Floats, sensors: Floats, m: int, kinds: Floats, pose: Floats,
+    k: int, b: int,
+) -> int:  # fmt: skip
     """Write down body b, of kind k, as the n-th found if it can be seen; returns how many."""
     ox, oy = pose[b, X] - sensors[m, S_X], pose[b, Y] - sensors[m, S_Y]
     radius = kinds[k, RADIUS]
@@ -126,13 +138,19 @@ def find_body(found, n, fan, sensors, m, kinds, pose, k, b):
         return n
     c, s = sensors[m, S_COS], sensors[m, S_SIN]
     found[0, n], found[1, n] = c * ox + s * oy, c * oy - s * ox
-    found[2, n], found[3, n] = c * pose[b, COS] + s * pose[b, SIN], c * pose[b, SIN] - s * pose[b, COS]
+    found[2, n], found[3, n] = (
+        c * pose[b, COS] + s * pose[b, SIN],
+        c * pose[b, SIN] - s * pose[b, COS],
+    )
     found[4, n], found[7, n] = radius, b
     return n + 1
 
 
 @part
-def draw_bodies(beams, fan, found, n, sensors, m, kinds, looks, pose, world):
+def draw_bodies(
+    beams: Floats, fan: Floats, found: Floats, n: int, sensors: Floats, m: int, kinds: Floats,
+    looks: Floats, pose: Floats, world: int,
+) -> None:  # fmt: skip
     """Draw the bodies found."""
     count = beams.shape[1]
     if count > FEW:
@@ -158,7 +176,7 @@ def draw_bodies(beams, fan, found, n, sensors, m, kinds, looks, pose, world):
 
 
 @part
-def put_view(view, outline, sensors, m):
+def put_view(view: Floats, outline: Floats, sensors: Floats, m: int) -> None:
     """Corners of the convex outline of all that a sensor can see, in the world."""
     for k in range(outline.shape[0]):
         x, y = outline[k, 0], outline[k, 1]
@@ -167,7 +185,7 @@ def put_view(view, outline, sensors, m):
 
 
 @part
-def extent_of(view, low, high):
+def extent_of(view: Floats, low: float, high: float) -> tuple[float, float]:
     """Least and greatest x of a convex outline between two heights."""
     left, right = math.inf, -math.inf
     count = view.shape[0]
@@ -179,7 +197,7 @@ def extent_of(view, low, high):
 
 
 @part
-def rows_of(view, grid, widest):
+def rows_of(view: Floats, grid: Floats, widest: float) -> tuple[int, int]:
     """First and last row of cells that a view, widened by a radius, passes."""
     if grid[4] == 1.0:
         return 0, 0
@@ -191,7 +209,7 @@ def rows_of(view, grid, widest):
 
 
 @part
-def cells_of(view, grid, widest, r):
+def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, int]:
     """First and last cell of row r that a view, widened by a radius, passes."""
     base = r * int(grid[3])
     if grid[3] == 1.0:
@@ -207,9 +225,11 @@ def cells_of(view, grid, widest, r):
 
 @part
 def draw_view(
-    beams, fan, sensors, m, view, widest, grid, statics, start, items, stamp,
-    kinds, looks, pose, head, follow, world, me, walls, others,
-):  # fmt: skip
+    beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
+    grid: Floats, statics: Floats, start: Cells, items: Cells, stamp: Indices, kinds: Floats,
+    looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
+    walls: Floats, others: Floats,
+) -> None:  # fmt: skip
     """All that is in the cells in view, but for bodies of the family ``me``.
 
     ``stamp`` holds the scan that came last to each static primitive: each is drawn once.
@@ -248,7 +268,7 @@ def draw_view(
 
 
 @part
-def aim(sensors, m, owners, mounts, pose):
+def aim(sensors: Floats, m: int, owners: Indices, mounts: Floats, pose: Floats) -> None:
     """Find where sensor m is: the mounts are on the bodies ``owners``, by turns."""
     b, j = owners[m], m % mounts.shape[0]
     c, s = pose[b, COS], pose[b, SIN]
@@ -261,9 +281,11 @@ def aim(sensors, m, owners, mounts, pose):
 
 @kernel
 def scan(
-    first, last, sensors, owners, mounts, fan, outline, widest, grid, statics, start, items,
-    kinds, looks, pose, head, follow, beams, view, stamp, walls, others, ranges, names,
-):  # fmt: skip
+    first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
+    outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats, names: Floats,
+) -> None:  # fmt: skip
     """Scan with the sensors first to last; a beam that meets nothing gets the fan's reach."""
     nothing = 1.0 / fan[REACH]
     for m in range(first, last):

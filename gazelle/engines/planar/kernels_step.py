@@ -1,5 +1,7 @@
 """A step of all bodies: plan, find who is in whose way, settle that in order, and move."""
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 from gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
@@ -7,13 +9,15 @@ from gazelle.engines.planar.compiled import kernel
 from gazelle.engines.planar.kernels_bump import obstructed, statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import commit, propose
+from gazelle.engines.planar.tables import Cells, Flags, Floats, Marks
 
 
 @kernel
 def plan(
-    first, last, drives, command, velocity, pose, goal, state, dt, euler,
-    kinds, pieces, corners, statics, grid, start, items,
-):  # fmt: skip
+    first: int, last: int, drives: Floats, command: Floats, velocity: Floats, pose: Floats,
+    goal: Floats, state: Marks, dt: float, euler: bool, kinds: Floats, pieces: Floats,
+    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells,
+) -> float:  # fmt: skip
     """Where the bodies first to last would go, if nothing static bars it; the longest way [m]."""
     longest = propose(first, last, drives, command, velocity, pose, goal, state, dt, euler)
     nbody = kinds.shape[0]
@@ -22,13 +26,14 @@ def plan(
             b, b % nbody, kinds, pieces, corners, goal, statics, grid, start, items
         ):
             state[b] = BLOCKED
-    return longest
+    return float(longest)
 
 
 @kernel
 def screen(
-    first, last, reach, kinds, pieces, corners, pose, goal, state, grid, head, follow
-):  # fmt: skip
+    first: int, last: int, reach: float, kinds: Floats, pieces: Floats, corners: Floats,
+    pose: Floats, goal: Floats, state: Marks, grid: Floats, head: Cells, follow: Cells,
+) -> None:  # fmt: skip
     """Mark bodies whose way depends on what others do, or is barred by one that stands."""
     nbody = kinds.shape[0]
     for b in range(first, last):
@@ -40,9 +45,10 @@ def screen(
 
 @kernel
 def settle(
-    first, last, reach, kinds, pieces, corners, pose, goal, state, stalled, grid, head, follow,
-    cell,
-):  # fmt: skip
+    first: int, last: int, reach: float, kinds: Floats, pieces: Floats, corners: Floats,
+    pose: Floats, goal: Floats, state: Marks, stalled: Flags, grid: Floats, head: Cells,
+    follow: Cells, cell: Cells,
+) -> None:  # fmt: skip
     """Decide the rest in order, and move; the bodies are those of whole worlds."""
     nbody = kinds.shape[0]
     for b in range(first, last):
@@ -58,9 +64,11 @@ def settle(
 
 @kernel
 def advance(
-    first, last, count, widest, drives, command, velocity, pose, goal, state, stalled, dt, euler,
-    kinds, pieces, corners, statics, grid, start, items, head, follow, cell,
-):  # fmt: skip
+    first: int, last: int, count: int, widest: float, drives: Floats, command: Floats,
+    velocity: Floats, pose: Floats, goal: Floats, state: Marks, stalled: Flags, dt: float,
+    euler: bool, kinds: Floats, pieces: Floats, corners: Floats, statics: Floats, grid: Floats,
+    start: Cells, items: Cells, head: Cells, follow: Cells, cell: Cells,
+) -> None:  # fmt: skip
     """Make ``count`` steps with the bodies first to last, which are those of whole worlds."""
     for _ in range(count):
         longest = plan(

@@ -1,12 +1,15 @@
 """What a plane without forces cannot do."""
 
+# ruff: noqa: ARG002  # whatever is asked for is refused
+
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
-from gazelle.engines.engine import Contacts, Worlds, Wrench
+from gazelle.engines.engine import Worlds
+from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
 
 
@@ -45,3 +48,9 @@ class Refusals:
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
         """Refused."""
         raise self.refuse(f"a joint between '{parent}' and '{child}'")
+
+    def set_parameter(
+        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Refused."""
+        raise self.refuse(f"the parameter {kind}")

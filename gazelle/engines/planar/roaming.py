@@ -43,7 +43,11 @@ class Roaming:
     """
 
     def __init__(
-        self, fleet: Fleet, scanner: Scanner | None = None, manner: Manner | None = None, seed: int = 0
+        self,
+        fleet: Fleet,
+        scanner: Scanner | None = None,
+        manner: Manner | None = None,
+        seed: int = 0,
     ) -> None:
         manner = manner or Manner()
         self.fleet, self.scanner, self.seed, self.tick = fleet, scanner, seed, 0
@@ -60,7 +64,8 @@ class Roaming:
     def run(self, count: int) -> None:
         """Make steps, and scan after each."""
         fleet = self.fleet
-        if fleet.nworld * fleet.nbody <= _SMALL or fleet.crew.size == 1:
+        alone = fleet.crew.size == 1 or fleet.nworld * fleet.nbody <= _SMALL
+        if alone and self._eye.noise is None:
             self._run_small(count)
         else:
             for now in range(count):
