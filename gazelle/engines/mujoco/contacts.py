@@ -14,13 +14,14 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
+from collections import defaultdict
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import mujoco
 
-from gazelle.description import Collision, Contact
+from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Sphere
 from gazelle.engines.mujoco.directions import Quaternion, Rubbing, friction_between, is_directional
 from gazelle.engines.mujoco.surfaces import rigid_terms, torsional_friction_of
 from gazelle.errors import EngineWarning
@@ -42,10 +43,14 @@ _FULL = 0.9999
 # Stiffer springs than this are as good as rigid [N/m]; SDF's default is 1e12.
 _STIFFEST = 1e9
 
-# A spring is felt when its period with the body on it takes at least so many steps.
+# A spring is felt when its period with the mass on it takes at least so many steps. With all
+# springs below a body together, or an impact would put more energy into them than it had.
 _FEWEST_STEPS_A_PERIOD = 10.0
 
 _MOST_PAIRS = 2000
+
+# Contact points of a shape that lies on another; others have four.
+_POINTS = {Sphere: 1, Ellipsoid: 1, Capsule: 2}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +62,7 @@ class Solid:
         body: Scoped name of its body; empty for the world.
         model: Name of its top-level model.
         mass: Of that model [kg]; infinite when it does not move.
+        share: What of that mass stands on one contact point if all of its springs touch [kg].
         collides_with_own: Whether it collides with its own model.
         collision: The description.
         turn: How it stands in the world (x, y, z, w); None if it moves.
@@ -69,6 +75,7 @@ class Solid:
     collides_with_own: bool
     collision: Collision
     turn: Quaternion | None = None
+    share: float = math.inf
 
     @property
     def rubbing(self) -> Rubbing:
@@ -115,7 +122,7 @@ def add_pairs(
         time_step: Physics step [s].
         gravity: Its size [m/s²].
     """
-    everything = list(solids)
+    everything = _with_shares(list(solids))
     springs: list[Spring] = []
     bounces = False
     for count, (first, second) in enumerate(_special_pairs(everything, time_step)):
@@ -138,6 +145,15 @@ def add_pairs(
             geomname1=first.geom, geomname2=second.geom, **_friction_terms(first, second), **terms
         )
     return Pairs(springs, bounces)
+
+
+def _with_shares(solids: list[Solid]) -> list[Solid]:
+    """The solids with the share of their mass that one of the springs below a model carries."""
+    points: dict[str, int] = defaultdict(int)
+    for solid in solids:
+        if _is_soft(solid):
+            points[solid.model] += _POINTS.get(type(solid.collision.geometry), 4)
+    return [replace(s, share=s.mass / max(1, points[s.model])) for s in solids]
 
 
 def _special_pairs(solids: list[Solid], time_step: float) -> Iterable[tuple[Solid, Solid]]:
@@ -231,7 +247,7 @@ def _spring_between(first: Solid, second: Solid, time_step: float) -> tuple[floa
     a, b = first.collision.surface.contact, second.collision.surface.contact
     (kp1, kd1), (kp2, kd2) = _stiffness_of(a, time_step), _stiffness_of(b, time_step)
     stiffness = 1.0 / (1.0 / max(kp1, 1e-9) + 1.0 / max(kp2, 1e-9))
-    mass = min(first.mass, second.mass)
+    mass = min(first.share, second.share)
     period = 2.0 * math.pi * math.sqrt(mass / stiffness)
     if stiffness > _STIFFEST or period < _FEWEST_STEPS_A_PERIOD * time_step:
         return None
