@@ -257,3 +257,18 @@ def alive(pid):
 
 def test_packages_are_found(package):
     assert Packages().installed("robot") == package
+
+
+def test_the_arguments_of_a_file_are_told(rospy, tmp_path, capsys):
+    arg_dump = importlib.import_module("roslaunch.arg_dump")
+    file = tmp_path / "args.launch"
+    file.write_text(
+        '<launch><arg name="a"/><arg name="b" default="1" doc="second"/><arg name="c" value="2"/>'
+        "</launch>"
+    )
+    assert arg_dump.get_args([str(file)]) == {"a": (None, None), "b": ("second", "1")}
+    arg_dump.dump_args([str(file)])
+    assert 'b (default "1"): second' in capsys.readouterr().out
+    file.write_text("<launch><arg/></launch>")
+    with pytest.raises(arg_dump.RLException):
+        arg_dump.get_args([str(file)])
