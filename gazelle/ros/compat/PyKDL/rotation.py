@@ -127,7 +127,7 @@ class Rotation:
         angle = 2 * math.atan2(length, abs(w))
         if angle == 0.0 or angle < eps:
             return 0.0, Vector(0, 0, 1)
-        return angle, Vector(x, y, z) * (sign / length)
+        return angle, Vector(x, y, z) / (sign * length)
 
     def GetRot(self) -> Vector:
         """Its axis, as long as its angle [rad]."""
