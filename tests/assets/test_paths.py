@@ -17,7 +17,8 @@ def test_everything_named_is_a_file():
 
 def test_worlds_by_name():
     stages = {f"turtlebot3_stage_{number}" for number in (1, 2, 3, 4)}
-    assert stages | {"empty", "turtlebot3_world", "furnished_room"} == set(assets.worlds())
+    gazebos = {"empty", "shapes", "rubble", "mud"}
+    assert stages | gazebos | {"turtlebot3_world", "furnished_room"} == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 
 

