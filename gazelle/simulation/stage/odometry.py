@@ -24,6 +24,7 @@ class Odometry:
         seed: The run's seed.
 
     Attributes:
+        needed: Whether any robot uses it.
         used: Whether each robot's localization is ``odom``, shape (nrobot,).
         pose: Where they believe they are, shape (nworld, nrobot, 3); without robots if none
             uses it.
@@ -32,6 +33,7 @@ class Odometry:
     def __init__(self, robots: list[StageRobot], nworld: int, seed: int) -> None:
         positions = [robot.position for robot in robots]
         self.used = np.array([p.localization == "odom" for p in positions], np.bool_)
+        self.needed = bool(self.used.any())
         errors = np.array([(p.odom_error[0], p.odom_error[1], p.odom_error[3]) for p in positions])
         self._limits: Floats = errors.reshape(-1, 3)
         if not self.needed:  # for tens of thousands of robots it would be something
@@ -41,11 +43,6 @@ class Odometry:
         self.pose = np.tile(self._first, (nworld, 1, 1))
         self.share = np.zeros_like(self.pose)
         self._draw(None)
-
-    @property
-    def needed(self) -> bool:
-        """Whether any robot uses it."""
-        return bool(self.used.any())
 
     def advance(self, velocity: Floats, dt: float) -> None:
         """Add what a step of ``dt`` at body velocities, shape (nworld, nrobot, 3), comes to."""

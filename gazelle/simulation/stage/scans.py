@@ -51,29 +51,37 @@ class Eyes:
         name: str,
     ) -> None:
         self.fan = fan
-        self._fleet, self._noise = fleet, noise
-        self._scanner = Scanner(fleet, fan, mounts, named=True)
+        self._fleet, self._mounts, self._noise = fleet, mounts, noise
+        self._noisy = bool(noise.constant.any() or noise.share.any())
+        self._scanner = Scanner(fleet, fan, mounts)
+        self._named = False
         self._shape = (fleet.nworld, len(mounts), fan.count)
         self._stream = Stream(seed, name, fleet.nworld)
 
     def scan(self) -> Floats:
         """Distances [m], shape (nworld, sensors, samples); the array is used again."""
         ranges = self._scanner.scan()
-        noise = self._noise
-        if not (noise.constant.any() or noise.share.any()):
+        if not self._noisy:
             return ranges
+        noise = self._noise
         spread = noise.constant[:, None] + noise.share[:, None] * ranges
         drawn = self._stream.normal(self._shape[1] * self._shape[2]).reshape(self._shape)
         measured: Floats = np.where(ranges < self.fan.reach, ranges + spread * drawn, ranges)
         return np.clip(measured, 0.0, self.fan.reach, out=measured)
 
     def returns(self, sensor: int, world: int = 0) -> Floats:
-        """``ranger_return`` of what each beam of a sensor met in the last scan; 0 for nothing.
+        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
+
+        From the first call on each scan also remembers what it met.
 
         Args:
             sensor: Its place in the scanner.
             world: Which world.
         """
+        if not self._named:
+            self._scanner = Scanner(self._fleet, self.fan, self._mounts, named=True)
+            self._scanner.scan()
+            self._named = True
         names = np.abs(self._scanner.names[world * self._shape[1] + sensor])
         found = np.zeros(len(names))
         still = (names > 0.0) & (names < c.NAMES)

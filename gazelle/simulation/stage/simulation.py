@@ -29,6 +29,8 @@ Worlds = NDArray[np.intp]
 Listener = Callable[[], None]
 
 _CAR = "car"
+_PIECE = 65_536
+"""Moves of robots made without a look at what other threads want."""
 
 
 class StageSimulation:
@@ -98,9 +100,11 @@ class StageSimulation:
         positions = [robot.position for robot in self.robots]
         self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
         self._wheelbase = np.array([p.wheelbase for p in positions])
-        self._before = self.fleet.pose.copy()
+        self._now = self.fleet.pose
+        self._before = self._now.copy()
         self._listeners: list[Listener] = []
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
+        self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
         self._closed = False
 
     # -- what there is -----------------------------------------------------------------
@@ -248,7 +252,7 @@ class StageSimulation:
         with self.requests.lock:
             self.requests.drain()
             while count > 0:
-                piece = 1 if self._watched else min(count, 64)
+                piece = 1 if self._watched else min(count, self._piece)
                 self._advance(piece)
                 count -= piece
                 self.requests.drain()
@@ -278,14 +282,15 @@ class StageSimulation:
             controller.update()
         if count > 1:
             self.fleet.step(count - 1)
-        self._before[:] = self.fleet.pose
+        np.copyto(self._before, self._now)
         self.fleet.step()
         if self._odometry.needed:
             self._odometry.advance(self.velocities, self.time_step)
         self.clock.advance(count)
         self._seen.clear()
-        for listener in list(self._listeners):
-            listener()
+        if self._listeners:
+            for listener in tuple(self._listeners):
+                listener()
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time.
