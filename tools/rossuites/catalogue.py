@@ -14,7 +14,7 @@ class Suite:
         package: The ROS package that holds the files.
         files: Test files in it, each with the number of tests that the real stack of Debian 12
             (1.15.15) passes. Launch files go through rostest; Python files are run as they are.
-        quick: Whether it is among those that CI runs.
+        quick: The stacks with which CI runs it.
         uses: Which parts it exercises; a stack that replaces none of them does not run it.
         programs: C++ sources in the package that its tests start as nodes.
         less: For a stack, how many fewer pass there, and the reason.
@@ -23,7 +23,7 @@ class Suite:
     name: str
     package: str
     files: dict[str, int]
-    quick: bool = False
+    quick: frozenset[str] = frozenset()
     uses: frozenset[str] = frozenset({"master", "clients"})
     programs: tuple[str, ...] = ()
     less: dict[str, tuple[int, str]] = field(default_factory=dict)
@@ -34,6 +34,7 @@ class Suite:
         return sum(self.files.values())
 
 
+_MASTER, _CLIENTS, _BOTH = (frozenset({name}) for name in ("master", "clients", "both"))
 _RAW = frozenset({"master"})  # speaks XML-RPC itself, so no client library is tested
 _LIBRARY = frozenset({"clients"})  # needs no master
 _ROSPY = {
@@ -59,11 +60,11 @@ def _rospy(files: dict[str, int]) -> dict[str, int]:
 
 
 SUITES = (
-    Suite("rosmaster", "test_rosmaster", {"test/rosmaster.test": 15}, quick=True, uses=_RAW),
-    Suite("paramserver", "test_rosmaster", {"test/paramserver.test": 7}, quick=True),
-    Suite("masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=True),
-    Suite("rosparam", "test_rosparam", {"test/rosparam.test": 8}, quick=True),
-    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=True),
+    Suite("rosmaster", "test_rosmaster", {"test/rosmaster.test": 15}, quick=_MASTER, uses=_RAW),
+    Suite("paramserver", "test_rosmaster", {"test/paramserver.test": 7}, quick=_MASTER),
+    Suite("masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=_MASTER | _BOTH),
+    Suite("rosparam", "test_rosparam", {"test/rosparam.test": 8}, quick=_MASTER),
+    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=_BOTH),
     Suite("rospy, slow", "test_rospy", _rospy(_ROSPY_SLOW)),
     Suite(
         "roslaunch",
@@ -112,8 +113,10 @@ SUITES = (
             "test/test_simple_action_server_deadlock_python.launch": 1,
         },
     ),
-    Suite("tf", "tf", {"test/testPython.py": 10}, uses=_LIBRARY),
-    Suite("tf_conversions", "tf_conversions", {"test/posemath.py": 2}, uses=_LIBRARY),
+    Suite("tf", "tf", {"test/testPython.py": 10}, quick=_CLIENTS, uses=_LIBRARY),
+    Suite(
+        "tf_conversions", "tf_conversions", {"test/posemath.py": 2}, quick=_CLIENTS, uses=_LIBRARY
+    ),
     Suite(
         "tf2_sensor_msgs",
         "tf2_sensor_msgs",
@@ -125,6 +128,7 @@ SUITES = (
         "message_filters",
         "message_filters",
         {"test/test_approxsync.py": 1, "test/test_message_filters_cache.py": 2},
+        quick=_CLIENTS,
         uses=_LIBRARY,
     ),
 )

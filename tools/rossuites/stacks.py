@@ -31,12 +31,14 @@ class Stack:
         master: The master and parameter server.
         clients: The Python modules of tests and nodes (rospy, actionlib, tf, ...).
         tools: rostopic and its like, as tests call them.
+        launcher: rostest, which starts the tests and their nodes.
     """
 
     name: str
     master: bool = False
     clients: bool = False
     tools: bool = False
+    launcher: bool = False
 
     @property
     def replaces(self) -> frozenset[str]:
@@ -52,6 +54,7 @@ STACKS = {
         Stack("master", master=True),
         Stack("clients", clients=True, tools=True),
         Stack("both", master=True, clients=True, tools=True),
+        Stack("alone", master=True, clients=True, tools=True, launcher=True),
     )
 }
 
@@ -77,6 +80,8 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
     if stack.tools:
         for tool, command in _TOOLS.items():
             _script(programs / tool, f'exec "{GAZELLE}" {command} "$@"')
+    if stack.launcher:
+        _script(programs / "rostest", f'shift; exec "{GAZELLE}" launch --test --results "$@"')
     # Tests ask where roslaunch lives; it is the real one that runs them.
     (folder / "installed").mkdir()
     (folder / "installed/roslaunch").symlink_to("/usr/share/roslaunch", target_is_directory=True)
