@@ -13,6 +13,9 @@ from gazelle.ros.crew import FIRST_DOUBT, QUICK
 from gazelle.ros.errors import report
 from gazelle.ros.loop import EventLoop
 
+SLOW = 0.02
+"""Seconds an item may take on a thread that waits for its connection alone."""
+
 
 class Strand:
     """Handles items one at a time and in order, on whatever thread is free.
@@ -63,8 +66,10 @@ class Strand:
     def handle_all(self, items: list[Any]) -> bool:
         """Handle items on this thread if nobody is at it, else post them.
 
+        The thread must be one that holds up nobody when an item is slow.
+
         Returns:
-            Whether items are quick to handle.
+            Whether items are not too slow for that.
         """
         try:
             self._idle.pop()
@@ -75,7 +80,7 @@ class Strand:
                 self._handle_one(items[0])
             else:
                 self.items.extend(items)
-                self._run()
+                self._run(SLOW)
         return not self._doubt_until
 
     def _handle_one(self, item: Any) -> None:
@@ -85,7 +90,7 @@ class Strand:
             self._handle(item)
         except Exception as error:  # noqa: BLE001  # a callback must not end its thread
             report(self.what, error)
-        self._finish(begin, 1)
+        self._finish(begin, 1, SLOW)
 
     def runs_here(self) -> bool:
         """True if it is the calling thread that handles an item of this strand."""
@@ -104,7 +109,7 @@ class Strand:
             self._doubt_until = 0.0
         return not self._doubt_until
 
-    def _run(self) -> None:
+    def _run(self, bound: float = QUICK) -> None:
         items, handle = self.items, self._handle
         self._runner = threading.get_ident()
         begin = time.monotonic()
@@ -120,11 +125,11 @@ class Strand:
                     handle(item)
                 except Exception as error:  # noqa: BLE001  # a callback must not end its thread
                     report(self.what, error)
-        self._finish(begin, count)
+        self._finish(begin, count, bound)
 
-    def _finish(self, begin: float, count: int) -> None:
+    def _finish(self, begin: float, count: int, bound: float) -> None:
         end = time.monotonic()
-        if self._doubt_until or end - begin > QUICK:
+        if self._doubt_until or end - begin > bound:
             self._learn((end - begin) / max(1, count), end)
         # Whoever posts from here on starts another run; what was posted just before must not
         # wait for that.

@@ -169,6 +169,8 @@ class Subscription:
             link.bytes += sum(map(len, frames))
             items = [(link, data, None) for data in frames]
         if now:
+            if limit and len(items) > limit:
+                self._forget_oldest(link, items, limit)
             quick = strand.handle_all(items)
         else:
             strand.post_all(items)
@@ -204,6 +206,14 @@ class Subscription:
     def takes(self, message_class: Any) -> bool:
         """True if objects of that class can be delivered as they are."""
         return message_class is self.message_class
+
+    def _forget_oldest(self, link: InboundLink, items: list[Item], limit: int) -> None:
+        """What waited while the callbacks were busy is too old before they see it."""
+        old = items[:-limit]
+        del items[:-limit]
+        link.dropped += len(old)
+        with self._drops:
+            link.lost += sum(len(data) for _, data, _ in old if data is not None)
 
     def _drop_oldest(self) -> int:
         try:

@@ -23,7 +23,7 @@ _USABLE = sys.platform == "linux"
 _READS = 32
 _BRISK_S = 0.064
 """A socket that was read `_READS` times within so many seconds is busy."""
-_IDLE_S = 0.008
+_IDLE_S = 0.05
 """It is no longer when nothing comes for so long."""
 _TIMEOUT = struct.pack("ll", 0, round(_IDLE_S * 1e6))
 
