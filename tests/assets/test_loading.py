@@ -9,6 +9,9 @@ from gazelle import assets
 from gazelle.formats import load_model
 
 
+LIKE_TURTLEBOT3 = set(assets.worlds()) - {"shapes", "rubble", "mud"}
+
+
 @pytest.mark.parametrize("name", sorted(assets.worlds()))
 def test_worlds_load(name):
     world = gazelle.load(assets.world(name))
@@ -16,7 +19,8 @@ def test_worlds_load(name):
     assert [light.name for light in world.lights] == ["sun"]
     assert "ground_plane" in {model.name for model in world.models}
     assert world.camera is not None
-    assert world.profile.ode.iters == 150
+    # The TurtleBot3 worlds ask for 150, the others have SDF's default.
+    assert world.profile.ode.iters == (150 if name in LIKE_TURTLEBOT3 else 50)
 
 
 @pytest.mark.parametrize("name", sorted(assets.models()))
