@@ -29,3 +29,12 @@ class NoPicture(ModelPlugin):
         """Say so."""
         del parameters
         _warn(robot.name, "pictures on models are not shown; its topic is not listened to")
+
+
+class RosControl(ModelPlugin):
+    """ros_control's controller manager: not there yet; joints are left to themselves."""
+
+    def load(self, robot: Any, parameters: Any) -> None:
+        """Say so."""
+        del parameters
+        _warn(robot.name, "ros_control's controllers are not run yet; its joints move freely")

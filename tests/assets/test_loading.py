@@ -8,7 +8,6 @@ import gazelle
 from gazelle import assets
 from gazelle.formats import load_model
 
-
 LIKE_TURTLEBOT3 = set(assets.worlds()) - {"shapes", "rubble", "mud"}
 
 
