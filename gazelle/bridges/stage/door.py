@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from gazelle.bridges.stage.naming import Naming
+from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
 from gazelle.bridges.stage.watchdog import Watchdog
@@ -88,6 +89,8 @@ class StageDoor:
             for robot in simulation.robots
         ]
         self._services = Services(simulation, node, self, world)
+        kind = str(node.get_param("~pose_service", ""))
+        self._poses = PoseServices(simulation, node, self.naming, world, kind)
         self._unsubscribe = simulation.subscribe(self._after_step)
         node.on_shutdown.append(lambda _reason: self.stop())
         _warn_of_cameras(simulation)
@@ -184,6 +187,7 @@ class StageDoor:
         self.stop()
         self._unsubscribe()
         self._services.close()
+        self._poses.close()
         for inputs in self._inputs:
             inputs.close()
         for topics in self._topics:

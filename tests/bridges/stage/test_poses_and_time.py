@@ -5,7 +5,9 @@ import time
 
 import pytest
 
+from gazelle import RosError
 from gazelle.ros import load_message
+from gazelle.ros.messages import register
 
 ROBOT = 'robot ( name "r" pose [1 2 0 90] )\n'
 POSE, TWIST, EMPTY = "geometry_msgs/Pose", "geometry_msgs/Twist", "std_srvs/Empty"
@@ -69,6 +71,30 @@ def _pose(x, y):
     pose = load_message(POSE)()
     pose.position.x, pose.position.y = x, y
     return pose
+
+
+AGV_POSE = "---\nfloat64 x\nfloat64 y\nfloat64 angle\n"
+
+
+def test_each_robot_tells_its_pose_by_a_service_of_the_users_type(stage):
+    register("test_agv", "AgvPose", AGV_POSE, "srv")
+    world = stage("robot ( ) robot ( pose [3 4 0 90] )", {"pose_service": "test_agv/AgvPose"})
+    answer = world.call("/robot_1/get_pose", "test_agv/AgvPose")
+    assert (answer.x, answer.y) == (3.0, 4.0)
+    assert answer.angle == pytest.approx(90.0)
+    assert world.call("/robot_0/get_pose", "test_agv/AgvPose").x == 0.0
+
+
+def test_without_the_type_there_is_no_such_service(stage):
+    world = stage(ROBOT)
+    services = [entry[0] for entry in world.node.master.system_state()[2]]
+    assert "/reset_positions" in services
+    assert not any("get_pose" in name for name in services)
+
+
+def test_a_pose_service_of_an_unknown_type_is_an_error(stage):
+    with pytest.raises(RosError, match="nothing is known of the package"):
+        stage(ROBOT, {"pose_service": "nowhere/Pose"})
 
 
 def test_reset_positions_puts_robots_back_and_at_rest(stage):
