@@ -77,8 +77,9 @@ def make_caller_id(name: str) -> str:
 
 
 def load_mappings(argv: Iterable[str]) -> dict[str, str]:
-    """The remappings of a command line, unresolved."""
-    return names.split_arguments(argv)[1]
+    """The remappings of a command line, unresolved; without private parameters (``_p:=1``)."""
+    found = names.split_arguments(argv)[1]
+    return {old: new for old, new in found.items() if new and (old[0] != "_" or old[:2] == "__")}
 
 
 def is_legal_name(name: str) -> bool:

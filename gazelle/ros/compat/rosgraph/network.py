@@ -21,9 +21,7 @@ def parse_http_host_and_port(url: str) -> tuple[str, int]:
     Raises:
         ValueError: It is none.
     """
-    if not url:
-        raise ValueError("not a valid URL")
-    parts = urlparse(url if "://" in url else f"http://{url}")
+    parts = urlparse(url)
     if not parts.hostname:
         raise ValueError("not a valid URL")
     return parts.hostname, parts.port or 80

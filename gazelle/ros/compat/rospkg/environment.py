@@ -1,0 +1,46 @@
+"""Folders that the environment names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def get_ros_root(env: Mapping[str, str] | None = None) -> str | None:
+    """What ROS_ROOT says."""
+    return (os.environ if env is None else env).get("ROS_ROOT")
+
+
+def get_ros_package_path(env: Mapping[str, str] | None = None) -> str | None:
+    """What ROS_PACKAGE_PATH says."""
+    return (os.environ if env is None else env).get("ROS_PACKAGE_PATH")
+
+
+def get_ros_paths(env: Mapping[str, str] | None = None) -> list[str]:
+    """The folders packages are searched in."""
+    found = [get_ros_root(env), *(get_ros_package_path(env) or "").split(os.pathsep)]
+    return [each for each in found if each]
+
+
+def get_ros_home(env: Mapping[str, str] | None = None) -> str:
+    """Where ROS keeps files of the user."""
+    return (os.environ if env is None else env).get("ROS_HOME") or str(Path.home() / ".ros")
+
+
+def get_log_dir(env: Mapping[str, str] | None = None) -> str:
+    """Where logs go."""
+    named = (os.environ if env is None else env).get("ROS_LOG_DIR")
+    return named or str(Path(get_ros_home(env)) / "log")
+
+
+def get_test_results_dir(env: Mapping[str, str] | None = None) -> str:
+    """Where results of tests go."""
+    named = (os.environ if env is None else env).get("ROS_TEST_RESULTS_DIR")
+    return named or str(Path(get_ros_home(env)) / "test_results")
+
+
+def on_ros_path(p: str, env: Mapping[str, str] | None = None) -> bool:
+    """Whether a path is below one of the folders."""
+    place = Path(p).resolve()
+    return any(place.is_relative_to(Path(each).resolve()) for each in get_ros_paths(env))
