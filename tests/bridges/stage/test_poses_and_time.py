@@ -87,7 +87,7 @@ def test_each_robot_tells_its_pose_by_a_service_of_the_users_type(stage):
 
 def test_without_the_type_there_is_no_such_service(stage):
     world = stage(ROBOT)
-    services = [entry[0] for entry in world.node.master.system_state()[2]]
+    services = list(world.node.master.system_state()[2])
     assert "/reset_positions" in services
     assert not any("get_pose" in name for name in services)
 
