@@ -161,7 +161,7 @@ def sink(kind: str) -> None:
         if not arrivals[0] and time.perf_counter() > deadline:
             raise SystemExit("no message came")
         time.sleep(0.1)
-    tell(rate=(arrivals[0] - 1) / (arrivals[2] - arrivals[1]))
+    tell(rate=(arrivals[0] - 1) / (arrivals[2] - arrivals[1]), count=arrivals[0])
 
 
 def server() -> None:
