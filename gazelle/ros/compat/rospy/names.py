@@ -72,7 +72,9 @@ class _Identity:
         self.reload(sys.argv)
 
     def reload(self, argv: Iterable[str]) -> None:
-        self.mappings: dict[str, str] = load_mappings(list(argv))
+        words = list(argv)
+        self.assigned: dict[str, str] = names.split_arguments(words)[1]
+        self.mappings: dict[str, str] = load_mappings(words)
         self.resolved: dict[str, str] = {}
         space = self.mappings.get("__ns") or os.environ.get(ROS_NAMESPACE, GLOBALNS)
         self.namespace = names.as_namespace(space)
