@@ -144,7 +144,7 @@ class ServerGoalHandle:
     ) -> bool:
         if self._server is None:
             return self._refuse()
-        if over and self.status.status in table:
+        if self.status.status in table:
             self._server.settle(self)
         with self._server.lock:
             before = self.status.status

@@ -66,7 +66,7 @@ say(client.get_state(), client.get_result().result)
 """
 BUFFER_CLIENT = """
 import tf2_ros
-rospy.init_node("real_asker")
+rospy.init_node("real_asker", log_level=rospy.FATAL)
 client = tf2_ros.BufferClient("/frames")
 say(client.wait_for_server(rospy.Duration(10)))
 say(client.lookup_transform("map", "base", rospy.Time(5), rospy.Duration(1)).transform.translation.x)
