@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
-_BLOCK = 64  # primitives and bodies that are prepared at once
+_BLOCK = 65  # primitives and bodies that are prepared at once, and one that is never met
 _SHARE = 4000  # beams that are worth a thread
 
 
@@ -88,8 +88,8 @@ class _Scratch:
     beams: Floats
     view: Floats
     stamp: NDArray[np.int64]
-    walls: Floats = field(default_factory=lambda: np.zeros((8, _BLOCK)))
-    others: Floats = field(default_factory=lambda: np.zeros((8, _BLOCK)))
+    walls: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
+    others: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
 
 
 class Scanner:

@@ -134,6 +134,9 @@ def static_meets(
     if circle:
         bx, by = ax, ay
         radius += statics[s, X1]
+    ex, ey, cross = bx - ax, by - ay, ax * by - bx * ay
+    if cross * cross > radius * radius * (ex * ex + ey * ey) and not circle:
+        return False
     if not reaches(0.0, 0.0, ax, ay, bx, by, radius):
         return False
     c, n = goal[b, COS], goal[b, SIN]

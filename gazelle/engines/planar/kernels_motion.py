@@ -40,32 +40,47 @@ def toward(now: float, wanted: float, drives: Floats, k: int, axis: int, dt: flo
 
 
 @part
+def turned(angle: float) -> tuple[float, float, float, float]:
+    """sin(a), cos(a), sin(a) / a and (1 - cos(a)) / a; by their series where a is small."""
+    if abs(angle) > 0.5:
+        s, c = math.sin(angle), math.cos(angle)
+        return s, c, s / angle, (1.0 - c) / angle
+    q = angle * angle
+    sine = 1.0 + q / -6.0 * (
+        1.0
+        + q / -20.0 * (1.0 + q / -42.0 * (1.0 + q / -72.0 * (1.0 + q / -110.0 * (1.0 - q / 156.0))))
+    )
+    versed = 0.5 * (
+        1.0
+        + q / -12.0 * (1.0 + q / -30.0 * (1.0 + q / -56.0 * (1.0 + q / -90.0 * (1.0 - q / 132.0))))
+    )
+    return angle * sine, 1.0 - q * versed, sine, angle * versed
+
+
+@part
 def go(
-    pose: Floats, goal: Floats, b: int, vx: float, vy: float, turn: float, dt: float,
-    euler: bool,
-) -> None:  # fmt: skip
+    pose: Floats, goal: Floats, b: int, vx: float, vy: float, turn: float, dt: float, euler: bool
+) -> None:
     """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
 
     With ``euler`` the body slides along its old heading and then turns, as Stage has it; else
     it goes along the arc, which is exact.
     """
     angle = turn * dt
+    sine, cosine, ahead, across = turned(angle)
     forward, aside = vx * dt, vy * dt
-    if not euler and angle != 0.0:
-        if abs(angle) > 1e-4:
-            s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / angle
-        else:
-            s, c = 1.0 - angle * angle / 6.0, 0.5 * angle
-        forward, aside = s * forward - c * aside, c * forward + s * aside
+    if not euler:
+        forward, aside = ahead * forward - across * aside, across * forward + ahead * aside
     cos, sin = pose[b, COS], pose[b, SIN]
     goal[b, X] = pose[b, X] + cos * forward - sin * aside
     goal[b, Y] = pose[b, Y] + sin * forward + cos * aside
-    yaw = pose[b, YAW]
-    if angle != 0.0:
-        yaw += angle
+    goal[b, Z] = pose[b, Z]
+    yaw = pose[b, YAW] + angle
+    if abs(yaw) > math.pi:
         yaw -= 2.0 * math.pi * math.floor(yaw / (2.0 * math.pi) + 0.5)
-        cos, sin = math.cos(yaw), math.sin(yaw)
-    goal[b, YAW], goal[b, COS], goal[b, SIN], goal[b, Z] = yaw, cos, sin, pose[b, Z]
+    c, s = cos * cosine - sin * sine, sin * cosine + cos * sine
+    unit = 1.5 - 0.5 * (c * c + s * s)  # rounding errors would add up
+    goal[b, YAW], goal[b, COS], goal[b, SIN] = yaw, c * unit, s * unit
 
 
 @part

@@ -25,6 +25,7 @@ from gazelle.engines.planar.columns import (
     LAST_LOOK,
     LOW,
     NAMES,
+    NEAR,
     OPEN,
     RADIUS,
     REACH,
@@ -43,7 +44,16 @@ from gazelle.engines.planar.columns import (
     Z,
 )
 from gazelle.engines.planar.compiled import kernel, part
-from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover, draw
+from gazelle.engines.planar.kernels_fan import (
+    FEW,
+    beams_in,
+    cover,
+    draw,
+    draw_circle,
+    draw_four,
+    draw_segment,
+    solve,
+)
 from gazelle.engines.planar.kernels_grid import place_in, stretch
 from gazelle.engines.planar.tables import Cells, Floats, Indices
 
@@ -79,19 +89,34 @@ def find_static(
 @part
 def draw_statics(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
     """Draw the static primitives found."""
+    solve(found, n)
+    if beams.shape[1] <= FEW:
+        draw_through(beams, fan, found, n)
+        return
     count = beams.shape[1]
-    if count > FEW:
-        cover(found, n, fan)
+    cover(found, n, fan)
     for i in range(n):
-        lo, hi = 0, count
-        for turn in range(2 if count > FEW else 1):
-            if count > FEW:
-                lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
+        for turn in range(2):
+            lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
             if lo < hi:
-                draw(
-                    beams, lo, hi, fan, found[4, i] > 0.0, found[0, i], found[1, i], found[2, i],
-                    found[3, i], found[4, i], found[7, i],
-                )  # fmt: skip
+                draw(beams, lo, hi, fan, found, i)
+
+
+@part
+def draw_through(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
+    """Draw the static primitives found into all beams, segments by fours."""
+    nothing = found.shape[1] - 1  # a column that is never met
+    a, b, c, waiting = nothing, nothing, nothing, 0
+    for i in range(n):
+        if found[4, i] > 0.0:
+            draw(beams, 0, beams.shape[1], fan, found, i)
+        elif waiting < 3:
+            a, b, c, waiting = b, c, i, waiting + 1
+        else:
+            draw_four(beams, found, a, b, c, i, fan[NEAR])
+            a, b, c, waiting = nothing, nothing, nothing, 0
+    if waiting > 0:
+        draw_four(beams, found, a, b, c, nothing, fan[NEAR])
 
 
 @part
@@ -106,12 +131,13 @@ def hidden(beams: Floats, lo: int, hi: int, inverse: float) -> bool:
 @part
 def draw_looks(
     beams: Floats, lo: int, hi: int, fan: Floats, looks: Floats, first: int, last: int,
-    height: float, x: float, y: float, cos: float, sin: float, away: bool, name: float,
+    height: float, found: Floats, i: int, away: bool, name: float,
 ) -> None:  # fmt: skip
-    """Primitives of a body whose frame is at (x, y, cos, sin) in the sensor's frame.
+    """Primitives of the i-th body found.
 
-    Of closed outlines that the sensor is ``away`` from only the front is drawn.
+    Of closed outlines that beams begin ``away`` from only the front is drawn.
     """
+    x, y, cos, sin = found[0, i], found[1, i], found[2, i], found[3, i]
     for p in range(first, last):
         if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
             continue
@@ -120,9 +146,16 @@ def draw_looks(
         x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
         kind = int(looks[p, KIND])
         circle = (kind & int(CIRCLE)) != 0
-        if away and x0 * y1 - x1 * y0 > 0.0 and not circle and (kind & int(OPEN)) == 0:
+        cross = x0 * x0 + y0 * y0 - bx * bx if circle else x0 * y1 - x1 * y0
+        back = cross > 0.0 and not circle
+        if cross == 0.0 or (back and away and (kind & int(OPEN)) == 0):
             continue
-        draw(beams, lo, hi, fan, circle, x0, y0, x1, y1, bx, name + p)
+        inverse = 1.0 / cross
+        if circle:
+            draw_circle(beams, lo, hi, x0, y0, bx * bx, inverse, fan[NEAR], name + p)
+        else:
+            seen = -name - p if back else name + p
+            draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, fan[NEAR], seen)
 
 
 @part
@@ -160,8 +193,8 @@ def draw_bodies(
         k = b - world * kinds.shape[0]
         x, y, radius = found[0, i], found[1, i], found[4, i]
         square = x * x + y * y
-        away = square > radius * radius
         nearest = math.sqrt(square) - radius
+        away = nearest > 0.0 and nearest * fan[NEAR] >= 1.0
         height = sensors[m, S_Z] - pose[b, Z]
         lo, hi = 0, count
         for turn in range(2 if count > FEW else 1):
@@ -171,7 +204,7 @@ def draw_bodies(
                     continue
             draw_looks(
                 beams, lo, hi, fan, looks, int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK]),
-                height, x, y, found[2, i], found[3, i], away, NAMES * (b + 1.0),
+                height, found, i, away, NAMES * (b + 1.0),
             )  # fmt: skip
 
 
@@ -250,7 +283,7 @@ def draw_view(
                 continue
             stamp[p] = now
             n = find_static(walls, n, fan, statics, p, height, x, y, c, -s)
-            if n == walls.shape[1]:
+            if n == walls.shape[1] - 1:
                 draw_statics(beams, fan, walls, n)
                 n = np.int64(0)
         for cell in range(from_cell, to_cell + 1):
@@ -259,7 +292,7 @@ def draw_view(
                 k = b - world * kinds.shape[0]
                 if kinds[k, FAMILY] != me:
                     q = find_body(others, q, fan, sensors, m, kinds, pose, k, b)
-                    if q == others.shape[1]:
+                    if q == others.shape[1] - 1:
                         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
                         q = np.int64(0)
                 b = int(follow[b])

@@ -37,8 +37,12 @@ def screen(
     """Mark bodies whose way depends on what others do, or is barred by one that stands."""
     nbody = kinds.shape[0]
     for b in range(first, last):
-        if state[b] == MOVING and obstructed(
-            b, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
+        if (
+            nbody > 1
+            and state[b] == MOVING
+            and obstructed(
+                b, reach, nbody, kinds, pieces, corners, pose, goal, state, grid, head, follow
+            )
         ):
             state[b] = UNDECIDED
 
