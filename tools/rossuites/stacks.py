@@ -73,8 +73,8 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
     programs = folder / "bin"
     programs.mkdir(parents=True)
     _python(folder, ours=stack.clients)
-    paths = [folder / "generated"]
-    if stack.master:
+    paths = [folder / ("borrowed" if stack.launcher else "generated")]
+    if stack.master and not stack.launcher:
         paths.insert(0, Path(__file__).parent / "substitute")
         _script(programs / "rosmaster", _MASTER)
     if stack.tools:

@@ -7,9 +7,13 @@ import subprocess
 import sys
 from collections.abc import Sequence
 
+from gazelle.ros.builtin.commands import run_command
+
 
 def run(command: str, arguments: Sequence[str] | None = None) -> None:
     """Do what a tool does, in a process of its own; its words go to this one's ``sys.stdout``.
+
+    Started by roslaunch as a node, this process becomes the tool, so that signals reach it.
 
     Args:
         command: Gazelle's command, such as ``param``.
@@ -19,6 +23,8 @@ def run(command: str, arguments: Sequence[str] | None = None) -> None:
         SystemExit: It failed.
     """
     words = list(sys.argv if arguments is None else arguments)[1:]
+    if any(word.startswith("__name:=") for word in words):
+        raise SystemExit(run_command(command, words))
     given = sys.stdin.read() if isinstance(sys.stdin, io.StringIO) else None
     process = subprocess.Popen(  # noqa: S603  # our own program
         [sys.executable, "-m", "gazelle.cli.main", command, *words],

@@ -2,6 +2,7 @@
 
 import importlib
 import io
+import subprocess
 import sys
 
 import pytest
@@ -44,3 +45,10 @@ def test_the_arguments_are_by_default_the_programs(
     monkeypatch.setattr(sys, "argv", [module, *words])
     getattr(importlib.import_module(module), function)()
     assert said in capsys.readouterr().out
+
+
+def test_a_command_may_be_a_node_of_a_launch_file(node):
+    line = ["rosparam", "set", "/gain", "3", "__name:=setter", "__log:=/dev/null"]
+    script = f"import gazelle.ros as r; r.install(); import rosparam; rosparam.yamlmain({line})"
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+    assert node.get_param("/gain") == 3
