@@ -20,6 +20,13 @@ from gazelle.simulation.clock import Clock
 from gazelle.simulation.pacing import run_paced
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
+from gazelle.simulation.stage.finders import (
+    Blob,
+    Fiducial,
+    Surroundings,
+    find_blobs,
+    find_fiducials,
+)
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.scans import Eyes, RangeNoise
@@ -95,6 +102,7 @@ class StageSimulation:
             for each in layout.noises
         ]
         self._eyes: dict[int, Eyes] = {}
+        self._around: Surroundings | None = None
         self._seen: dict[int, Floats] = {}
         self._odometry = Odometry(layout.robots, nworld, seed)
         positions = [robot.position for robot in self.robots]
@@ -224,6 +232,27 @@ class StageSimulation:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
         self.scan(scanner)
         return self._eye(scanner).returns(place, world)
+
+    def fiducials(self, name: str, finder: int = 0, world: int = 0) -> list[Fiducial]:
+        """What a fiducial finder of a robot sees now, nearest first.
+
+        Raises:
+            SimulationError: There is no such robot or finder.
+        """
+        return find_fiducials(self._surroundings(), self.robot(name).index, finder, world)
+
+    def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
+        """What a blob finder of a robot sees now, from left to right.
+
+        Raises:
+            SimulationError: There is no such robot or finder.
+        """
+        return find_blobs(self._surroundings(), self.robot(name).index, finder, world)
+
+    def _surroundings(self) -> Surroundings:
+        if self._around is None:
+            self._around = Surroundings(self)
+        return self._around
 
     def _eye(self, scanner: int) -> Eyes:
         if scanner not in self._eyes:

@@ -18,15 +18,8 @@ Floats = NDArray[np.float64]
 
 def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
     """The blocks of one model, and the walls of its bitmap as rectangles."""
+    yield from blocks_of(placed)
     frame, returns = placed.body_pose, placed.model.returns
-    for block in placed.model.blocks:
-        yield Part(
-            _turned(frame, block.points),
-            low=frame.z + block.z[0],
-            high=frame.z + block.z[1],
-            glow=returns.ranger,
-            solid=returns.obstacle,
-        )
     bitmap = placed.model.bitmap
     if bitmap is None:
         return
@@ -43,24 +36,27 @@ def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
         )
 
 
+def blocks_of(placed: PlacedStageModel) -> Iterator[Part]:
+    """The blocks of one model."""
+    frame, returns = placed.body_pose, placed.model.returns
+    for block in placed.model.blocks:
+        yield Part(
+            _turned(frame, block.points),
+            low=frame.z + block.z[0],
+            high=frame.z + block.z[1],
+            glow=returns.ranger,
+            solid=returns.obstacle,
+        )
+
+
 def table_of(models: Iterable[PlacedStageModel]) -> Table:
     """The primitives of models that stand still; of bitmaps only their outlines."""
     parts: list[Part] = []
     rows: list[Floats] = []
     for placed in models:
-        bitmap = placed.model.bitmap
-        if bitmap is not None:
-            rows.append(_outline_rows(placed, bitmap))
-        parts += [
-            Part(
-                _turned(placed.body_pose, block.points),
-                low=placed.body_pose.z + block.z[0],
-                high=placed.body_pose.z + block.z[1],
-                glow=placed.model.returns.ranger,
-                solid=placed.model.returns.obstacle,
-            )
-            for block in placed.model.blocks
-        ]
+        if placed.model.bitmap is not None:
+            rows.append(_outline_rows(placed, placed.model.bitmap))
+        parts += blocks_of(placed)
     plain = primitives_of(parts)
     all_rows = np.vstack([plain.rows, *rows])
     return Table(all_rows, np.zeros(len(all_rows), np.int64))
@@ -91,17 +87,21 @@ def _runs(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
     return np.vstack(found).astype(np.int64)
 
 
-def _outline_rows(placed: PlacedStageModel, bitmap: StageBitmap) -> Floats:
-    lines = outline(bitmap.cells)
+def bitmap_lines(bitmap: StageBitmap, frame: StagePose) -> Floats:
+    """The outline of a bitmap whose body has a pose: x0, y0, x1, y1 [m], shape (n, 4)."""
     width, depth = bitmap.cell_size
-    frame, returns = placed.body_pose, placed.model.returns
+    points = outline(bitmap.cells).reshape(-1, 2) * (width, depth) + bitmap.low
     cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    lines: Floats = (points @ turn + (frame.x, frame.y)).reshape(-1, 4)
+    return lines
+
+
+def _outline_rows(placed: PlacedStageModel, bitmap: StageBitmap) -> Floats:
+    frame, returns = placed.body_pose, placed.model.returns
+    lines = bitmap_lines(bitmap, frame)
     rows = np.zeros((len(lines), c.PRIMITIVE))
-    for at in (0, 2):
-        x = bitmap.low[0] + width * lines[:, at]
-        y = bitmap.low[1] + depth * lines[:, at + 1]
-        rows[:, c.X0 + at] = frame.x + cos * x - sin * y
-        rows[:, c.Y0 + at] = frame.y + sin * x + cos * y
+    rows[:, c.X0 : c.Y1 + 1] = lines
     rows[:, c.LOW], rows[:, c.HIGH] = frame.z + bitmap.z[0], frame.z + bitmap.z[1]
     rows[:, c.GLOW] = returns.ranger
     rows[:, c.KIND] = c.SEGMENT if returns.obstacle else c.SEGMENT + c.GHOST

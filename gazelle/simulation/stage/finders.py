@@ -1,0 +1,196 @@
+"""Fiducial finders and blob finders: what Stage's robots recognise, asked for one by one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+import numpy as np
+
+from gazelle.description import (
+    Color,
+    PlacedStageModel,
+    StageBlobfinder,
+    StageFiducial,
+    StageModel,
+    StagePose,
+)
+from gazelle.errors import SimulationError
+from gazelle.simulation.stage.sight import Outlines, distances, joined, outlines_of
+
+if TYPE_CHECKING:
+    from gazelle.simulation.stage.simulation import StageSimulation
+
+Device = TypeVar("Device", StageFiducial, StageBlobfinder)
+
+_GREY: Color = (0.5, 0.5, 0.5, 1.0)
+"""Of models of a random colour."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mounted(Generic[Device]):
+    """A finder: where it is in the world, and what the file says of it."""
+
+    pose: StagePose
+    model: StageModel
+    device: Device
+
+
+@dataclass(frozen=True, slots=True)
+class Fiducial:
+    """A model that a fiducial finder sees.
+
+    Attributes:
+        name: Whole name of the model.
+        id: Its ``fiducial_return``; 0 if it is too far away to be read.
+        distance: To its middle [m].
+        bearing: To its middle, from the finder's x axis [rad].
+        heading: Of it, from the finder's x axis [rad].
+    """
+
+    name: str
+    id: int
+    distance: float
+    bearing: float
+    heading: float
+
+
+@dataclass(frozen=True, slots=True)
+class Blob:
+    """A patch of one colour that a blob finder sees.
+
+    Attributes:
+        color: Of the models in it.
+        left: Its first column.
+        right: Its last column.
+        distance: To the nearest of it [m].
+    """
+
+    color: Color
+    left: int
+    right: int
+    distance: float
+
+
+class Surroundings:
+    """All models of a world with their outlines, where they are now.
+
+    Args:
+        simulation: Runs.
+    """
+
+    def __init__(self, simulation: StageSimulation) -> None:
+        self._simulation = simulation
+        models = simulation.stage.models
+        self._still = [p for model in models if model.position is None for p in model.walk()]
+        self._walls = outlines_of(self._still)
+        self._shapes: dict[tuple[int, int], Outlines] = {}
+
+    def around(
+        self, robot: int, reach: float, world: int
+    ) -> tuple[list[PlacedStageModel], Outlines]:
+        """Models within reach of a robot but its own, and their outlines, in the world."""
+        poses = self._simulation.poses[world]
+        models, parts = list(self._still), [(self._walls, 0)]
+        far = np.linalg.norm(poses[:, :2] - poses[robot, :2], axis=1)
+        near = np.flatnonzero(far <= reach + 2.0 * self._simulation.fleet.widest)
+        for other in near[near != robot].tolist():
+            model = self._simulation.robots[other].model
+            x, y, yaw = poses[other].tolist()
+            pose = StagePose(x, y, model.pose.z, yaw)
+            parts.append((self._shape(model).moved(pose), len(models)))
+            models += replace(model, pose=pose).walk()
+        return models, joined(parts)
+
+    def _shape(self, model: StageModel) -> Outlines:
+        """A robot and what is on it, in its frame; the same for all of one macro."""
+        key = (id(model.blocks), id(model.children))
+        if key not in self._shapes:
+            self._shapes[key] = outlines_of(list(replace(model, pose=StagePose()).walk()))
+        return self._shapes[key]
+
+    def mounted(self, robot: int, kind: type[Device], which: int, world: int) -> Mounted[Device]:
+        """A finder of a robot.
+
+        Raises:
+            SimulationError: It has none of this number.
+        """
+        own = self._simulation.robots[robot]
+        x, y, yaw = self._simulation.poses[world, robot].tolist()
+        pose = StagePose(x, y, own.model.pose.z, yaw)
+        found = [
+            Mounted(placed.pose, placed.model, placed.model.device)
+            for placed in replace(own.model, pose=pose).walk()
+            if isinstance(placed.model.device, kind)
+        ]
+        if not 0 <= which < len(found):
+            raise SimulationError(
+                f"'{own.name}' has {len(found)} {kind.__name__}, no number {which}"
+            )
+        return found[which]
+
+
+def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> list[Fiducial]:
+    """What a fiducial finder of a robot sees, nearest first.
+
+    Raises:
+        SimulationError: It has no such finder.
+    """
+    finder = around.mounted(robot, StageFiducial, which, world)
+    device, here = finder.device, finder.pose
+    models, lines = around.around(robot, device.range[1], world)
+    level = lines if device.ignore_height else lines.at(here.z)
+    found = []
+    for index, each in enumerate(models):
+        returns = each.model.returns
+        if returns.fiducial == 0 or returns.fiducial_key != finder.model.returns.fiducial_key:
+            continue
+        dx, dy = each.pose.x - here.x, each.pose.y - here.y
+        distance = math.hypot(dx, dy)
+        bearing = _wrapped(math.atan2(dy, dx) - here.yaw)
+        if not device.range[0] <= distance <= device.range[1] or abs(bearing) > device.fov / 2.0:
+            continue
+        met = distances(here.x, here.y, np.array([here.yaw + bearing]), level)[0]
+        own = float(met[level.owners == index].min(initial=np.inf))
+        if math.isfinite(own) and own <= met.min():
+            number = returns.fiducial if distance <= device.range_id else 0
+            heading = _wrapped(each.pose.yaw - here.yaw)
+            found.append(Fiducial(each.name, number, distance, bearing, heading))
+    return sorted(found, key=lambda each: each.distance)
+
+
+def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list[Blob]:
+    """What a blob finder of a robot sees, from left to right.
+
+    Raises:
+        SimulationError: It has no such finder.
+    """
+    finder = around.mounted(robot, StageBlobfinder, which, world)
+    device, here = finder.device, finder.pose
+    models, lines = around.around(robot, device.range, world)
+    level = lines.at(here.z)
+    columns = device.image[0]
+    aside = device.fov * (0.5 - (np.arange(columns) + 0.5) / columns)
+    met = distances(here.x, here.y, here.yaw + device.pan + aside, level)
+    nearest = met.min(axis=1, initial=np.inf)
+    blobs: list[Blob] = []
+    for column in np.flatnonzero(nearest <= device.range).tolist():
+        seen = models[int(level.owners[int(met[column].argmin())])].model
+        color = _GREY if seen.color == "random" else seen.color
+        if seen.returns.blob and (not device.colors or color in device.colors):
+            _add(blobs, Blob(color, column, column, float(nearest[column])))
+    return blobs
+
+
+def _add(blobs: list[Blob], new: Blob) -> None:
+    """Add a column to the last blob if it goes on, else as a new one."""
+    last = blobs[-1] if blobs else None
+    if last is None or last.right != new.left - 1 or last.color != new.color:
+        blobs.append(new)
+        return
+    blobs[-1] = replace(last, right=new.right, distance=min(last.distance, new.distance))
+
+
+def _wrapped(angle: float) -> float:
+    return math.atan2(math.sin(angle), math.cos(angle))
