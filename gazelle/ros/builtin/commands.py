@@ -13,20 +13,20 @@ from gazelle.ros.tools.watching import NODE_NAME
 
 def topic(arguments: Sequence[str]) -> int:
     """Do what rostopic does; returns the exit code."""
-    return _run("topic", arguments)
+    return run_command("topic", arguments)
 
 
 def service(arguments: Sequence[str]) -> int:
     """Do what rosservice does; returns the exit code."""
-    return _run("service", arguments)
+    return run_command("service", arguments)
 
 
 def param(arguments: Sequence[str]) -> int:
     """Do what rosparam does; returns the exit code."""
-    return _run("param", arguments)
+    return run_command("param", arguments)
 
 
-def _run(tool: str, arguments: Sequence[str]) -> int:
+def run_command(tool: str, arguments: Sequence[str]) -> int:
     """Run a command of Gazelle's without what roslaunch adds to a node's command line."""
     plain, mappings = names.split_arguments(arguments)
     command = [sys.executable, "-m", "gazelle.cli.main", tool, *plain]
