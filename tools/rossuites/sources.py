@@ -29,6 +29,8 @@ def fetch(folder: Path) -> list[str]:
     Returns:
         The packages that could not be had.
     """
+    if shutil.which("apt-get") is None:
+        return list(DEBIAN)
     options = _apt_options(folder)
     subprocess.run(["apt-get", *options, "-qq", "update"], check=False, timeout=300)
     missing = []
