@@ -108,7 +108,8 @@ class Launch:
         """Start the master if there is none, set parameters, start nodes.
 
         Raises:
-            LaunchError: A node has no program, or a parameter cannot be set. No node runs then.
+            LaunchError: A required node or all nodes have no program, or a parameter cannot be
+                set. No node runs then.
             MasterUnreachableError: There is no master, and it is not for this machine to start one.
         """
         machines.check(self.plan)
@@ -151,17 +152,32 @@ class Launch:
         self._guard.forget(process.pid)
 
     def _find_programs(self) -> list[tuple[NodePlan, Program]]:
-        """The programs of all nodes; a node without one stops the launch before it begins."""
+        """The programs of all nodes that have one.
+
+        As with roslaunch those without are named and left out, unless one is required; where
+        none has one, nothing is begun.
+        """
         found: list[tuple[NodePlan, Program]] = []
         skipped: dict[str, Skipped] = {}
+        missing: list[LaunchError] = []
         for node in self.plan.nodes:
-            program = find_program(node, self._packages)
+            try:
+                program = find_program(node, self._packages)
+            except LaunchError as error:
+                if node.required:
+                    raise
+                missing.append(error)
+                continue
             if isinstance(program, Skipped):
                 skipped.setdefault(program.package, program)
             else:
                 found.append((node, program))
         for each in skipped.values():
             self._say(f"nodes of '{each.package}' are left out: {each.reason}")
+        if missing and not found and not skipped:
+            raise missing[0]
+        for fault in missing:
+            self._say(f"ERROR: a node is left out: {fault}")
         return found
 
     def _reach_master(self) -> None:

@@ -164,10 +164,22 @@ def test_prefixes_and_folders(launch, script, home, tmp_path):
     assert (tmp_path / "b").read_text().split()[0].endswith("robot/scripts")
 
 
-def test_a_node_without_program_stops_all_before_it_begins(launch, script):
+def test_a_node_without_program_is_named_and_left_out(launch, script):
     script("sleep.sh", SLEEP)
+    running = launch(node("sleep.sh") + "\n" + node("slep.sh", "m"))
+    assert len(running.processes) == 1
+    said = [text for text in running.said if "left out" in text]
+    assert len(said) == 1
+    assert "ERROR" in said[0]
+    assert "slep.sh" in said[0]
+
+
+@pytest.mark.parametrize("also", ["", "required"])
+def test_nothing_begins_when_no_node_or_a_required_one_has_no_program(launch, script, also):
+    script("sleep.sh", SLEEP)
+    wrong = node("slep.sh", "m", **({"required": "true"} if also else {}))
     with pytest.raises(LaunchError, match=r"did you mean 'sleep\.sh'") as caught:
-        launch(node("sleep.sh") + "\n" + node("slep.sh", "m"))
+        launch((node("sleep.sh") if also else "") + "\n" + wrong)
     assert caught.value.line == 3
 
 
