@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
+import statistics
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
+from gazelle.ros.bags.reader import BagFile, select
+from gazelle.ros.bags.records import SECOND, BagIndex, Connection
 from gazelle.ros.time import Time
 
 
@@ -50,3 +55,47 @@ class CompressionTuple(NamedTuple):
     compression: str
     uncompressed: int
     compressed: int
+
+
+def types_and_topics(
+    file: BagFile, index: BagIndex, wanted: Collection[int] | None
+) -> TypesAndTopicsTuple:
+    """Types with their checksums, and what there is of each topic.
+
+    Args:
+        file: The bag's bytes.
+        index: Its index.
+        wanted: Of these connections only; None for all. Types are told of all.
+    """
+    types: dict[str, str] = {}
+    by_topic: dict[str, list[Connection]] = {}
+    for connection in index.connections.values():
+        types.setdefault(connection.type, connection.md5sum)
+        if wanted is None or connection.id in wanted:
+            by_topic.setdefault(connection.topic, []).append(connection)
+    found = {}
+    for topic, members in sorted(by_topic.items()):
+        ids = frozenset(member.id for member in members)
+        count = sum(n for chunk in index.chunks for each, n in chunk.counts.items() if each in ids)
+        found[topic] = TopicTuple(members[0].type, count, len(members), _rate(file, index, ids))
+    return TypesAndTopicsTuple(dict(sorted(types.items())), found)
+
+
+def _rate(file: BagFile, index: BagIndex, connections: frozenset[int]) -> float | None:
+    """How often messages come [Hz], by the median of the times between them."""
+    times = select(file, index, connections, None, None)[0]
+    gaps = [(after - before) / SECOND for before, after in itertools.pairwise(times.tolist())]
+    middle = statistics.median(gaps) if gaps else 0.0
+    return float(1.0 / middle) if middle > 0.0 else None
+
+
+def compression_of(file: BagFile, index: BagIndex, default: str) -> CompressionTuple:
+    """The most frequent compression, and bytes without and with it."""
+    counts = dict[str, int]()
+    plain = packed = 0
+    for chunk in index.chunks:
+        file.describe(chunk)
+        counts[chunk.compression] = counts.get(chunk.compression, 0) + 1
+        plain, packed = plain + chunk.size, packed + chunk.compressed
+    kind = max(counts, key=lambda kind: (counts[kind], kind)) if counts else default
+    return CompressionTuple(kind, plain, packed)

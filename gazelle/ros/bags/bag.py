@@ -9,9 +9,7 @@
 
 from __future__ import annotations
 
-import itertools
 import os
-import statistics
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from io import BytesIO
@@ -25,12 +23,13 @@ from gazelle.ros.bags.answers import (
     BagMessage,
     BagMessageWithConnectionHeader,
     CompressionTuple,
-    TopicTuple,
     TypesAndTopicsTuple,
+    compression_of,
+    types_and_topics,
 )
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.opening import Streamed, ensure_index, header_of, raw_header
-from gazelle.ros.bags.reader import BagFile, BagReader, Entry, messages_of, select
+from gazelle.ros.bags.reader import BagFile, BagReader, Entry, messages_of
 from gazelle.ros.bags.records import BagIndex, Connection
 from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending
 from gazelle.ros.time import Time
@@ -247,42 +246,11 @@ class Bag:
         self, topic_filters: str | list[str] | None = None
     ) -> TypesAndTopicsTuple:
         """Types with their checksums, and what there is of each topic."""
-        index = self.index
-        types: dict[str, str] = {}
-        for connection in index.connections.values():
-            types.setdefault(connection.type, connection.md5sum)
-        wanted = self._ids(topic_filters)
-        by_topic: dict[str, list[Connection]] = {}
-        for connection in index.connections.values():
-            if wanted is None or connection.id in wanted:
-                by_topic.setdefault(connection.topic, []).append(connection)
-        found = {
-            topic: TopicTuple(
-                members[0].type,
-                self.get_message_count([topic]),
-                len(members),
-                self._frequency({member.id for member in members}),
-            )
-            for topic, members in sorted(by_topic.items())
-        }
-        return TypesAndTopicsTuple(dict(sorted(types.items())), found)
-
-    def _frequency(self, connections: set[int]) -> float | None:
-        times = select(self._bytes(), self.index, frozenset(connections), None, None)[0]
-        gaps = [(b - a) / records.SECOND for a, b in itertools.pairwise(times.tolist())]
-        middle = statistics.median(gaps) if gaps else 0.0
-        return float(1.0 / middle) if middle > 0.0 else None
+        return types_and_topics(self._bytes(), self.index, self._ids(topic_filters))
 
     def get_compression_info(self) -> CompressionTuple:
         """The most frequent compression, and bytes without and with it."""
-        file, counts = self._bytes(), dict[str, int]()
-        plain = packed = 0
-        for chunk in self.index.chunks:
-            file.describe(chunk)
-            counts[chunk.compression] = counts.get(chunk.compression, 0) + 1
-            plain, packed = plain + chunk.size, packed + chunk.compressed
-        kind = max(counts, key=lambda kind: (counts[kind], kind)) if counts else self._compression
-        return CompressionTuple(kind, plain, packed)
+        return compression_of(self._bytes(), self.index, self._compression)
 
     # Messages ------------------------------------------------------------------------------
 

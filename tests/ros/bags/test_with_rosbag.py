@@ -15,6 +15,7 @@ from gazelle.ros import Master, Time, load_message
 from gazelle.ros.bags import Bag
 from gazelle.ros.bags.info import as_dict, as_yaml, describe
 from gazelle.ros.bags.operations import reindex
+from gazelle.ros.master.proxy import MasterProxy
 
 pytestmark = [pytest.mark.ros, needs_ros]
 KINDS = ["none", "bz2", "lz4"]
@@ -158,25 +159,36 @@ def command(kind, *arguments):
     return [*tools[kind], *arguments]
 
 
+def wait_for_listener(uri, topic):
+    """Wait until somebody subscribes to a topic."""
+    proxy = MasterProxy(uri, "/test")
+    deadline = time.monotonic() + 30
+    while topic not in proxy.system_state()[1]:
+        assert time.monotonic() < deadline, "nobody subscribes"
+        time.sleep(0.05)
+    proxy.close()
+
+
 @pytest.mark.parametrize(("recorder", "player"), [("ours", "real"), ("real", "ours")])
 def test_what_one_records_the_other_plays(tmp_path, recorder, player):
     with Master(port=0) as master:
         talker = start([PYTHON, "-c", TALK], master.uri, tmp_path)
         recording = start(command(recorder, "record", "-O", "r", "/chatter"), master.uri, tmp_path)
+        wait_for_listener(master.uri, "/chatter")
         time.sleep(3.0)
         finish(recording)
         finish(talker)
         with Bag(tmp_path / "r.bag") as bag:
             recorded = [m.data for _, m, _ in bag]
-        assert len(recorded) > 40
+        assert len(recorded) > 20
         listener = start([PYTHON, "-c", LISTEN], master.uri, tmp_path)
-        time.sleep(1.0)
+        wait_for_listener(master.uri, "/chatter")
         playing = start(
             command(player, "play", "-q", "--wait-for-subscribers", "-d", "1", "r.bag"),
             master.uri,
             tmp_path,
         )
         playing.communicate(timeout=60)
-        time.sleep(0.5)
+        time.sleep(2.0)
         heard = finish(listener).split()
     assert heard == recorded
