@@ -1,0 +1,53 @@
+"""The node ``stageros`` of the package ``stage_ros``."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+from collections.abc import Sequence
+
+from gazelle.bridges.stage.door import StageDoor
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.signals import stopping
+from gazelle.simulation.stage import StageSimulation
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a Stage world on the graph until it is told to end; returns the exit code.
+
+    The pace is what the file's ``speedup`` says, with a window or without.
+    """
+    found = parse_arguments(arguments, "stageros")
+    options = _options(found.plain)
+    with StageSimulation(options.world) as sim, found.start() as node:
+        speedup = sim.stage.speedup
+        door = StageDoor(
+            sim, node, rate=speedup if speedup > 0.0 else None, model_names=options.model_names
+        )
+        with door, stopping() as stop:
+            _run(door, stop)
+    return 0
+
+
+def _run(door: StageDoor, stop: threading.Event) -> None:
+    """Run until a signal, which a thread hands on."""
+
+    def wait() -> None:
+        stop.wait()
+        door.stop()
+
+    waiter = threading.Thread(target=wait, name="stageros-end", daemon=True)
+    waiter.start()
+    try:
+        door.run()
+    finally:
+        stop.set()
+        waiter.join()
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser("stageros", allow_abbrev=False)
+    parser.add_argument("-g", action="store_true", help="no window; there is none anyway")
+    parser.add_argument("-u", dest="model_names", action="store_true", help="names of models")
+    parser.add_argument("world", help="the world file")
+    return parser.parse_args(list(arguments))
