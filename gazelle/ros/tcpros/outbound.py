@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import select
 import socket
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -14,8 +15,8 @@ from gazelle.ros.loop import READ, WRITE, EventLoop
 
 _BATCH = 65536
 _POLL_S = 0.5
-AT_ONCE: int | None = getattr(socket, "MSG_DONTWAIT", None)
-"""Flag of calls that must not wait; None where a socket waits either always or never."""
+AT_ONCE: int | None = socket.MSG_DONTWAIT if sys.platform == "linux" else None
+"""Flag of calls that must not wait; None where not all calls heed it, or there is none."""
 
 
 class OutboundLink:
