@@ -1,0 +1,68 @@
+"""The node ``stageros`` as launch files start it."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from stage_samples import write
+
+from gazelle.bridges.stage.package import STAGE_ROS
+from gazelle.ros import Master, Node, WallClock, load_message
+from gazelle.ros.builtin import registry
+
+pytest.importorskip("numba")
+
+START = "import sys; from gazelle.bridges.stage.server import main; sys.exit(main(sys.argv[1:]))"
+TWO = 'position ( name "a" ) position ( name "b" pose [0 3 0 0] )\nspeedup 20\n'
+
+
+@pytest.fixture
+def master():
+    with Master(port=0, rosout=False) as running:
+        yield running
+
+
+def start(master, *arguments):
+    return subprocess.Popen(
+        [sys.executable, "-c", START, *arguments],
+        env=os.environ | {"ROS_MASTER_URI": master.uri},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_path):
+    world = write(tmp_path, TWO)
+    process = start(master, "-g", "-u", str(world), "__name:=sim", "_base_watchdog_timeout:=0.0")
+    node = Node("client", master_uri=master.uri, clock=WallClock())
+    try:
+        heard = []
+        node.subscribe("/b/odom", load_message("nav_msgs/Odometry"), heard.append)
+        end = time.monotonic() + 60.0
+        while not heard:
+            assert time.monotonic() < end, "nothing was heard"
+            assert process.poll() is None, process.stderr.read()
+            time.sleep(0.02)
+        assert heard[0].pose.pose.position.y == 3.0
+        assert node.master.lookup_node("/sim")
+        assert node.get_param("/sim/base_watchdog_timeout") == 0.0
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
+    finally:
+        node.close()
+        process.kill()
+        process.stderr.close()
+
+
+def test_it_ends_at_the_files_quit_time(master, tmp_path):
+    process = start(master, str(write(tmp_path, "quit_time 2 " + TWO)))
+    with process.stderr:
+        assert process.wait(60) == 0
+
+
+def test_launch_files_find_it(monkeypatch):
+    monkeypatch.setattr(registry, "_registered", {"stage_ros": STAGE_ROS})
+    assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.bridges.stage.server"
