@@ -15,7 +15,7 @@ from gazelle.ros.launch.programs import (
     node_arguments,
     node_environment,
     parameter_value,
-    prefix_arguments,
+    prefixed_command,
 )
 
 _LONGEST = 20
@@ -104,7 +104,6 @@ def command(node: NodePlan, packages: Packages, master_uri: str) -> list[str]:
     env = node_environment(node, master_uri, {})
     return [
         *(f'{key}="{value}"' for key, value in env.items()),
-        *prefix_arguments(node),
-        *program.command,
+        *prefixed_command(node, program),
         *node_arguments(node),
     ]

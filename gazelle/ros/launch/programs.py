@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -22,6 +23,7 @@ from gazelle.ros.launch.values import convert
 _EXECUTE = (sys.executable, "-m", "gazelle.cli.main", "exec")
 """Runs a script with ``import rospy`` and its like answered by Gazelle."""
 _BUILTIN = (sys.executable, "-m", "gazelle.ros.builtin.start")
+_PYTHON = re.compile(r"(?:.*/)?python[\d.]*")
 _XACRO = {"xacro", "xacro.py"}
 _COMMAND_SECONDS = 120.0
 
@@ -107,6 +109,20 @@ def prefix_arguments(node: NodePlan) -> list[str]:
         LaunchError: It is not well quoted.
     """
     return _split(node.launch_prefix, node)
+
+
+def prefixed_command(node: NodePlan, program: Program) -> list[str]:
+    """A program's command line behind the words of ``launch-prefix``.
+
+    ``python3`` before a Python script names what runs it anyway.
+
+    Raises:
+        LaunchError: The prefix is not well quoted.
+    """
+    words = prefix_arguments(node)
+    if program.command[0] == sys.executable and len(words) == 1 and _PYTHON.fullmatch(words[0]):
+        words = []
+    return [*words, *program.command]
 
 
 def _split(text: str, node: NodePlan) -> list[str]:

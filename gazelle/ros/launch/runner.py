@@ -26,7 +26,7 @@ from gazelle.ros.launch.programs import (
     find_program,
     node_arguments,
     node_environment,
-    prefix_arguments,
+    prefixed_command,
 )
 from gazelle.ros.launch.server import LaunchServer
 from gazelle.ros.master.proxy import MasterProxy
@@ -231,7 +231,7 @@ class Launch:
         name = f"{node.full_name.strip('/')}-{next(self._numbers)}"
         file = name.replace("/", "-")
         to_screen = (node.output == "screen" or self.options.screen) and not self.options.log
-        arguments = [*prefix_arguments(node), *program.command]
+        arguments = prefixed_command(node, program)
         arguments += node_arguments(node, logs / f"{file}.log")
         folder = program.folder if node.cwd == "node" and program.folder else home
         start = Start(

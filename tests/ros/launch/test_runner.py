@@ -164,6 +164,12 @@ def test_prefixes_and_folders(launch, script, home, tmp_path):
     assert (tmp_path / "b").read_text().split()[0].endswith("robot/scripts")
 
 
+def test_a_python_before_a_python_node_is_taken_as_said(launch, script, tmp_path):
+    script("write.py", f"#!/usr/bin/env python\nopen('{tmp_path}/done', 'w').close()\n")
+    spin(launch(node("write.py", "a", launch__prefix="python3")))
+    assert (tmp_path / "done").exists()
+
+
 def test_a_node_without_program_is_named_and_left_out(launch, script):
     script("sleep.sh", SLEEP)
     running = launch(node("sleep.sh") + "\n" + node("slep.sh", "m"))
