@@ -70,12 +70,21 @@ class GazeboDoor:
     def _open_network(self) -> None:
         self._states = StatesBeat(self.context)
         self._beats += [self._states, PerformanceBeat(self.context)]
+        # Ports before services: what a client spawns at once is bound once.
+        self._simulation.requests.call(self._follow)
         self._serve()
-        requests, events = self._simulation.requests, self._simulation.events
-        self._closing.append(events.spawned.subscribe(lambda robot: self._bind(robot.name, robot)))
-        self._closing.append(events.deleted.subscribe(lambda robot: self._unbind(robot.name)))
-        self._closing.append(events.reset.subscribe(self._after_reset))
-        requests.call(self._bind_all)
+
+    def _follow(self) -> None:
+        """Put all ports on the graph, and those of what comes."""
+        events = self._simulation.events
+        self._bind("", self._simulation.ports)
+        for name, robot in self._simulation.robots.items():
+            self._bind(name, robot)
+        self._closing += [
+            events.spawned.subscribe(lambda robot: self._bind(robot.name, robot)),
+            events.deleted.subscribe(lambda robot: self._unbind(robot.name)),
+            events.reset.subscribe(self._after_reset),
+        ]
 
     def publish(self) -> None:
         """Publish everything that somebody listens to, as it is now."""
@@ -101,11 +110,6 @@ class GazeboDoor:
         self.close()
 
     # -- ports -----------------------------------------------------------------------------
-
-    def _bind_all(self) -> None:
-        self._bind("", self._simulation.ports)
-        for name, robot in self._simulation.robots.items():
-            self._bind(name, robot)
 
     def _bind(self, name: str, ports: Ports | Robot) -> None:
         self._bindings[name] = Binding(self.context, ports)
