@@ -298,7 +298,7 @@ def test_a_thousand_nodes_register(master):
             socks.append(crowd)  # its connection stays open
         else:
             crowd.close()
-    assert time.monotonic() - begin < 10.0
+    assert time.monotonic() - begin < 30.0  # half a second on a quiet machine
     assert sum(len(nodes) for nodes in proxy.system_state()[0].values()) == 1000
     for crowd in socks:
         crowd.close()
