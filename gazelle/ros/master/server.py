@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import threading
 import uuid
 from collections.abc import Callable, Sequence
@@ -103,7 +104,7 @@ class Master:
         """What tools look for on a running master."""
         marks = {
             "/run_id": str(uuid.uuid1()),
-            "/rosdistro": "noetic\n",
+            "/rosdistro": (os.environ.get("ROS_DISTRO") or "noetic") + "\n",
             "/rosversion": "1.16.0\n",
         }
         for key, value in marks.items():
