@@ -22,6 +22,8 @@ from gazelle.ros.time import Time
 
 _SLICE_S = 0.05
 """How long it sleeps before it looks whether it is to pause or end."""
+_SETTLE_S = 0.2
+"""How long subscribers that have just connected get before the first message."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -170,6 +172,8 @@ class Player:
     def _wait_for_subscribers(self, stop: threading.Event) -> None:
         while not stop.is_set():
             if all(each.num_connections for each in self._publishers.values()):
+                # A rospy subscriber drops what comes before it has noted its callback.
+                stop.wait(_SETTLE_S)
                 return
             stop.wait(_SLICE_S)
 

@@ -183,6 +183,7 @@ def test_what_one_records_the_other_plays(tmp_path, recorder, player):
         assert len(recorded) > 20
         listener = start([PYTHON, "-c", LISTEN], master.uri, tmp_path)
         wait_for_listener(master.uri, "/chatter")
+        time.sleep(1.0)  # rospy notes the callback after it has registered
         playing = start(
             command(player, "play", "-q", "--wait-for-subscribers", "-d", "1", "r.bag"),
             master.uri,
