@@ -111,5 +111,5 @@ def test_master_closes_its_port():
 @pytest.mark.parametrize(("given", "told"), [("debian", "debian\n"), ("", "noetic\n")])
 def test_the_master_says_which_distribution_it_stands_for(monkeypatch, given, told):
     monkeypatch.setenv("ROS_DISTRO", given)
-    with Master(port=0, rosout=False) as master, Node("asker", master_uri=master.uri) as node:
+    with Master(port=0) as master, Node("asker", master_uri=master.uri) as node:
         assert node.get_param("/rosdistro") == told
