@@ -95,6 +95,7 @@ class Loads:
         self._engine = engine
         self._clock = clock
         self._wrenches: list[Wrench] = []
+        self._held: dict[tuple[str, str], tuple[Floats, Floats]] = {}
         self._joints: dict[str, _Joint] = {}
         self._due_ns: int | None = None
         self._follows = False
@@ -133,6 +134,18 @@ class Loads:
             )
         )
         self._schedule()
+
+    def hold(self, name: str, link: str, force: Floats, torque: Floats) -> None:
+        """Let a wrench act on a link until the same name gives another; for plugins.
+
+        Args:
+            name: Whose wrench it is.
+            link: Scoped name.
+            force: At the centre of mass, in the world frame [N], shape (nworld, 3).
+            torque: In the world frame [N m], shape (nworld, 3).
+        """
+        self._held[name, link] = (self._rows(force, 3, None), self._rows(torque, 3, None))
+        self._push_links([link], self._clock.now_ns)
 
     def turn(
         self,
@@ -212,6 +225,10 @@ class Loads:
     def _push_links(self, targets: Iterable[str], now_ns: int) -> None:
         for link in sorted(targets):
             force, torque = np.zeros((2, self._engine.nworld, 3))
+            for (_, target), (held_force, held_torque) in self._held.items():
+                if target == link:
+                    force += held_force
+                    torque += held_torque
             for wrench in self._wrenches:
                 if wrench.target == link and wrench.start_ns <= now_ns:
                     held = wrench.resolve(self._engine)
@@ -237,9 +254,9 @@ class Loads:
     # -- ending ------------------------------------------------------------------------
 
     def clear_link(self, link: str) -> None:
-        """End all wrenches on a link."""
+        """End all wrenches on a link but those that plugins hold."""
         self._wrenches = [w for w in self._wrenches if w.target != link]
-        self._engine.set_link_wrench(link, np.zeros(3), np.zeros(3))
+        self._push_links([link], self._clock.now_ns)
         self._schedule()
 
     def clear_joint(self, joint: str) -> None:
@@ -255,15 +272,19 @@ class Loads:
             self._wrenches.remove(wrench)
             self._push_links([wrench.target], self._clock.now_ns)
         self._wrenches = [w for w in self._wrenches if not w.target.startswith(inside)]
+        self._held = {key: w for key, w in self._held.items() if not key[1].startswith(inside)}
         self._joints = {n: j for n, j in self._joints.items() if not n.startswith(inside)}
         self._schedule()
 
     def reset(self, worlds: Worlds | None) -> None:
         """End everything in these worlds, as the engine's reset does with what acts now."""
         if worlds is None:
-            self._wrenches, self._joints = [], {}
+            self._wrenches, self._joints, self._held = [], {}, {}
         for wrench in self._wrenches:
             for rows in (wrench.force, wrench.torque, *(wrench.held or ())):
+                rows[worlds] = 0.0
+        for held in self._held.values():
+            for rows in held:
                 rows[worlds] = 0.0
         for joint in self._joints.values():
             for rows in (joint.lasting, *(e.effort for e in joint.efforts)):
@@ -284,7 +305,8 @@ class Loads:
             }
             for name, joint in self._joints.items()
         }
-        return {"wrenches": wrenches, "joints": joints}
+        held = [(*key, *wrench) for key, wrench in self._held.items()]
+        return {"wrenches": wrenches, "joints": joints, "held": held}
 
     def restore(self, state: dict[str, Any]) -> None:
         """Put back what ``state`` gave; what acts is in the engine's state."""
@@ -293,6 +315,7 @@ class Loads:
             name: _Joint(each["lasting"], [Effort(name, *effort) for effort in each["efforts"]])
             for name, each in state["joints"].items()
         }
+        self._held = {(name, link): (f, t) for name, link, f, t in state["held"]}
         # What began before the snapshot acts already; beginning it once more changes nothing.
         self._schedule()
 

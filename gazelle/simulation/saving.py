@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from gazelle.errors import SimulationError
 from gazelle.simulation.encoding import decode, encode
+from gazelle.simulation.ports import TwistInput
 
 if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
     from gazelle.simulation.simulation import Simulation
 
 _FORMAT = 2
@@ -28,7 +30,7 @@ def snapshot(simulation: Simulation) -> bytes:
         for name, value in part.state().items():
             arrays[f"{key}|{name}"] = np.asarray(value)
     for robot in simulation.robots.values():
-        for name, port in robot.inputs.items():
+        for name, port in _held(robot).items():
             arrays[f"input|{robot.name}|{name}"] = np.concatenate((port.linear, port.angular), 1)
     header = {
         "format": _FORMAT,
@@ -75,9 +77,14 @@ def restore(simulation: Simulation, data: bytes) -> None:
     for key, part in _parts(simulation).items():
         part.restore(grouped.get(key, {}))
     for robot in simulation.robots.values():
-        for name, port in robot.inputs.items():
+        for name, port in _held(robot).items():
             both: Any = grouped[f"input|{robot.name}"][name]
             port.linear[:], port.angular[:] = both[:, :3], both[:, 3:]
+
+
+def _held(robot: Robot) -> dict[str, TwistInput]:
+    """Ports that hold a command; what others were told is in the states of their plugins."""
+    return {name: port for name, port in robot.inputs.items() if isinstance(port, TwistInput)}
 
 
 def _restore_engine(simulation: Simulation, header: dict[str, Any], state: Any) -> None:
@@ -96,7 +103,9 @@ def _parts(simulation: Simulation) -> Mapping[str, Any]:
     """Everything besides the engine that has a state, by a unique key."""
     parts: dict[str, Any] = {}
     for entry in simulation.plugins:
-        parts[f"plugin|{entry.owner}|{entry.name}"] = entry.plugin
+        key = f"plugin|{entry.owner}|{entry.name}"
+        twins = sum(name == key or name.startswith(f"{key}#") for name in parts)
+        parts[f"{key}#{twins}" if twins else key] = entry.plugin
     for robot in simulation.robots.values():
         for unit in robot.sensors.values():
             parts[f"sensor|{unit.name}"] = unit

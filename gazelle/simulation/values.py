@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.engines import Contacts
 
@@ -138,3 +138,33 @@ class RangeValue:
     most: float
     field_of_view: float
     ultrasound: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A force and a torque to act with, in one world or in many.
+
+    Attributes:
+        force: In the world frame [N], shape (3,) or (n, 3).
+        torque: In the world frame [N m], shape (3,) or (n, 3).
+    """
+
+    force: ArrayLike
+    torque: ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
+class LinkPair:
+    """Two links of any models, to be joined or parted.
+
+    Attributes:
+        model_1: Name of a model.
+        link_1: Name of a link of it.
+        model_2: Name of the other model.
+        link_2: Name of a link of that.
+    """
+
+    model_1: str
+    link_1: str
+    model_2: str
+    link_2: str

@@ -1,0 +1,48 @@
+"""A force on command: what ``libgazebo_ros_force.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
+from gazelle.simulation.values import Push
+
+Worlds = NDArray[np.intp]
+
+
+class Force(ModelPlugin):
+    """Pushes a body at its centre of mass, as the last command says, until the next."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the body, open the port."""
+        self._link, _ = robot.frame(parameters.require("bodyName", str))
+        topic = parameters.require("topicName", str)
+        self._loads = robot.simulation.loads
+        self._name = f"force {topic}"
+        self._force, self._torque = np.zeros((2, robot.simulation.nworld, 3))
+        robot.inputs[topic.strip("/")] = Input(
+            absolute(namespace_of(robot, parameters), topic),
+            Push,
+            self._push,
+            forget=self.reset,
+            queue_size=1,
+        )
+
+    def _push(self, push: Push, worlds: Worlds | None) -> None:
+        rows = slice(None) if worlds is None else worlds
+        self._force[rows], self._torque[rows] = push.force, push.torque
+        self._loads.hold(self._name, self._link.name, self._force, self._torque)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Let go."""
+        self._push(Push(np.zeros(3), np.zeros(3)), worlds)
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """What acts."""
+        return {"force": self._force.copy(), "torque": self._torque.copy()}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave; that it acts is in the simulation's state."""
+        self._force[:], self._torque[:] = state["force"], state["torque"]

@@ -1,0 +1,59 @@
+"""The force on a body: what ``libgazebo_ros_f3d.so`` does.
+
+The original asks ODE for the force on the body after a step, when ODE has forgotten it; this
+one gives what all forces on the body come to, by Newton's and Euler's laws.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.plugins.publishing import Publishing
+from gazelle.rotations import conjugate, cross, rotate
+from gazelle.simulation import Output, Robot, WrenchValue, absolute, namespace_of
+
+Floats = NDArray[np.float64]
+
+
+class ResultantForce(Publishing):
+    """Publishes the sum of all forces on a body, weight included, in the world frame.
+
+    The torque is about the centre of mass.
+    """
+
+    update_rate = 0.0
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the body, open the port."""
+        self._link, _ = robot.frame(parameters.require("bodyName", str))
+        topic = parameters.require("topicName", str)
+        self._engine, self._clock = robot.simulation.engine, robot.simulation.clock
+        self.update_rate = parameters.get("updateRate", 0.0)
+        output = robot.outputs[topic.strip("/")] = Output(
+            absolute(namespace_of(robot, parameters), topic),
+            WrenchValue,
+            self._measure,
+            frame=parameters.get("frameName", "world"),
+        )
+        self._published.append(output)
+
+    def _measure(self) -> WrenchValue:
+        name = self._link.name
+        place, motion = self._link.placement(), self._link.motion()
+        change = self._engine.link_acceleration(name)
+        arm = self._engine.link_centre(name) - place.position
+        swing = cross(motion.angular, cross(motion.angular, arm))
+        acceleration = change.linear + cross(change.angular, arm) + swing
+        force = self._engine.parameter("link_mass", name) * acceleration
+        turned = self._spun(place.quaternion, change.angular)
+        torque = turned + cross(motion.angular, self._spun(place.quaternion, motion.angular))
+        return WrenchValue(self._clock.now_ns, force, torque)
+
+    def _spun(self, quaternion: Floats, vector: Floats) -> Floats:
+        """The inertia about the centre of mass times a vector, all in the world frame."""
+        inertia = self._engine.parameter("link_inertia", self._link.name)
+        rows = inertia[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
+        inner = rotate(conjugate(quaternion), vector)
+        return rotate(quaternion, np.einsum("nij,nj->ni", rows, inner))
