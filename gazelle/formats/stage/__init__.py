@@ -13,6 +13,7 @@ from gazelle.errors import ResolveError
 from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.formats.stage.building import no_garbage
 from gazelle.formats.stage.lexer import Script
 from gazelle.formats.stage.parser import decode
 from gazelle.formats.stage.scene import scene_of
@@ -61,7 +62,7 @@ def load_stage(
     if not file.is_file():
         raise ResolveError("there is no such file", file=os.fspath(path))
     reading = Reading(Resolver(paths, file=file))
-    with reading.inside(file):
+    with reading.inside(file), no_garbage():
         script = Script(str(file), decode(xml.read_bytes(file)))
         world = read_world(script, reading, file.parent)
     reading.report(strict=False)
@@ -80,5 +81,6 @@ def read_stage(data: bytes, name: str, reading: Reading) -> World:
         FormatError: The text says something that cannot be.
         ResolveError: A file that it names is not there.
     """
-    stage = read_world(Script(name, decode(data)), reading, reading.folder)
-    return scene_of(stage, reading)
+    with no_garbage():
+        stage = read_world(Script(name, decode(data)), reading, reading.folder)
+        return scene_of(stage, reading)

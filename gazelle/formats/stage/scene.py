@@ -29,6 +29,7 @@ from gazelle.description import (
     Model,
     Noise,
     Plane,
+    Plugin,
     Polyline,
     Pose,
     Scan,
@@ -47,6 +48,7 @@ from gazelle.description import (
     World,
 )
 from gazelle.formats.reading import Reading
+from gazelle.formats.stage.plugins import Names
 from gazelle.formats.terrain import rectangles
 
 MAX_BOXES = 5_000
@@ -56,6 +58,8 @@ DEFAULT_MASS = 10.0
 
 _MANY = 40
 """Runs of pixels a box beyond which rectangles need not be tried."""
+_OTHER = "/"
+"""Before the number of a sensor of a ranger that has several."""
 _FLATTEST = 1e-3
 """Least height of a collision [m]: what has none in Stage would be no body at all."""
 _GOLDEN = 0.61803398875
@@ -68,7 +72,7 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
         stage: What the file says.
         reading: Takes remarks on what is drawn coarser.
     """
-    builder = _Builder(reading)
+    builder = _Builder(reading, len(stage.robots) > 1, 1.0 / stage.interval_sim)
     models = [builder.model(model) for model in stage.models]
     return World(
         name=stage.name,
@@ -84,12 +88,21 @@ Shared = tuple[object, ...]
 
 @dataclass(slots=True)
 class _Builder:
-    """Makes models; robots that differ by name and pose only share their link."""
+    """Makes models; robots that differ by name and pose only share what is on them.
+
+    Attributes:
+        reading: Takes remarks.
+        several: Whether there are several robots.
+        rate: Steps a second of simulated time.
+    """
 
     reading: Reading
+    several: bool
+    rate: float
     names: set[str] = field(default_factory=set)
     links: dict[Shared, Link] = field(default_factory=dict)
     colors: itertools.count[int] = field(default_factory=itertools.count)
+    robots: itertools.count[int] = field(default_factory=itertools.count)
 
     def ground(self) -> Model:
         """The floor, which Stage has without saying so."""
@@ -112,11 +125,17 @@ class _Builder:
         link = self.links.get(key)
         if link is None or model.color == "random":
             link = self.links[key] = self.link(model)
+        plugins: tuple[Plugin, ...] = ()
+        if model.position is not None:
+            names = Names(f"robot_{next(self.robots)}" if self.several else "")
+            plugins = (names.drive(self.rate),)
+            link = _published(link, names)
         return Model(
             name=self.unique(model.name.removeprefix("/")),
             pose=model.pose.pose,
             static=model.position is None,
             links=(link,),
+            plugins=plugins,
             source=model.source,
         )
 
@@ -126,7 +145,7 @@ class _Builder:
         visuals: list[Visual] = []
         sensors: list[Sensor] = []
         for placed in replace(model, pose=StagePose()).walk():
-            part, name = placed.model, placed.name
+            part, name = placed.model, placed.name.partition(".")[2] or "body"
             material = _material(self.color(part))
             for index, (shape, pose) in enumerate(self.shapes(part)):
                 where = placed.body_pose.pose * pose
@@ -189,6 +208,26 @@ class _Builder:
         ]
 
 
+def _published(link: Link, names: Names) -> Link:
+    """The link with topics for the lidars that stage_ros publishes: the first of each ranger.
+
+    Those are the rangers on the robot itself: in their names there is no dot.
+    """
+    first = [
+        index
+        for index, sensor in enumerate(link.sensors)
+        if sensor.lidar is not None
+        and "." not in sensor.name
+        and (_OTHER not in sensor.name or sensor.name.endswith(f"{_OTHER}0"))
+    ]
+    if not first:
+        return link
+    sensors = list(link.sensors)
+    for number, index in enumerate(first):
+        sensors[index] = names.published(sensors[index], number, len(first))
+    return replace(link, sensors=tuple(sensors))
+
+
 def _runs(cells: NDArray[np.bool_]) -> int:
     """Walls in the rows, each counted once."""
     return int(np.count_nonzero(cells[:, 1:] & ~cells[:, :-1]) + np.count_nonzero(cells[:, 0]))
@@ -246,7 +285,7 @@ def _sensors(model: StageModel, pose: StagePose, name: str) -> list[Sensor]:
     if isinstance(device, StageRanger):
         alone = len(device.sensors) == 1
         return [
-            _lidar(sensor, pose, name if alone else f"{name}_{index}", rate)
+            _lidar(sensor, pose, name if alone else f"{name}{_OTHER}{index}", rate)
             for index, sensor in enumerate(device.sensors)
         ]
     if isinstance(device, StageCamera):

@@ -15,6 +15,7 @@ from gazelle.description import StageWorld, World
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage import is_stage, load_stage
+from gazelle.formats.stage.building import no_garbage
 from gazelle.formats.xml import read_bytes
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.pacing import run_paced
@@ -82,17 +83,18 @@ class StageSimulation:
     ) -> None:
         self.stage = _stage_of(world)
         self.seed, self.nworld = seed, nworld
-        layout = layout_of(self.stage)
+        with no_garbage():
+            layout = layout_of(self.stage)
+            self.fleet = Fleet(
+                layout.bodies,
+                () if layout.statics is None else layout.statics,
+                nworld=nworld,
+                time_step=self.stage.interval_sim,
+                euler=euler,
+                threads=threads,
+            )
         self.robots = tuple(layout.robots)
         self._names = {robot.name: robot for robot in self.robots}
-        self.fleet = Fleet(
-            layout.bodies,
-            () if layout.statics is None else layout.statics,
-            nworld=nworld,
-            time_step=self.stage.interval_sim,
-            euler=euler,
-            threads=threads,
-        )
         self.clock = Clock(self.stage.interval_sim)
         self.requests = RequestQueue()
         self.paused = self.stage.paused

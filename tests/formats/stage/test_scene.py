@@ -59,9 +59,42 @@ def test_a_world_holds_models_and_what_stage_said(file):
     assert world.models[2].pose.yaw == pytest.approx(math.pi / 2)
 
 
-def test_robots_of_one_macro_share_their_link(file):
+def test_robots_of_one_macro_share_their_bodies(file):
     _, _, first, second = gazelle.load(file).models
-    assert first.links[0] is second.links[0]
+    assert first.links[0].collisions is second.links[0].collisions
+    assert [sensor.name for sensor in second.links[0].sensors] == ["ranger:0"]
+
+
+def test_robots_drive_and_see_under_stage_ros_names(file):
+    _, _, _, robot = gazelle.load(file).models
+    (drive,), (laser,) = robot.plugins, robot.links[0].sensors[0].plugins
+    assert drive.filename == "libgazebo_ros_planar_move.so"
+    assert drive.parameters.get("robotNamespace", "") == "robot_1"
+    assert drive.parameters.get("odometryFrame", "") == "robot_1/odom"
+    assert laser.parameters.get("topicName", "") == "base_scan"
+    assert laser.parameters.get("frameName", "") == "robot_1/base_laser_link"
+
+
+def test_several_lidars_are_numbered_and_the_first_sensor_of_each_is_published(tmp_path):
+    text = "position ( ranger ( sensor ( ) sensor ( ) ) ranger ( sensor ( ) ) model ( ranger ( sensor ( ) ) ) )"
+    (link,) = gazelle.load(write(tmp_path, text)).models[1].links
+    topics = [
+        plugin.parameters.get("topicName", "")
+        for sensor in link.sensors
+        for plugin in sensor.plugins
+    ]
+    assert topics == ["base_scan_0", "base_scan_1"]
+    assert len(link.sensors) == 4
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_robots_drive_in_any_engine(file, engine):
+    with gazelle.Simulation(gazelle.load(file), engine=engine) as sim:
+        robot = sim.robots["r1"]
+        robot.inputs["cmd_vel"].send(linear=0.5)
+        sim.run(seconds=0.2)
+        assert robot.pose.x == pytest.approx(-0.9, abs=0.02)
+        assert robot.outputs["base_scan"].last.ranges.shape[-1] == 181
 
 
 def test_names_are_made_unique(tmp_path):

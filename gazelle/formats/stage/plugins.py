@@ -1,0 +1,65 @@
+"""Plugins that let a Stage robot drive and see in other simulators, with stage_ros's names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from gazelle.description import Parameters, Plugin, Sensor
+
+_DRIVE = "libgazebo_ros_planar_move.so"
+_LASER = "libgazebo_ros_laser.so"
+_TIMEOUT = 0.2
+"""After which a robot without a command stands, as in stage_ros [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Names of one robot: below a prefix, or plain where that is empty."""
+
+    prefix: str
+
+    def frame(self, name: str) -> str:
+        """A frame."""
+        return f"{self.prefix}/{name}" if self.prefix else name
+
+    def parameters(self, same: tuple[tuple[str, str], ...], **values: str) -> Parameters:
+        """Of a plugin: its namespace, what is the same for all robots, and what is not."""
+        own = {"robotNamespace": self.prefix, **values} if self.prefix else values
+        children = (*_shared(same), *(Parameters(tag, text) for tag, text in own.items()))
+        return Parameters("plugin", children=children)
+
+    def drive(self, rate: float) -> Plugin:
+        """What moves it as ``cmd_vel`` says, and publishes ``odom`` at a rate [Hz]."""
+        return Plugin(
+            "drive",
+            _DRIVE,
+            self.parameters(
+                (
+                    ("commandTopic", "cmd_vel"),
+                    ("odometryTopic", "odom"),
+                    ("odometryRate", str(rate)),
+                    ("cmdTimeout", str(_TIMEOUT)),
+                ),
+                odometryFrame=self.frame("odom"),
+                robotBaseFrame=self.frame("base_footprint"),
+            ),
+        )
+
+    def published(self, sensor: Sensor, index: int, count: int) -> Sensor:
+        """A lidar, of so many on the robot, with its topic."""
+        suffix = f"_{index}" if count > 1 else ""
+        plugin = Plugin(
+            "laser",
+            _LASER,
+            self.parameters(
+                (("topicName", f"base_scan{suffix}"),),
+                frameName=self.frame(f"base_laser_link{suffix}"),
+            ),
+        )
+        return replace(sensor, plugins=(plugin,))
+
+
+@lru_cache(maxsize=64)
+def _shared(values: tuple[tuple[str, str], ...]) -> tuple[Parameters, ...]:
+    return tuple(Parameters(tag, text) for tag, text in values)
