@@ -119,20 +119,28 @@ class Player:
 
     def play(self, stop: threading.Event) -> None:
         """Play until the end or until `stop` is set."""
-        begins = [bag.get_start_time() for bag in self._bags if bag.get_message_count()]
-        if not begins:
+        if not any(bag.get_message_count() for bag in self._bags):
             return
         self._advertise()
         stop.wait(self._options.delay)
         if self._options.wait_for_subscribers:
             self._wait_for_subscribers(stop)
-        start = round((min(begins) + self._options.start) * records.SECOND)
+        start = self._first_ns() + round(self._options.start * records.SECOND)
         while not stop.is_set():
             self._play_once(start, stop)
             if not self._options.loop:
                 break
         if self._options.keep_alive:
             stop.wait()
+
+    def _first_ns(self) -> int:
+        """When the first message of all bags came; seconds as a float would round it away."""
+        return min(
+            chunk.start
+            for bag in self._bags
+            if bag.get_message_count()
+            for chunk in bag._chunks()  # noqa: SLF001  # the same room
+        )
 
     # Before ------------------------------------------------------------------------------
 

@@ -1,0 +1,29 @@
+"""Nothing is lost at the beginning of a bag."""
+
+import threading
+
+import pytest
+from ros.graph import until
+
+from gazelle.ros import Duration, Time, load_message
+from gazelle.ros.bags import Bag
+from gazelle.ros.bags.playing import Player, PlayOptions
+
+
+@pytest.mark.parametrize("nanoseconds", [123456789, 123456700, 999999999, 1])
+def test_the_first_message_is_played_whatever_its_stamp(make_node, tmp_path, nanoseconds):
+    text = load_message("std_msgs/String")
+    with Bag(tmp_path / "b.bag", "w") as bag:
+        for i in range(3):
+            bag.write(
+                "/chatter", text(str(i)), Time(1763718123, nanoseconds) + Duration(0, i * 1_000_000)
+            )
+    listener, player = make_node("listener"), make_node("player")
+    heard = []
+    listener.subscribe("/chatter", text, lambda message: heard.append(message.data))
+    options = PlayOptions(wait_for_subscribers=True)
+    playing = Player(player, [str(tmp_path / "b.bag")], options)
+    playing.play(threading.Event())
+    playing.close()
+    until(lambda: len(heard) == 3)
+    assert heard == ["0", "1", "2"]
