@@ -50,7 +50,7 @@ class Pacer:
         """A stretch at one pace, until it changes or there is a pause."""
         simulation, physics = self._simulation, self._simulation.physics
         rate, step = physics.update_rate, physics.time_step
-        factor = rate * step
+        factor = physics.target_rate or 0.0
         start, done = time.monotonic(), 0.0
         while not (self._stop.is_set() or simulation.paused):
             if (physics.update_rate, physics.time_step) != (rate, step):
