@@ -5,8 +5,9 @@ folder, or a bundled name (see 'gazelle worlds').
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
 
-With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as Gazebo
-has them. A master is started where ROS_MASTER_URI names none that answers.
+With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
+Gazebo has them. A master is started where ROS_MASTER_URI names none that
+answers.
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
