@@ -19,6 +19,7 @@ from gazelle.description import (
     Camera,
     Collision,
     Color,
+    Friction,
     Geometry,
     Inertia,
     Inertial,
@@ -28,6 +29,7 @@ from gazelle.description import (
     Material,
     Model,
     Noise,
+    Physics,
     Plane,
     Plugin,
     Polyline,
@@ -44,6 +46,7 @@ from gazelle.description import (
     StageSensor,
     StageSize,
     StageWorld,
+    Surface,
     Visual,
     World,
 )
@@ -56,6 +59,9 @@ MAX_BOXES = 5_000
 DEFAULT_MASS = 10.0
 """Of a robot whose file gives none [kg]; Stage's manual names it as the default."""
 
+_STEP = 0.01
+"""Longest step of other engines [s]: robots on wheels that nobody simulates need no finer one."""
+_SMOOTH = Surface(Friction(mu=0.0, mu2=0.0))
 _MANY = 40
 """Runs of pixels a box beyond which rectangles need not be tried."""
 _OTHER = "/"
@@ -77,9 +83,19 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
     return World(
         name=stage.name,
         models=(builder.ground(), *models),
+        physics=(_physics(stage),),
         lights=(Light("sun", type="directional", pose=Pose(z=10.0), direction=(0.3, 0.2, -1.0)),),
         stage=stage,
         source=stage.source,
+    )
+
+
+def _physics(stage: StageWorld) -> Physics:
+    """Steps that bodies can bear, at the pace that the file asks for."""
+    step = min(stage.interval_sim, _STEP)
+    speed = max(stage.speedup, 0.0)
+    return Physics(
+        max_step_size=step, real_time_factor=speed or 1.0, real_time_update_rate=speed / step
     )
 
 
@@ -144,6 +160,8 @@ class _Builder:
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         sensors: list[Sensor] = []
+        # what drives by its velocity must not be held back by the ground
+        surface = Surface() if model.position is None else _SMOOTH
         for placed in replace(model, pose=StagePose()).walk():
             part, name = placed.model, placed.name.partition(".")[2] or "body"
             material = _material(self.color(part))
@@ -152,9 +170,7 @@ class _Builder:
                 label = f"{name}_{index}"
                 visuals.append(Visual(label, shape, where, material=material))
                 if part.returns.obstacle:
-                    collisions.append(
-                        Collision(label, shape, where, laser_retro=part.returns.ranger)
-                    )
+                    collisions.append(Collision(label, shape, where, surface, part.returns.ranger))
             sensors += _sensors(part, placed.pose, name)
         sensors = [_past(sensor, collisions) for sensor in sensors]
         return Link(

@@ -163,6 +163,20 @@ def test_a_bitmap_with_too_many_boxes_is_drawn_coarser(tmp_path, monkeypatch):
     assert box.geometry.size[:2] == pytest.approx((7.0, 8.0))
 
 
+@pytest.mark.parametrize(
+    ("text", "step", "rate"),
+    [
+        ("", 0.01, 100.0),
+        ("interval_sim 5", 0.005, 200.0),
+        ("speedup 4", 0.01, 400.0),
+        ("speedup -1", 0.01, 0.0),
+    ],
+)
+def test_other_engines_keep_the_pace_with_steps_of_their_own(tmp_path, text, step, rate):
+    physics = gazelle.load(write(tmp_path, f"{text} model ( )")).profile
+    assert (physics.max_step_size, physics.real_time_update_rate) == (step, pytest.approx(rate))
+
+
 def test_check_lists_problems_of_stage_files(file, capsys):
     assert main(["check", str(file)]) == 0
     assert "ok" in capsys.readouterr().out
