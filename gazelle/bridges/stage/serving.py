@@ -20,10 +20,12 @@ class StageServer:
         master_uri: Of the master that it is on.
     """
 
-    def __init__(self, door: StageDoor, node: Node, master: Master | None) -> None:
+    def __init__(
+        self, door: StageDoor, node: Node, master: Master | None, *, owned: bool = True
+    ) -> None:
         self.door, self.node = door, node
         self.master_uri = node.master_uri
-        self._master = master
+        self._master, self._owned = master, owned
 
     def run(self, seconds: float | None = None) -> None:
         """See ``StageDoor.run``."""
@@ -34,9 +36,10 @@ class StageServer:
         self.door.stop()
 
     def close(self) -> None:
-        """Leave the graph, and end the master if it was started here."""
+        """Leave the graph; end the node and the master if they were started here."""
         self.door.close()
-        self.node.close()
+        if self._owned:
+            self.node.close()
         if self._master is not None:
             self._master.close()
 
@@ -54,7 +57,7 @@ class StageServer:
 
 def serve_stage(
     simulation: StageSimulation,
-    master_uri: str | None = None,
+    on: str | Node | None = None,
     *,
     name: str = "stageros",
     host: str | None = None,
@@ -68,10 +71,10 @@ def serve_stage(
 
     Args:
         simulation: Runs.
-        master_uri: Of the master; by default ``ROS_MASTER_URI``, else this machine's port
-            11311. Where none answers on this machine, one is started.
-        name: Of the node.
-        host: The name other nodes reach it by; loopback by default.
+        on: A node, or the URI of a master to start one on; by default ``ROS_MASTER_URI``, else
+            this machine's port 11311. Where no master answers on this machine, one is started.
+        name: Of the node, if it is started here.
+        host: The name other nodes reach that by; loopback by default.
         world: Which world of a batch the graph sees and commands.
         rate: Simulated seconds a wall second; ``"file"`` for what the world file's
             ``speedup`` says, None for as fast as possible.
@@ -80,7 +83,7 @@ def serve_stage(
     Raises:
         MasterUnreachableError: There is no master, and none can be started at that address.
     """
-    node, master = join_graph(name, master_uri, host)
+    node, master = (on, None) if isinstance(on, Node) else join_graph(name, on, host)
     try:
         door = StageDoor(
             simulation,
@@ -90,11 +93,12 @@ def serve_stage(
             model_names=model_names,
         )
     except BaseException:
-        node.close()
+        if node is not on:
+            node.close()
         if master is not None:
             master.close()
         raise
-    return StageServer(door, node, master)
+    return StageServer(door, node, master, owned=node is not on)
 
 
 def _pace(speedup: float) -> float | None:

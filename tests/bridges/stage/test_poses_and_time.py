@@ -6,7 +6,8 @@ import time
 import pytest
 
 from gazelle import RosError
-from gazelle.ros import load_message
+from gazelle.bridges.stage import serve_stage
+from gazelle.ros import Node, WallClock, load_message
 from gazelle.ros.messages import register
 
 ROBOT = 'robot ( name "r" pose [1 2 0 90] )\n'
@@ -186,3 +187,14 @@ def test_a_graph_is_left_as_it_was(stage):
     world.server.close()
     world.until(lambda: "/odom" not in published(world))
     world.sim.step()
+
+
+def test_a_world_can_be_served_on_a_node_that_is_there(stage):
+    world = stage(ROBOT)
+    world.server.close()
+    with Node("mine", master_uri=world.master.uri, clock=WallClock()) as node:
+        with serve_stage(world.sim, node) as server:
+            assert server.node is node
+            assert "/odom" in published(world)
+        assert not node.closed
+        world.until(lambda: "/odom" not in published(world))
