@@ -24,6 +24,14 @@ CIRCLE: Final = 1.0
 GHOST: Final = 2.0  # added to KIND where nothing bumps into it
 OPEN: Final = 4.0  # added to the KIND of lines that enclose nothing: seen from both sides
 
+# Lanes, for worlds with few statics: the same, one row a value and one column a primitive, so
+# that many are handled at once. X1 and Y1 of a circle are those of its middle.
+L_RADIUS: Final = 4
+L_LOW: Final = 5
+L_HIGH: Final = 6
+L_GLOW: Final = 7
+LANES: Final = 8
+
 # Bodies. Heading and its cosine and sine are kept together.
 X: Final = 0
 Y: Final = 1

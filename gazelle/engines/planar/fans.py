@@ -216,7 +216,7 @@ class Scanner:
     def _looks(self) -> tuple[Any, ...]:
         fleet, scene = self.fleet, self.fleet.scene
         return (
-            scene.grid, scene.table.rows, scene.start, scene.items, fleet.kinds, fleet.looks,
+            scene.grid, scene.table.rows, scene.start, scene.items, scene.lanes, fleet.kinds, fleet.looks,
             fleet.rows, fleet.head, fleet.follow,
         )  # fmt: skip
 

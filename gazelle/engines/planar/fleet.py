@@ -287,7 +287,7 @@ class Fleet:
 
     def _statics(self) -> tuple[Any, ...]:
         scene = self.scene
-        return scene.table.rows, scene.grid, scene.start, scene.items
+        return scene.table.rows, scene.grid, scene.start, scene.items, scene.lanes
 
     def close(self) -> None:
         """End the threads."""

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from gazelle.engines.planar.columns import (
     BOUND,
     CENTRE_X,
@@ -23,6 +25,7 @@ from gazelle.engines.planar.columns import (
     GHOST,
     HIGH,
     KIND,
+    L_RADIUS,
     LAST_PIECE,
     LOW,
     MOVING,
@@ -150,12 +153,28 @@ def static_meets(
 
 
 @part
+def any_near(lanes: Floats, x: float, y: float, radius: float) -> bool:
+    """Whether any of few static primitives is within a radius of a point."""
+    near = np.int64(0)
+    for i in range(np.uint64(lanes.shape[1])):
+        ax, ay = lanes[X0, i] - x, lanes[Y0, i] - y
+        ex, ey = lanes[X1, i] - lanes[X0, i], lanes[Y1, i] - lanes[Y0, i]
+        square = max(ex * ex + ey * ey, 1e-300)
+        t = min(max(-(ax * ex + ay * ey) / square, 0.0), 1.0)
+        dx, dy, far = ax + t * ex, ay + t * ey, radius + lanes[L_RADIUS, i]
+        near += np.int64(1) if dx * dx + dy * dy < far * far else np.int64(0)
+    return bool(near > 0)
+
+
+@part
 def statics_meet(
     b: int, k: int, kinds: Floats, pieces: Floats, corners: Floats, goal: Floats,
-    statics: Floats, grid: Floats, start: Cells, items: Cells,
+    statics: Floats, grid: Floats, start: Cells, items: Cells, lanes: Floats,
 ) -> bool:  # fmt: skip
     """Whether body b at its goal meets anything static."""
     x, y, r = goal[b, X], goal[b, Y], kinds[k, RADIUS]
+    if lanes.shape[1] > 0 and not any_near(lanes, x, y, r):
+        return False
     left, right = (
         place_in(x - r, grid[0], grid[2], grid[3]),
         place_in(x + r, grid[0], grid[2], grid[3]),

@@ -73,64 +73,6 @@ def draw_circle(
 
 
 @part
-def draw_four(
-    beams: Floats, found: Floats, i: int, j: int, p: int, q: int, near: float
-) -> None:  # fmt: skip
-    """All beams, each of which may meet four segments that were found; at one go for speed."""
-    ax, ay, au, av, ai, an = (
-        found[0, i],
-        found[1, i],
-        found[2, i],
-        found[3, i],
-        found[8, i],
-        found[7, i],
-    )
-    bx, by, bu, bv, bi, bn = (
-        found[0, j],
-        found[1, j],
-        found[2, j],
-        found[3, j],
-        found[8, j],
-        found[7, j],
-    )
-    cx, cy, cu, cv, ci, cn = (
-        found[0, p],
-        found[1, p],
-        found[2, p],
-        found[3, p],
-        found[8, p],
-        found[7, p],
-    )
-    ex, ey, eu, ev, ei, en = (
-        found[0, q],
-        found[1, q],
-        found[2, q],
-        found[3, q],
-        found[8, q],
-        found[7, q],
-    )
-    for k in range(np.uint64(beams.shape[1])):
-        dx, dy, best, who = beams[0, k], beams[1, k], beams[2, k], beams[3, k]
-        near_end, far_end = dx * ay - dy * ax, dx * av - dy * au
-        v = (far_end - near_end) * ai
-        met = (near_end * far_end <= 0.0) & (v > best) & (v <= near)
-        best, who = v if met else best, an if met else who
-        near_end, far_end = dx * by - dy * bx, dx * bv - dy * bu
-        v = (far_end - near_end) * bi
-        met = (near_end * far_end <= 0.0) & (v > best) & (v <= near)
-        best, who = v if met else best, bn if met else who
-        near_end, far_end = dx * cy - dy * cx, dx * cv - dy * cu
-        v = (far_end - near_end) * ci
-        met = (near_end * far_end <= 0.0) & (v > best) & (v <= near)
-        best, who = v if met else best, cn if met else who
-        near_end, far_end = dx * ey - dy * ex, dx * ev - dy * eu
-        v = (far_end - near_end) * ei
-        met = (near_end * far_end <= 0.0) & (v > best) & (v <= near)
-        beams[2, k] = v if met else best
-        beams[3, k] = en if met else who
-
-
-@part
 def draw(beams: Floats, lo: int, hi: int, fan: Floats, found: Floats, i: int) -> None:
     """Beams lo to hi, which may meet the i-th segment or disc found."""
     x0, y0, radius = found[0, i], found[1, i], found[4, i]

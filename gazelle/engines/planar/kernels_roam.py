@@ -76,7 +76,7 @@ def rounds(
     count: int, manner: Floats, seed: int, tick: int, sensor: Indices, mood: Indices,
     widest: float, drives: Floats, command: Floats, velocity: Floats, pose: Floats, goal: Floats,
     state: Marks, stalled: Flags, dt: float, euler: bool, kinds: Floats, pieces: Floats,
-    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells, head: Cells,
+    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells, lanes: Floats, head: Cells,
     follow: Cells, cell: Cells, looks: Floats, sensors: Floats, owners: Indices, mounts: Floats,
     fan: Floats, outline: Floats, beams: Floats, view: Floats, stamp: Indices, walls: Floats,
     others: Floats, ranges: Floats, names: Floats,
@@ -87,10 +87,10 @@ def rounds(
         roam(0, total, manner, seed, tick + now, sensor, ranges, command, stalled, mood)
         advance(
             0, total, 1, widest, drives, command, velocity, pose, goal, state, stalled, dt, euler,
-            kinds, pieces, corners, statics, grid, start, items, head, follow, cell,
+            kinds, pieces, corners, statics, grid, start, items, lanes, head, follow, cell,
         )  # fmt: skip
         scan(
             0, owners.size, sensors, owners, mounts, fan, outline, widest, grid, statics, start,
-            items, kinds, looks, pose, head, follow, beams, view, stamp, walls, others, ranges,
+            items, lanes, kinds, looks, pose, head, follow, beams, view, stamp, walls, others, ranges,
             names,
         )  # fmt: skip

@@ -22,6 +22,10 @@ from gazelle.engines.planar.columns import (
     GLOW,
     HIGH,
     KIND,
+    L_GLOW,
+    L_HIGH,
+    L_LOW,
+    L_RADIUS,
     LAST_LOOK,
     LOW,
     NAMES,
@@ -50,7 +54,6 @@ from gazelle.engines.planar.kernels_fan import (
     cover,
     draw,
     draw_circle,
-    draw_four,
     draw_segment,
     solve,
 )
@@ -87,36 +90,42 @@ def find_static(
 
 
 @part
+def find_lanes(
+    found: Floats, lanes: Floats, height: float, x: float, y: float, cos: float, sin: float
+) -> None:
+    """Write down all static primitives of a world with few, prepared as ``solve`` does.
+
+    Those that cannot be seen are a share 0 of any distance: never met.
+    """
+    for i in range(np.uint64(lanes.shape[1])):
+        ax, ay, bx, by = lanes[X0, i], lanes[Y0, i], lanes[X1, i], lanes[Y1, i]
+        x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
+        x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
+        radius, name = lanes[L_RADIUS, i], float(i) + 1.0
+        disc = radius > 0.0
+        cross = x0 * x0 + y0 * y0 - radius * radius if disc else x0 * y1 - x1 * y0
+        seen = (lanes[L_GLOW, i] >= 0.0) & (height >= lanes[L_LOW, i])
+        seen = seen & (height <= lanes[L_HIGH, i]) & (cross != 0.0)
+        found[0, i], found[1, i], found[2, i], found[3, i] = x0, y0, x1, y1
+        found[4, i] = radius
+        found[7, i] = name if disc | (cross < 0.0) else -name
+        found[8, i] = 1.0 / cross if seen else 0.0
+
+
+@part
 def draw_statics(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
-    """Draw the static primitives found."""
-    solve(found, n)
-    if beams.shape[1] <= FEW:
-        draw_through(beams, fan, found, n)
-        return
+    """Draw the static primitives found and solved."""
     count = beams.shape[1]
-    cover(found, n, fan)
+    if count > FEW:
+        cover(found, n, fan)
     for i in range(n):
+        if count <= FEW:
+            draw(beams, 0, count, fan, found, i)
+            continue
         for turn in range(2):
             lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
             if lo < hi:
                 draw(beams, lo, hi, fan, found, i)
-
-
-@part
-def draw_through(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
-    """Draw the static primitives found into all beams, segments by fours."""
-    nothing = found.shape[1] - 1  # a column that is never met
-    a, b, c, waiting = nothing, nothing, nothing, 0
-    for i in range(n):
-        if found[4, i] > 0.0:
-            draw(beams, 0, beams.shape[1], fan, found, i)
-        elif waiting < 3:
-            a, b, c, waiting = b, c, i, waiting + 1
-        else:
-            draw_four(beams, found, a, b, c, i, fan[NEAR])
-            a, b, c, waiting = nothing, nothing, nothing, 0
-    if waiting > 0:
-        draw_four(beams, found, a, b, c, nothing, fan[NEAR])
 
 
 @part
@@ -259,7 +268,7 @@ def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, in
 @part
 def draw_view(
     beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
-    grid: Floats, statics: Floats, start: Cells, items: Cells, stamp: Indices, kinds: Floats,
+    grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices, kinds: Floats,
     looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
     walls: Floats, others: Floats,
 ) -> None:  # fmt: skip
@@ -273,17 +282,22 @@ def draw_view(
     x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
     y = s * sensors[m, S_X] - c * sensors[m, S_Y]
     height = sensors[m, S_Z]
+    few = lanes.shape[1]
+    if few > 0:
+        find_lanes(walls, lanes, height, x, y, c, -s)
+        draw_statics(beams, fan, walls, few)
     n, q = np.int64(0), np.int64(0)
     bottom, top = rows_of(view, grid, widest)
     for r in range(bottom, top + 1):
         from_cell, to_cell = cells_of(view, grid, widest, r)
-        for i in range(start[from_cell], start[to_cell + 1]):
+        for i in range(start[from_cell], start[to_cell + 1] if few == 0 else start[from_cell]):
             p = int(items[i])
             if stamp[p] == now:
                 continue
             stamp[p] = now
             n = find_static(walls, n, fan, statics, p, height, x, y, c, -s)
             if n == walls.shape[1] - 1:
+                solve(walls, n)
                 draw_statics(beams, fan, walls, n)
                 n = np.int64(0)
         for cell in range(from_cell, to_cell + 1):
@@ -296,6 +310,7 @@ def draw_view(
                         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
                         q = np.int64(0)
                 b = int(follow[b])
+    solve(walls, n)
     draw_statics(beams, fan, walls, n)
     draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
 
@@ -315,7 +330,7 @@ def aim(sensors: Floats, m: int, owners: Indices, mounts: Floats, pose: Floats) 
 @kernel
 def scan(
     first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
-    outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells,
+    outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
     view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats, names: Floats,
 ) -> None:  # fmt: skip
@@ -330,7 +345,7 @@ def scan(
             beams[3, k] = 0.0
         put_view(view, outline, sensors, m)
         draw_view(
-            beams, fan, sensors, m, view, widest, grid, statics, start, items, stamp,
+            beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
             kinds, looks, pose, head, follow, world, me, walls, others,
         )  # fmt: skip
         for k in range(np.uint64(beams.shape[1])):

@@ -16,14 +16,14 @@ from gazelle.engines.planar.tables import Cells, Flags, Floats, Marks
 def plan(
     first: int, last: int, drives: Floats, command: Floats, velocity: Floats, pose: Floats,
     goal: Floats, state: Marks, dt: float, euler: bool, kinds: Floats, pieces: Floats,
-    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells,
+    corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells, lanes: Floats,
 ) -> float:  # fmt: skip
     """Where the bodies first to last would go, if nothing static bars it; the longest way [m]."""
     longest = propose(first, last, drives, command, velocity, pose, goal, state, dt, euler)
     nbody = kinds.shape[0]
     for b in range(first, last):
         if state[b] == MOVING and statics_meet(
-            b, b % nbody, kinds, pieces, corners, goal, statics, grid, start, items
+            b, b % nbody, kinds, pieces, corners, goal, statics, grid, start, items, lanes
         ):
             state[b] = BLOCKED
     return float(longest)
@@ -71,13 +71,13 @@ def advance(
     first: int, last: int, count: int, widest: float, drives: Floats, command: Floats,
     velocity: Floats, pose: Floats, goal: Floats, state: Marks, stalled: Flags, dt: float,
     euler: bool, kinds: Floats, pieces: Floats, corners: Floats, statics: Floats, grid: Floats,
-    start: Cells, items: Cells, head: Cells, follow: Cells, cell: Cells,
+    start: Cells, items: Cells, lanes: Floats, head: Cells, follow: Cells, cell: Cells,
 ) -> None:  # fmt: skip
     """Make ``count`` steps with the bodies first to last, which are those of whole worlds."""
     for _ in range(count):
         longest = plan(
             first, last, drives, command, velocity, pose, goal, state, dt, euler,
-            kinds, pieces, corners, statics, grid, start, items,
+            kinds, pieces, corners, statics, grid, start, items, lanes,
         )  # fmt: skip
         reach = widest + longest
         screen(first, last, reach, kinds, pieces, corners, pose, goal, state, grid, head, follow)

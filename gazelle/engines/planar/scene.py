@@ -29,12 +29,14 @@ class Scene:
         grid: Corner [m], side of a cell [m], columns and rows, shape (5,).
         start: First item of each cell, shape (cells + 1,).
         items: Indices of primitives, cell by cell.
+        lanes: The primitives once more, one column each, where there are few; else none.
     """
 
     table: Table
     grid: Floats
     start: Indices
     items: Indices
+    lanes: Floats
 
     @property
     def cells(self) -> int:
@@ -72,7 +74,7 @@ def scene_of(
     items = np.zeros(int(start[-1]), np.int32)
     if len(items):
         list_statics(table.rows, grid, start[:-1].copy(), items)
-    return Scene(table, grid, start, items)
+    return Scene(table, grid, start, items, _lanes_of(table.rows, columns * rows))
 
 
 def _corners(rows: Floats) -> Floats:
@@ -82,3 +84,15 @@ def _corners(rows: Floats) -> Floats:
     start, end = rows[:, [c.X0, c.Y0]], rows[:, [c.X1, c.Y1]]
     end = np.where(circle[:, None], start, end)
     return np.vstack((start - radius, start + radius, end))
+
+
+def _lanes_of(rows: Floats, cells: int) -> Floats:
+    if cells > 1:
+        return np.zeros((c.LANES, 0))
+    circle = (rows[:, c.KIND].astype(int) & 1) == 1
+    lanes = np.empty((c.LANES, len(rows)))
+    lanes[: c.L_RADIUS] = rows[:, : c.L_RADIUS].T
+    lanes[c.L_RADIUS] = np.where(circle, rows[:, c.X1], 0.0)
+    lanes[c.X1 : c.L_RADIUS, circle] = lanes[: c.X1, circle]
+    lanes[[c.L_LOW, c.L_HIGH, c.L_GLOW]] = rows[:, [c.LOW, c.HIGH, c.GLOW]].T
+    return lanes
