@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from gazelle.bridges.conversions import (
     Decoder,
+    Encoder,
     ServiceCodec,
+    View,
     add_decoder,
+    add_encoder,
     add_service,
     point,
+    quaternion,
 )
-from gazelle.simulation.values import LinkPair, Push
+from gazelle.simulation.values import Flags, JointPath, LinkPair, Outcome, PathRequest, Push
 
 
 def _push(message: Any) -> Push:
@@ -24,6 +30,39 @@ def _link_pair(request: Any) -> LinkPair:
     )
 
 
+def _path(message: Any) -> JointPath:
+    """Points without positions are left out."""
+    count = len(message.joint_names)
+    points = [each for each in message.points if len(each.positions) == count]
+    return JointPath(
+        tuple(message.joint_names),
+        np.array([each.time_from_start.to_sec() for each in points], np.float64),
+        np.array([each.positions for each in points], np.float64).reshape(-1, count),
+        message.header.stamp.to_nsec(),
+    )
+
+
+def _path_request(request: Any) -> PathRequest:
+    path = _path(request.joint_trajectory)
+    if not request.set_model_pose:
+        return PathRequest(path)
+    pose = request.model_pose
+    return PathRequest(path, point(pose.position), quaternion(pose.orientation))
+
+
+def _outcome(answer: Outcome) -> dict[str, Any]:
+    return {"success": answer.success, "status_message": answer.text}
+
+
+def _flags(message: Any, value: Flags, view: View) -> None:
+    message.data = bool(value.values[view.world])
+
+
+add_encoder(Flags, Encoder("std_msgs/Bool", _flags))
+add_decoder(JointPath, Decoder("trajectory_msgs/JointTrajectory", _path))
+add_service(
+    PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
+)
 add_decoder(Push, Decoder("geometry_msgs/Wrench", _push))
 add_service(
     LinkPair,

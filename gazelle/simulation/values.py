@@ -168,3 +168,59 @@ class LinkPair:
     link_1: str
     model_2: str
     link_2: str
+
+
+@dataclass(frozen=True, slots=True)
+class JointPath:
+    """Where joints have to be, and when.
+
+    Attributes:
+        names: Plain joint names.
+        times: Since the start [s], rising, shape (k,).
+        positions: [m or rad], shape (k, joints).
+        start_ns: Simulated time of the start; at once if that is past.
+    """
+
+    names: tuple[str, ...]
+    times: Floats
+    positions: Floats
+    start_ns: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PathRequest:
+    """A joint path, and a place for the model before it.
+
+    Attributes:
+        path: Of the joints.
+        position: Of the model [m], shape (3,); None to leave it.
+        quaternion: (x, y, z, w), shape (4,); None to leave it.
+    """
+
+    path: JointPath
+    position: ArrayLike | None = None
+    quaternion: ArrayLike | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """Whether something could be done.
+
+    Attributes:
+        success: Whether.
+        text: Why not, or what was done.
+    """
+
+    success: bool
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Flags:
+    """Yes or no, in every world.
+
+    Attributes:
+        values: Shape (nworld,).
+    """
+
+    values: NDArray[np.bool_]
