@@ -82,7 +82,6 @@ class Stage:
 @pytest.fixture
 def stage(tmp_path):
     """Puts the world of a text on a graph."""
-    pytest.importorskip("numba")
     open_things = []
 
     def make(text, params=None, **options):

@@ -13,8 +13,6 @@ from gazelle.bridges.stage.package import STAGE_ROS
 from gazelle.ros import Master, Node, WallClock, load_message
 from gazelle.ros.builtin import registry
 
-pytest.importorskip("numba")
-
 START = "import sys; from gazelle.bridges.stage.server import main; sys.exit(main(sys.argv[1:]))"
 TWO = 'position ( name "a" ) position ( name "b" pose [0 3 0 0] )\nspeedup 20\n'
 

@@ -8,10 +8,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from stage_samples import draw, write
 
-pytest.importorskip("numba")
-shapely = pytest.importorskip("shapely")
+from gazelle.simulation.stage import StageSimulation
 
-from gazelle.simulation.stage import StageSimulation  # noqa: E402  # it needs numba
+shapely = pytest.importorskip("shapely")
 
 lengths = st.one_of(st.just(0.0), st.floats(1e-3, 3.0))
 places = st.floats(-3.0, 3.0)

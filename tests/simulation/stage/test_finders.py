@@ -6,9 +6,6 @@ import pytest
 from stage_samples import draw, write
 
 from gazelle import SimulationError
-
-pytest.importorskip("numba")
-
 from gazelle.simulation.stage import Blob, StageSimulation
 
 FINDER = 'position ( name "r" size [.2 .2 .2] fiducial ( {} ) )\n'

@@ -11,8 +11,6 @@ from gazelle import SimulationError, formats
 from gazelle.errors import FormatWarning, SimulationWarning
 from gazelle.simulation.stage import StageSimulation
 
-pytest.importorskip("numba")
-
 HEAD = "interval_sim 100\n"
 FREE = "velocity_bounds [ -9 9 -9 9 0 0 -900 900 ]"
 

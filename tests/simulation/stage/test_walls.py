@@ -9,8 +9,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from stage_samples import draw, write
 
-pytest.importorskip("numba")
-
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
 from gazelle.simulation.stage import StageSimulation
 from gazelle.simulation.stage.walls import outline, parts_of, table_of
