@@ -34,16 +34,15 @@ TOPICS = {
     "/gazebo/model_states": "*",
 }
 LISTENER = """
-import sys, time
+import sys
 import rospy
-rospy.init_node(sys.argv[1], anonymous=True)
-counts = {"n": 0}
-def heard(message): counts["n"] += 1
-kind = rospy.AnyMsg
-if sys.argv[3] != "*":
-    package, name = sys.argv[3].split("/")
-    kind = getattr(__import__(package + ".msg", fromlist=[name]), name)
-rospy.Subscriber(sys.argv[2], kind, heard)
+rospy.init_node("listener")
+for topic, kind in zip(sys.argv[1::2], sys.argv[2::2]):
+    message = rospy.AnyMsg
+    if kind != "*":
+        package, name = kind.split("/")
+        message = getattr(__import__(package + ".msg", fromlist=[name]), name)
+    rospy.Subscriber(topic, message, lambda heard: None)
 rospy.spin()
 """
 
@@ -125,7 +124,7 @@ def pace(sim: gazelle.Simulation, seconds: float) -> float:
 
 
 def listened(uri: str, seconds: float) -> float:
-    """Real-time factor with a process that listens to each topic."""
+    """Real-time factor with a rospy node that has a subscriber on each topic."""
     with world() as sim, serve_ros(sim, uri) as door, listeners(uri):
         deadline = time.monotonic() + 60.0
         while not heard_everywhere(door.node) and time.monotonic() < deadline:
@@ -142,32 +141,24 @@ def heard_everywhere(node: Node) -> bool:
 
 @contextmanager
 def listeners(uri: str) -> Iterator[None]:
-    """A program for each topic."""
+    """A program with a subscriber on each topic."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "listener.py"
         script.write_text(LISTENER, encoding="utf-8")
         python = [DEBIAN] if has_rospy() else [sys.executable, "-m", "gazelle", "exec"]
-        env = {
-            **os.environ,
-            "ROS_MASTER_URI": uri,
-            "ROS_IP": "127.0.0.1",
-            "PYTHONWARNINGS": "ignore",
-        }
-        programs = [
-            subprocess.Popen(
-                [*python, str(script), f"listener{i}", topic, kind],
-                env=env,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-            for i, (topic, kind) in enumerate(TOPICS.items())
-        ]
+        pairs = [word for pair in TOPICS.items() for word in pair]
+        env = {**os.environ, "ROS_MASTER_URI": uri, "ROS_IP": "127.0.0.1"}
+        program = subprocess.Popen(
+            [*python, str(script), *pairs],
+            env={**env, "PYTHONWARNINGS": "ignore"},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         try:
             yield
         finally:
-            for program in programs:
-                program.kill()
-                program.wait()
+            program.kill()
+            program.wait()
 
 
 def state_calls(uri: str, seconds: float, *, paused: bool) -> float:

@@ -14,6 +14,7 @@ from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.errors import SimulationWarning
 from gazelle.ros import load_message, load_service
+from gazelle.ros.tf.naming import FramePrefixes
 from gazelle.simulation import Input, Output, Ports, Service, TwistInput
 
 
@@ -26,14 +27,16 @@ class Binding:
     Args:
         graph: Where.
         ports: Of a robot or of the world.
+        namespace: Of the robot; the nearest parameter ``tf_prefix`` goes before its frames.
     """
 
-    def __init__(self, graph: Graph, ports: Ports) -> None:
+    def __init__(self, graph: Graph, ports: Ports, namespace: str = "") -> None:
         self._graph = graph
         self._simulation = graph.simulation
         self._node = graph.node
         self._worlds = np.array([graph.world])
         self._closing: list[Callable[[], None]] = []
+        self._prefixes, self._namespace = FramePrefixes(graph.node), namespace
         self._outputs = [self._publish(output) for output in ports.outputs.values()]
         for port in ports.inputs.values():
             self._subscribe(port)
@@ -53,7 +56,10 @@ class Binding:
     def _publish(self, output: Output[Any]) -> Output[Any]:
         encoder = encoder_of(output.kind)
         message_class = load_message(encoder.message)
-        view = View(output.frame, self._graph.world, self._graph.stamp)
+        # Several robots share /tf; other topics are in the namespace of their plugin.
+        place = output.topic.rpartition("/")[0] or self._namespace
+        prefix = self._prefixes.of(place)
+        view = View(output.frame, self._graph.world, self._graph.stamp, prefix)
         ending: list[Callable[[], None]] = []
 
         def send(value: Any) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.errors import RosError
 from gazelle.ros.messages import load_message
+from gazelle.ros.tf.naming import resolve_frame
 from gazelle.ros.time import Time
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation import JointStates, Odometry, Transforms, WrenchValue
@@ -24,11 +25,17 @@ class View:
         frame: Frame of the port, for kinds that carry none.
         world: Which world of the batch.
         stamp: Turns a simulated time [ns] into the graph's.
+        prefix: Put before the names of frames, as tf does.
     """
 
     frame: str
     world: int
     stamp: Callable[[int], Time]
+    prefix: str = ""
+
+    def resolved(self, frame: str) -> str:
+        """The name of a frame on the graph."""
+        return resolve_frame(self.prefix, frame)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,12 +104,12 @@ def quaternion(message: Any) -> tuple[float, float, float, float]:
 def set_header(message: Any, view: View, nanoseconds: int, frame: str | None = None) -> None:
     """Fill a header; the port's frame if None."""
     message.header.stamp = view.stamp(nanoseconds)
-    message.header.frame_id = view.frame if frame is None else frame
+    message.header.frame_id = view.resolved(view.frame if frame is None else frame)
 
 
 def _odometry(message: Any, value: Odometry, view: View) -> None:
     set_header(message, view, value.stamp, value.frame)
-    message.child_frame_id = value.child_frame
+    message.child_frame_id = view.resolved(value.child_frame)
     set_pose(message.pose.pose, value.position[view.world], value.quaternion[view.world])
     set_twist(message.twist.twist, value.linear[view.world], value.angular[view.world])
     message.pose.covariance = _diagonal(value.pose_variance)
@@ -127,7 +134,7 @@ def _transforms(message: Any, value: Transforms, view: View) -> None:
     for each in value.transforms:
         one = stamped()
         set_header(one, view, value.stamp, each.frame)
-        one.child_frame_id = each.child_frame
+        one.child_frame_id = view.resolved(each.child_frame)
         set_point(one.transform.translation, each.position[view.world])
         set_quaternion(one.transform.rotation, each.quaternion[view.world])
         message.transforms.append(one)
@@ -143,7 +150,8 @@ def _scan(message: Any, value: LaserScan, view: View) -> None:
 
 
 def _imu(message: Any, value: ImuReading, view: View) -> None:
-    set_header(message, view, value.stamp)
+    # Gazebo's plugins do not resolve this frame.
+    message.header.stamp, message.header.frame_id = view.stamp(value.stamp), view.frame
     set_quaternion(message.orientation, value.orientation[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
     set_point(message.linear_acceleration, value.linear_acceleration[view.world])

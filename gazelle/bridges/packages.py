@@ -9,3 +9,7 @@ TURTLEBOT3_DESCRIPTION = BuiltinPackage(
     "turtlebot3_description", folder=assets.root() / "turtlebot3_description"
 )
 TURTLEBOT3_GAZEBO = BuiltinPackage("turtlebot3_gazebo", folder=assets.root() / "turtlebot3_gazebo")
+COURIER_DESCRIPTION = BuiltinPackage(
+    "courier_description", folder=assets.root() / "courier_description"
+)
+COURIER_GAZEBO = BuiltinPackage("courier_gazebo", folder=assets.root() / "courier_gazebo")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros import net
@@ -99,17 +99,18 @@ class Publication:
         elif local:
             self._publish_local(local, message, None)
 
-    def publish_bytes(self, data: bytes) -> None:
-        """Send a message that is serialised already; not for types with a header or latched."""
+    def publish_bytes(self, messages: Sequence[bytes]) -> None:
+        """Send messages that are serialised already; not for types with a header or latched."""
         remote, local = self.remote, self.local
-        self.messages += 1
+        self.messages += len(messages)
         if remote:
-            framed = LENGTH.pack(len(data)) + data
+            framed = b"".join(part for data in messages for part in (LENGTH.pack(len(data)), data))
             self.bytes += len(framed)
             for link in remote:
                 link.send(framed)
         for neighbour in local:
-            neighbour.send(None, data)
+            for data in messages:
+                neighbour.send(None, data)
 
     def _latch(self, message: Any) -> None:
         """Send and keep a message; whoever connects at the same time gets it once."""
@@ -265,8 +266,10 @@ class Publisher:
             raise NodeClosedError(f"the publisher of {self.name} is closed")
         self._publication.publish(message)
 
-    def publish_bytes(self, data: bytes) -> None:
-        """Publish a message that is serialised already, of a type without a header.
+    def publish_bytes(self, *messages: bytes) -> None:
+        """Publish messages that are serialised already, of a type without a header.
+
+        They go out in one piece; a subscriber that is too slow misses all of them or none.
 
         Raises:
             NodeClosedError: The publisher is closed.
@@ -276,7 +279,7 @@ class Publisher:
             raise NodeClosedError(f"the publisher of {self.name} is closed")
         if self._publication.latching or self._publication.has_header:
             raise RosError(f"{self.name} is latched or has headers: publish messages")
-        self._publication.publish_bytes(data)
+        self._publication.publish_bytes(messages)
 
     @property
     def num_connections(self) -> int:

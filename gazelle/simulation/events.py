@@ -39,9 +39,11 @@ class Events:
         deleted: A model is gone: called with its ``Robot``.
         reset: Worlds are back in their initial state: called with their indices, or None for
             all, and whether time went back too.
+        rested: A run of steps is over; others may follow at once.
     """
 
     def __init__(self) -> None:
         self.spawned = Event()
         self.deleted = Event()
         self.reset = Event()
+        self.rested = Event()

@@ -174,12 +174,15 @@ class Simulation:
             raise SimulationError("the simulation is closed")
         with self.requests.lock:
             remaining = count
-            while remaining > 0:
+            try:
+                while remaining > 0:
+                    self.requests.drain()
+                    if stop():
+                        return
+                    remaining -= self._advance(remaining)
                 self.requests.drain()
-                if stop():
-                    return
-                remaining -= self._advance(remaining)
-            self.requests.drain()
+            finally:
+                self.events.rested.tell()
 
     def _advance(self, most: int) -> int:
         """Do what is due, then step to the next thing that will be; returns the steps made."""

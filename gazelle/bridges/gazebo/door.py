@@ -60,9 +60,11 @@ class GazeboDoor:
             node.set_param("/use_sim_time", True)
         rate = float(node.get_param("~pub_clock_frequency", 0))
         self._clock = ClockBeat(self.context, rate)
+        self._states: StatesBeat | None = None
         self._beats: list[ClockBeat | StatesBeat | PerformanceBeat] = [self._clock]
         if node.get_param("~enable_ros_network", True):
             self._open_network()
+        self._closing.append(simulation.events.rested.subscribe(self._flush))
         entries = [make_scheduled(beat, type(beat).__name__, "") for beat in self._beats]
         simulation.requests.call(lambda: simulation.plugins.extend(entries))
         self._entries = entries
@@ -112,7 +114,8 @@ class GazeboDoor:
     # -- ports -----------------------------------------------------------------------------
 
     def _bind(self, name: str, ports: Ports | Robot) -> None:
-        self._bindings[name] = Binding(self.context, ports)
+        namespace = ports.namespace if isinstance(ports, Robot) else ""
+        self._bindings[name] = Binding(self.context, ports, namespace)
 
     def _unbind(self, name: str) -> None:
         bound = self._bindings.pop(name, None)
@@ -131,7 +134,15 @@ class GazeboDoor:
         self._clock.publish()
         for binding in self._bindings.values():
             binding.refresh()
-        self._states.publish()
+        if self._states is not None:
+            self._states.publish()
+        self._flush()
+
+    def _flush(self) -> None:
+        """Send what waits for more to come."""
+        self._clock.flush()
+        if self._states is not None:
+            self._states.flush()
 
     def _after_reset(self, _worlds: Worlds | None, rewound: bool) -> None:  # noqa: FBT001  an event's arguments
         if rewound:

@@ -12,12 +12,14 @@ import numpy as np
 
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.entities import State
-from gazelle.ros import Publisher, load_message
+from gazelle.bridges.outbox import Outbox
+from gazelle.ros import load_message
 from gazelle.simulation import Plugin
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0
 _COUNT = struct.Struct("<I")
+_STAMP = struct.Struct("<II")
 
 
 class ClockBeat(Plugin):
@@ -31,10 +33,10 @@ class ClockBeat(Plugin):
     def __init__(self, context: Context, rate: float) -> None:
         self.update_rate = rate
         self._context = context
-        self._message = load_message("rosgraph_msgs/Clock")
-        self._publisher: Publisher = context.node.advertise(
-            "/clock", self._message, 10, on_connect=self._greet
+        self._publisher = context.node.advertise(
+            "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
         )
+        self._outbox = Outbox(self._publisher)
 
     @property
     def active(self) -> bool:
@@ -48,7 +50,12 @@ class ClockBeat(Plugin):
     def publish(self) -> None:
         """Tell the time."""
         if self._publisher.has_listener:
-            self._publisher.publish(self._message(self._context.now()))
+            now = self._context.now()
+            self._outbox.add(_STAMP.pack(now.secs, now.nsecs))
+
+    def flush(self) -> None:
+        """Send what waits to be sent."""
+        self._outbox.flush()
 
     def close(self) -> None:
         """Stop."""
@@ -56,7 +63,12 @@ class ClockBeat(Plugin):
 
     def _greet(self, _peer: str) -> None:
         """Tell who comes the time, also while the simulation is paused."""
-        self._context.simulation.requests.post(self.publish)
+
+        def work() -> None:
+            self.publish()
+            self.flush()
+
+        self._context.simulation.requests.post(work)
 
 
 class StatesBeat(Plugin):
@@ -72,6 +84,7 @@ class StatesBeat(Plugin):
         self._links = context.node.advertise(
             "~link_states", load_message("gazebo_msgs/LinkStates"), 10
         )
+        self._outboxes = Outbox(self._models), Outbox(self._links)
 
     @property
     def active(self) -> bool:
@@ -88,12 +101,17 @@ class StatesBeat(Plugin):
         if self._models.has_listener:
             robots = self._context.simulation.robots
             states = [entities.model_state(robot) for robot in robots.values()]
-            self._models.publish_bytes(packed(tuple(robots), states))
+            self._outboxes[0].add(packed(tuple(robots), states))
         if self._links.has_listener:
             links = entities.links()
             names = tuple(link.name for link in links)
             states = [entities.link_state(link) for link in links]
-            self._links.publish_bytes(packed(names, states))
+            self._outboxes[1].add(packed(names, states))
+
+    def flush(self) -> None:
+        """Send what waits to be sent."""
+        for outbox in self._outboxes:
+            outbox.flush()
 
     def close(self) -> None:
         """Stop."""
@@ -104,10 +122,11 @@ class StatesBeat(Plugin):
 def packed(names: tuple[str, ...], states: Sequence[State]) -> bytes:
     """A ``ModelStates`` or ``LinkStates``, serialised: it goes out at every step."""
     count = _COUNT.pack(len(states))
-    poses = [(*state.position, *state.quaternion) for state in states]
-    twists = [(*state.linear, *state.angular) for state in states]
-    doubles = np.array(poses, "<f8"), np.array(twists, "<f8")
-    return b"".join((_names(names), count, doubles[0].tobytes(), count, doubles[1].tobytes()))
+    poses, twists = np.empty((len(states), 7), "<f8"), np.empty((len(states), 6), "<f8")
+    for pose, twist, state in zip(poses, twists, states, strict=True):
+        pose[:3], pose[3:] = state.position, state.quaternion
+        twist[:3], twist[3:] = state.linear, state.angular
+    return b"".join((_names(names), count, poses.tobytes(), count, twists.tobytes()))
 
 
 @functools.lru_cache(maxsize=8)

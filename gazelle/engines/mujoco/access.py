@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from abc import ABC, abstractmethod
 from contextlib import AbstractContextManager
 
@@ -10,6 +11,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
+from gazelle.description import Pose
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
@@ -19,6 +21,24 @@ from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate, turns
 
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
+
+
+@functools.lru_cache(maxsize=4096)
+def still_placement(pose: Pose, count: int) -> Placement:
+    """Where a link that never moves is, in so many worlds; read-only."""
+    place = Placement(
+        np.tile(np.array(pose.position), (count, 1)), np.tile(np.array(pose.quaternion), (count, 1))
+    )
+    place.position.flags.writeable = place.quaternion.flags.writeable = False
+    return place
+
+
+@functools.lru_cache(maxsize=64)
+def still_motion(count: int) -> Motion:
+    """How a link moves that does not, in so many worlds; read-only."""
+    zeros = np.zeros((count, 3))
+    zeros.flags.writeable = False
+    return Motion(zeros, zeros)
 
 
 class StateAccess(ABC):
@@ -64,9 +84,7 @@ class StateAccess(ABC):
             q = self._state.mocap_quat[rows, slot.mocap]
             return Placement(position, xyzw_from_wxyz(q))
         if slot.root == "static":
-            count = self._nworld if worlds is None else len(worlds)
-            position, turn = np.array([slot.pose.position]), np.array([slot.pose.quaternion])
-            return Placement(position.repeat(count, axis=0), turn.repeat(count, axis=0))
+            return still_placement(slot.pose, self._nworld if worlds is None else len(worlds))
         self._refresh()
         position = self._batch.xpos[rows, slot.body].copy()
         return Placement(position, xyzw_from_wxyz(self._batch.xquat[rows, slot.body]))
@@ -80,8 +98,7 @@ class StateAccess(ABC):
             turned = rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
             return Motion(v[:, :3].copy(), turned)
         if slot.root is not None:
-            still = np.zeros((self._nworld if worlds is None else len(worlds), 3))
-            return Motion(still, still.copy())
+            return still_motion(self._nworld if worlds is None else len(worlds))
         self._refresh()
         # MuJoCo's cvel is about the centre of mass of the whole tree.
         spatial = self._batch.cvel[rows, slot.body]
