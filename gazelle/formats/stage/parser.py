@@ -25,8 +25,10 @@ SEARCH_VARIABLE = "STAGEPATH"
 _VALUES = {Kind.NUMBER, Kind.STRING, Kind.TUPLE}
 
 
-def parse(script: Script, reading: Reading, folder: Path | None) -> Entity:
-    """The whole file as one entity ``world``, what it includes too.
+def parse(
+    script: Script, reading: Reading, folder: Path | None
+) -> tuple[Entity, dict[str, Entity]]:
+    """The whole file as one entity ``world``, what it includes too; and its macros by name.
 
     Args:
         script: The top-level file.
@@ -38,8 +40,9 @@ def parse(script: Script, reading: Reading, folder: Path | None) -> Entity:
         ResolveError: An included file is not there.
     """
     world = Entity("world", "world", script, 0)
-    _Parser(world, reading, folder).read(script)
-    return world
+    macros: dict[str, Entity] = {}
+    _Parser(world, reading, folder, macros).read(script)
+    return world, macros
 
 
 def decode(data: bytes) -> str:
@@ -58,12 +61,12 @@ class _Parser:
         world: Entity,
         reading: Reading,
         folder: Path | None,
-        macros: dict[str, Entity] | None = None,
+        macros: dict[str, Entity],
     ) -> None:
         self._world = world
         self._reading = reading
         self._folder = folder
-        self._macros = {} if macros is None else macros
+        self._macros = macros
 
     def read(self, script: Script) -> None:
         self._script = script

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.description.source import Source
 from gazelle.description.stage import StageWindow, StageWorld
+from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
 from gazelle.formats.stage.body import Pictures
+from gazelle.formats.stage.devices import KINDS
 from gazelle.formats.stage.entity import Entity
 from gazelle.formats.stage.lexer import Script
-from gazelle.formats.stage.models import read_models
+from gazelle.formats.stage.models import read_model, read_models
 from gazelle.formats.stage.parser import parse
 from gazelle.formats.stage.properties import ANGLES, LENGTHS, Properties, Units
 from gazelle.formats.stage.reader import Context
@@ -34,7 +37,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
         FormatError: It cannot be read, or says something that cannot be.
         ResolveError: A file that it includes or a picture is not there.
     """
-    root = parse(script, reading, folder)
+    root, macros = parse(script, reading, folder)
     given = Properties(root, reading, Units())
     given.units.length = LENGTHS[given.choice("unit_length", tuple(LENGTHS), "m")]
     given.units.angle = ANGLES[given.choice("unit_angle", tuple(ANGLES), "degrees")]
@@ -56,11 +59,27 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
         window=read_window(windows[-1], given) if windows else None,
         source=script.source(0, "world"),
     )
+    if not models:
+        _try_macros(macros, context)
     given.get("test")
     for name, hint in _IGNORED:
         given.note(name, f"'{name}' means nothing to Stage 4, and is ignored", hint)
     given.report_unknown()
     return world
+
+
+def _try_macros(macros: dict[str, Entity], context: Context) -> None:
+    """Remark on what is wrong with macros of a file that others include, as nobody uses them here."""
+    for macro in macros.values():
+        if macro.type not in KINDS:
+            continue
+        try:
+            read_model(macro, macro.word, context)
+        except FormatError as error:
+            place = Source(error.file, error.line, error.element)
+            context.reading.remark(
+                f"nothing can be made of '{macro.word}': {error.message}", place, error.hint
+            )
 
 
 def _interval(given: Properties) -> float:

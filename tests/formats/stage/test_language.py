@@ -172,6 +172,15 @@ def test_a_second_definition_is_not_used_and_said(tmp_path):
     assert len(said) == 1
 
 
+def test_macros_of_a_file_of_macros_are_judged_though_nobody_uses_them(tmp_path):
+    text = "define a model ( sise [1 1 1] )\ndefine b model ( size [1 1] )\ndefine s sensor ( )"
+    with pytest.warns(FormatWarning) as said:
+        assert read(tmp_path, text).models == ()
+    first, second = (str(each.message) for each in said)
+    assert "test.world:1: <sise>: 'sise' is no property of a model" in first
+    assert "test.world:2: <size>: nothing can be made of 'b': 'size' must have 3" in second
+
+
 def test_a_macro_is_known_only_below_its_definition(tmp_path):
     error = refused(tmp_path, "robot ( )\ndefine robot position ( )")
     assert (error.line, error.element) == (1, "robot")

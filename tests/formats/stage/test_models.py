@@ -265,7 +265,7 @@ def test_what_cannot_be_is_refused_with_a_hint(tmp_path, text, said):
 )
 def test_what_is_not_done_as_written_is_said_once(tmp_path, text, said):
     with pytest.warns(FormatWarning) as caught:
-        read(tmp_path, f"define unused model ( nonsense 1 )\n{text}")
+        read(tmp_path, f"define unused model ( nonsense 1 ) model ( )\n{text}")
     (message,) = [str(each.message) for each in caught]
     assert said in message
     assert f"{tmp_path / 'test.world'}:2:" in message
