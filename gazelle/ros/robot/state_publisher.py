@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.clock import SECOND
 from gazelle.ros.messages import load_message
 from gazelle.ros.robot.tree import MOVABLE, Joint, JointTree, position_of
+from gazelle.ros.tf.naming import FramePrefixes, resolve_frame
 from gazelle.ros.time import Time
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ class RobotStatePublisher:
     """Sends the transforms of a robot: of fixed joints once, of others as they move.
 
     The node's private parameters ``publish_frequency`` (50 Hz), ``use_tf_static`` (true),
-    ``ignore_timestamp`` (false) and ``frame_prefix`` are read at the start.
+    ``ignore_timestamp`` (false) and ``frame_prefix`` are read at the start, and the nearest
+    parameter ``tf_prefix``.
 
     Args:
         node: Whose topics are used: ``joint_states``, ``/tf``, ``/tf_static``.
@@ -36,6 +38,7 @@ class RobotStatePublisher:
         self._node = node
         self._joints = joints
         self._prefix = str(node.get_param("~frame_prefix", "") or "")
+        self._tf_prefix = FramePrefixes(node).of(node.name)
         self._period = 1.0 / max(1e-3, float(node.get_param("~publish_frequency", 50.0)))
         self._always = bool(node.get_param("~ignore_timestamp", False))
         self._sent: dict[str, int] = {}
@@ -99,9 +102,12 @@ class RobotStatePublisher:
         translation, rotation = joint.placed(position)
         made: Any = self._transform()
         made.header.stamp = Time(stamp // SECOND, stamp % SECOND)
-        made.header.frame_id = self._prefix + joint.parent
-        made.child_frame_id = self._prefix + joint.child
+        made.header.frame_id = self._frame(joint.parent)
+        made.child_frame_id = self._frame(joint.child)
         place, turn = made.transform.translation, made.transform.rotation
         place.x, place.y, place.z = translation
         turn.x, turn.y, turn.z, turn.w = rotation
         return made
+
+    def _frame(self, link: str) -> str:
+        return resolve_frame(self._tf_prefix, self._prefix + link)
