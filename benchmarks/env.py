@@ -1,7 +1,8 @@
 """Control steps a second of TurtleBot3Stage4, beside IR-SIM's in the same run.
 
 Both simulate the same robot, room and beams, 0.2 s a control step, with random commands.
-IR-SIM moves a disc; Gazelle simulates wheels, contacts and friction in MuJoCo.
+IR-SIM moves a disc; Gazelle simulates wheels, contacts and friction in MuJoCo, or wheels that
+roll in the plane with the planar engine.
 """
 
 from __future__ import annotations
@@ -43,13 +44,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="gazelle bench env", description=__doc__)
     parser.add_argument("--seconds", type=float, default=4.0, help="a window (default 4)")
     parser.add_argument("--windows", type=int, default=3, help="of which the best (default 3)")
+    parser.add_argument("--engine", action="append", help="mujoco or planar (default both)")
     args = parser.parse_args()
     print(f"{ENVIRONMENT}, random actions, {os.cpu_count()} processors, best of {args.windows}")
     print(f"{'simulator':<34}{'rays':>6}{'worlds':>8}{'control steps/s':>18}")
     for rays in (24, 360):
-        for worlds in (1, 64, 1024):
-            rate = best(gazelle_stepper(rays, worlds), worlds, args)
-            show("Gazelle (MuJoCo engine)", rays, worlds, rate)
+        for engine in args.engine or ("mujoco", "planar"):
+            for worlds in (1, 64, 1024):
+                rate = best(gazelle_stepper(rays, worlds, engine), worlds, args)
+                show(f"Gazelle (engine {engine})", rays, worlds, rate)
         stepper = irsim_stepper(rays)
         if stepper is None:
             print("IR-SIM is not installed; get it with: pip install 'gazelle[bench]'")
@@ -77,11 +80,11 @@ def window(step: Callable[[], None], worlds: int, seconds: float) -> float:
     return count / (time.perf_counter() - start)
 
 
-def gazelle_stepper(rays: int, worlds: int) -> Callable[[], None]:
+def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
     """One step of Gazelle's environment: single for one world, vectorised for more."""
     generator = np.random.default_rng(0)
     if worlds == 1:
-        single = gymnasium.make(ENVIRONMENT, lidar_samples=rays)
+        single = gymnasium.make(ENVIRONMENT, lidar_samples=rays, engine=engine)
         single.reset(seed=0)
 
         def step() -> None:
@@ -95,6 +98,7 @@ def gazelle_stepper(rays: int, worlds: int) -> Callable[[], None]:
         num_envs=worlds,
         vectorization_mode="vector_entry_point",
         lidar_samples=rays,
+        engine=engine,
     )
     vector.reset(seed=0)
     return lambda: vector.step(generator.integers(5, size=worlds)) and None

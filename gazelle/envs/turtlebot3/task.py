@@ -91,6 +91,9 @@ class TurtleBot3Task(BatchedTask):
 
     def _begin(self, worlds: Worlds) -> None:
         self.scene.simulation.reset(worlds)
+        self._new_goals(worlds)
+
+    def _new_goals(self, worlds: Worlds) -> None:
         self._goals_reached[worlds] = 0
         if self.respawn:
             # As published: a goal stays until it is reached, over collisions and time-outs.
@@ -101,7 +104,7 @@ class TurtleBot3Task(BatchedTask):
 
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         seen = self._see(worlds)
-        self._start_distance[worlds] = np.maximum(seen.distance, _SHORTEST)
+        self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
         return observation(self.rules, seen), self._info(seen, worlds, arrived=no, crashed=no)
 
@@ -149,10 +152,15 @@ class TurtleBot3Task(BatchedTask):
 
     def _next_goals(self, worlds: Worlds) -> None:
         self._goal[worlds] = self.goals.after(self._goal[worlds], self._draw(worlds))
-        self._start_distance[worlds] = np.maximum(self._see_distance(worlds), _SHORTEST)
+        self._set_start(worlds, self._see_distance(worlds))
+
+    def _set_start(self, worlds: Worlds, distance: NDArray[np.float64]) -> None:
+        self._start_distance[worlds] = np.maximum(distance, _SHORTEST)
 
     def _see_distance(self, worlds: Worlds) -> NDArray[np.float64]:
-        position = self.scene.robot.placement(worlds).position
+        return self._distance_at(self.scene.robot.placement(worlds).position, worlds)
+
+    def _distance_at(self, position: NDArray[np.float64], worlds: Worlds) -> NDArray[np.float64]:
         return round2(distance_to(position, self.goals.points[self._goal[worlds]]))
 
     def _draw(self, worlds: Worlds) -> NDArray[np.float64]:

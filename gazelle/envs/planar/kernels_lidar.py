@@ -1,0 +1,379 @@
+"""One lidar on one body in every world: what it sees, and what it reports.
+
+Of closed outlines only the sides that face the lidar are drawn. Where a beam meets one nearer
+than beams begin, it may begin inside something; that scan is made anew by the engine's own
+kernel, which knows. Both give the same ranges.
+"""
+
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.engines.planar.columns import (
+    CIRCLE,
+    COS,
+    FAMILY,
+    FIRST_LOOK,
+    GLOW,
+    HIGH,
+    KIND,
+    LAST_LOOK,
+    LOW,
+    NEAR,
+    OPEN,
+    RADIUS,
+    REACH,
+    S_COS,
+    S_SIN,
+    S_X,
+    S_Y,
+    S_Z,
+    SIN,
+    X0,
+    X1,
+    Y0,
+    Y1,
+    X,
+    Y,
+    Z,
+)
+from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
+from gazelle.engines.planar.kernels_scan import aim, scan
+from gazelle.envs.planar.tables import Floats, Table, Worlds
+
+_TURN = 2.0 * math.pi
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+_MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
+_MIX_2 = np.uint64(0x94D049BB133111EB)
+_MANTISSA = np.uint64(0x000FFFFFFFFFFFFF)
+_ONE = np.uint64(0x3FF0000000000000)
+_LN2 = math.log(2.0)
+_SQRT2 = math.sqrt(2.0)
+
+
+# -- seeing --------------------------------------------------------------------------------
+
+
+@part
+def face(
+    found: Floats, n: int, reach: float, x0: float, y0: float, x1: float, y1: float, open_: bool
+) -> int:
+    """Write down a segment in the lidar's frame if its front is seen; returns how many."""
+    cross = x0 * y1 - x1 * y0
+    ex, ey = x1 - x0, y1 - y0
+    if cross * cross > reach * reach * (ex * ex + ey * ey) or cross == 0.0:
+        return n
+    if cross > 0.0 and not open_:
+        return n
+    found[0, n], found[1, n], found[2, n], found[3, n] = x0, y0, x1, y1
+    found[4, n], found[8, n] = 0.0, 1.0 / cross
+    return n + 1
+
+
+@part
+def find_faces(
+    found: Floats, turned: Floats, faces: Floats, reach: float, x: float, y: float, cos: float,
+    sin: float,
+) -> int:  # fmt: skip
+    """The sides of statics that can be seen from (x, y); returns how many."""
+    total = faces.shape[1]
+    for i in range(np.uint64(total)):
+        ax, ay, bx, by = faces[0, i] - x, faces[1, i] - y, faces[2, i] - x, faces[3, i] - y
+        cross = ax * by - bx * ay
+        ex, ey = bx - ax, by - ay
+        near = cross * cross <= reach * reach * (ex * ex + ey * ey)
+        front = (cross < 0.0) | ((faces[4, i] > 0.0) & (cross != 0.0))
+        turned[0, i], turned[1, i] = cos * ax + sin * ay, cos * ay - sin * ax
+        turned[2, i], turned[3, i] = cos * bx + sin * by, cos * by - sin * bx
+        turned[4, i] = 1.0 / cross if near & front else 0.0
+    n = 0
+    for i in range(total):
+        if turned[4, i] != 0.0:
+            for row in range(4):
+                found[row, n] = turned[row, i]
+            found[4, n], found[8, n] = 0.0, turned[4, i]
+            n += 1
+    return n
+
+
+@part
+def draw_one(
+    beams: Floats, lo: int, hi: int, x0: float, y0: float, x1: float, y1: float, inverse: float,
+) -> None:  # fmt: skip
+    """A segment into beams lo to hi, however near it is."""
+    for k in range(np.uint64(lo), np.uint64(hi)):
+        dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
+        c0, c1 = dx * y0 - dy * x0, dx * y1 - dy * x1
+        v = (c1 - c0) * inverse
+        beams[2, k] = v if (c0 * c1 <= 0.0) & (v > best) else best
+
+
+@part
+def draw_two(beams: Floats, found: Floats, i: int, j: int) -> None:
+    """Two segments into all beams."""
+    ax, ay, au, av, ai = found[0, i], found[1, i], found[2, i], found[3, i], found[8, i]
+    bx, by, bu, bv, bi = found[0, j], found[1, j], found[2, j], found[3, j], found[8, j]
+    for k in range(np.uint64(beams.shape[1])):
+        dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
+        c0, c1 = dx * ay - dy * ax, dx * av - dy * au
+        v = (c1 - c0) * ai
+        best = v if (c0 * c1 <= 0.0) & (v > best) else best
+        c0, c1 = dx * by - dy * bx, dx * bv - dy * bu
+        v = (c1 - c0) * bi
+        beams[2, k] = v if (c0 * c1 <= 0.0) & (v > best) else best
+
+
+@part
+def draw_disc(beams: Floats, x: float, y: float, radius: float, outside: float) -> None:
+    """A disc that beams begin outside of, into all beams."""
+    inverse, square = 1.0 / outside, radius * radius
+    for k in range(np.uint64(beams.shape[1])):
+        dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
+        along, aside = dx * x + dy * y, dx * y - dy * x
+        rest = square - aside * aside
+        v = (along + math.sqrt(max(rest, 0.0))) * inverse
+        beams[2, k] = v if (rest >= 0.0) & (along > 0.0) & (v > best) else best
+
+
+@part
+def draw_faces(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
+    """Draw the segments found."""
+    count = beams.shape[1]
+    if count <= FEW:
+        for i in range(0, n - 1, 2):
+            draw_two(beams, found, i, i + 1)
+        if n % 2 == 1:
+            i = n - 1
+            x0, y0, x1, y1 = found[0, i], found[1, i], found[2, i], found[3, i]
+            draw_one(beams, 0, count, x0, y0, x1, y1, found[8, i])
+        return
+    cover(found, n, fan)
+    for i in range(n):
+        for turn in range(2):
+            lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
+            if lo < hi:
+                x0, y0, x1, y1 = found[0, i], found[1, i], found[2, i], found[3, i]
+                draw_one(beams, lo, hi, x0, y0, x1, y1, found[8, i])
+
+
+@part
+def see_bodies(
+    beams: Floats, fan: Floats, found: Floats, sensors: Floats, m: int, base: int, me: float,
+    kinds: Floats, looks: Floats, pose: Floats,
+) -> int:  # fmt: skip
+    """Draw other bodies: discs at once, sides are written down; how many, -1 from inside a disc."""
+    n = 0
+    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    for k in range(kinds.shape[0]):
+        b = base + k
+        ox, oy = pose[b, X] - sensors[m, S_X], pose[b, Y] - sensors[m, S_Y]
+        far = fan[REACH] + kinds[k, RADIUS]
+        if kinds[k, FAMILY] == me or ox * ox + oy * oy > far * far:
+            continue
+        height = sensors[m, S_Z] - pose[b, Z]
+        x, y = c * ox + s * oy, c * oy - s * ox
+        cos = c * pose[b, COS] + s * pose[b, SIN]
+        sin = c * pose[b, SIN] - s * pose[b, COS]
+        for p in range(int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK])):
+            if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
+                continue
+            ax, ay, bx, by = looks[p, X0], looks[p, Y0], looks[p, X1], looks[p, Y1]
+            x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
+            kind = int(looks[p, KIND])
+            if (kind & int(CIRCLE)) != 0:
+                outside = x0 * x0 + y0 * y0 - bx * bx
+                if outside <= 0.0:
+                    return -1
+                draw_disc(beams, x0, y0, bx, outside)
+                continue
+            x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
+            n = face(found, n, fan[REACH], x0, y0, x1, y1, (kind & int(OPEN)) != 0)
+            if n == found.shape[1]:
+                return -1
+    return n
+
+
+@part
+def look(
+    m: int, base: int, me: float, sensors: Floats, fan: Floats, faces: Floats, discs: Floats,
+    kinds: Floats, looks: Floats, pose: Floats, beams: Floats, found: Floats, turned: Floats,
+) -> bool:  # fmt: skip
+    """Scan from outside of everything; False if that is not sure."""
+    nothing = 1.0 / fan[REACH]
+    for k in range(np.uint64(beams.shape[1])):
+        beams[2, k] = nothing
+    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    x, y = sensors[m, S_X], sensors[m, S_Y]
+    n = see_bodies(beams, fan, found, sensors, m, base, me, kinds, looks, pose)
+    if n < 0:
+        return False
+    draw_faces(beams, fan, found, n)
+    for i in range(discs.shape[0]):
+        ox, oy, radius = discs[i, 0] - x, discs[i, 1] - y, discs[i, 2]
+        outside = ox * ox + oy * oy - radius * radius
+        if outside <= 0.0:
+            return False
+        draw_disc(beams, c * ox + s * oy, c * oy - s * ox, radius, outside)
+    draw_faces(beams, fan, found, find_faces(found, turned, faces, fan[REACH], x, y, c, s))
+    most = 0.0
+    for k in range(np.uint64(beams.shape[1])):
+        most = max(most, beams[2, k])
+    return bool(most <= fan[NEAR])
+
+
+@kernel
+def see(
+    first: int, last: int, worlds: Worlds, faces: Floats, discs: Floats, found: Floats,
+    turned: Floats, sensors: Floats, owners: Table, mounts: Floats, fan: Floats, kinds: Floats,
+    looks: Floats, pose: Floats, beams: Floats, ranges: Floats, names: Floats, own: Table,
+) -> None:  # fmt: skip
+    """Scan in worlds[first] to worlds[last - 1].
+
+    What comes out in ``ranges`` is infinite where nothing is met within the reach, negative
+    infinite where a beam begins inside something. The rest is what ``kernels_scan.scan`` takes,
+    with ``names`` of one row a world.
+    """
+    nbody = kinds.shape[0]
+    nothing = 1.0 / fan[REACH]
+    for i in range(first, last):
+        w = worlds[i]
+        base = w * nbody
+        me = kinds[owners[w] - base, FAMILY]
+        aim(sensors, w, owners, mounts, pose)
+        if look(w, base, me, sensors, fan, faces, discs, kinds, looks, pose, beams, found, turned):
+            for k in range(np.uint64(beams.shape[1])):
+                best = beams[2, k]
+                ranges[w, k] = 1.0 / best if best > nothing else np.inf
+            continue
+        scan(w, w + 1, *own)
+        for k in range(beams.shape[1]):
+            if names[w, k] == 0.0:
+                ranges[w, k] = np.inf
+            elif names[w, k] < 0.0:
+                ranges[w, k] = -np.inf
+
+
+# -- reporting -----------------------------------------------------------------------------
+
+
+@part
+def logarithm(values: Floats, bits: Table) -> None:
+    """Natural logarithms in place of numbers in (0, 1], to 1e-14.
+
+    By the series of the inverse hyperbolic tangent: Abramowitz and Stegun, 4.1.27.
+
+    Args:
+        values: The numbers.
+        bits: The same memory as unsigned integers.
+    """
+    for k in range(np.uint64(values.shape[0])):
+        raw = bits[k]
+        power = float(np.int64(raw >> np.uint64(52)) - 1023)
+        bits[k] = (raw & _MANTISSA) | _ONE
+        m = values[k]
+        large = m > _SQRT2
+        m = 0.5 * m if large else m
+        power = power + 1.0 if large else power
+        f = (m - 1.0) / (m + 1.0)
+        q = f * f
+        series = 1.0 + q * (
+            1.0 / 3.0
+            + q
+            * (
+                0.2
+                + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q * (1.0 / 13.0 + q / 15.0))))
+            )
+        )
+        values[k] = power * _LN2 + 2.0 * f * series
+
+
+@part
+def uniforms(key: np.uint64, start: np.uint64, bits: Table, values: Floats) -> None:
+    """The next numbers in [0, 1) of a world of ``gazelle.streams.Stream``."""
+    for k in range(np.uint64(bits.shape[0])):
+        z = key + (start + np.uint64(k) + np.uint64(1)) * _GOLDEN
+        z = (z ^ (z >> np.uint64(30))) * _MIX_1
+        z = (z ^ (z >> np.uint64(27))) * _MIX_2
+        values[k] = float(np.int64((z ^ (z >> np.uint64(31))) >> np.uint64(11))) * 2.0**-53
+
+
+@part
+def normals(key: np.uint64, start: np.uint64, values: Floats, bits: Table) -> None:
+    """The next normal numbers of a world of ``gazelle.streams.Stream``, to 1e-13.
+
+    Sines and cosines by their series about the nearest quarter turn.
+
+    Args:
+        key: Of the world.
+        start: Numbers drawn before.
+        values: Comes out; its length is even.
+        bits: The same memory as unsigned integers.
+    """
+    pairs = values.shape[0] // 2
+    uniforms(key, start, bits, values)
+    for k in range(np.uint64(pairs)):
+        values[k] = 1.0 - values[k]
+    logarithm(values[:pairs], bits[:pairs])
+    for k in range(np.uint64(pairs)):
+        radius = math.sqrt(max(-2.0 * values[k], 0.0))
+        t = 4.0 * values[pairs + k]
+        quarter = math.floor(t + 0.5)
+        r = (t - quarter) * (0.5 * math.pi)
+        q = r * r
+        sine = r * (
+            1.0
+            - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0 * (1.0 - q / 156.0)))))
+        )  # fmt: skip
+        cosine = 1.0 - q / 2.0 * (
+            1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0 * (1.0 - q / 182.0)))))
+        )  # fmt: skip
+        odd = (quarter == 1.0) | (quarter == 3.0)
+        a, b = (sine if odd else cosine), (cosine if odd else sine)
+        a = -a if (quarter == 1.0) | (quarter == 2.0) else a
+        b = -b if (quarter == 2.0) | (quarter == 3.0) else b
+        values[k], values[pairs + k] = radius * a, radius * b
+
+
+@kernel
+def report(
+    first: int, last: int, worlds: Worlds, ranges: Floats, law: Floats, deviation: Floats,
+    keys: Table, counters: Table, values: Floats, bits: Table, cleaned: Floats,
+) -> None:  # fmt: skip
+    """What the lidar reports, fit for a policy; see ``gazelle.envs.scans.clean_ranges``.
+
+    Args:
+        first: Index of the first world of ``worlds``.
+        last: The one after the last.
+        worlds: Which worlds.
+        ranges: True ranges as ``see`` gives them, a row a world.
+        law: Least and greatest range [m], resolution [m], mean of the noise [m], cap [m].
+        deviation: Standard deviation of the noise in each world [m].
+        keys: Of the noise's stream.
+        counters: Numbers drawn so far.
+        values: Room for the noise; its length is even.
+        bits: The same memory as unsigned integers.
+        cleaned: Comes out, a row an index.
+    """
+    count = ranges.shape[1]
+    least, most, resolution, mean, cap = law[0], law[1], law[2], law[3], law[4]
+    for i in range(first, last):
+        w = worlds[i]
+        noisy = deviation[w] != 0.0
+        spread = deviation[w]
+        if noisy:
+            normals(keys[w], counters[w], values, bits)
+            counters[w] += np.uint64(values.shape[0])
+        for k in range(np.uint64(count)):
+            true = ranges[w, k]
+            measured = true + mean + spread * values[k] if noisy else true + mean
+            if resolution > 0.0:
+                measured = np.rint(measured / resolution) * resolution
+            measured = min(max(measured, least), most)
+            measured = cap if true >= most else measured
+            measured = least if true == -np.inf else measured
+            cleaned[i, k] = min(max(measured, 0.0), cap)
