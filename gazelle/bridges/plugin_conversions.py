@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.bridges import navigation_conversions  # noqa: F401  it teaches goals and paths
 from gazelle.bridges.conversions import (
     Decoder,
     Encoder,
@@ -63,28 +64,6 @@ add_decoder(JointPath, Decoder("trajectory_msgs/JointTrajectory", _path))
 add_service(
     PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
 )
-def _goal(message: Any) -> GoalPose:
-    """A goal; one without an orientation may be reached with any heading."""
-    turned = message.pose.orientation
-    if not any((turned.x, turned.y, turned.z, turned.w)):
-        heading = None
-    else:
-        heading = float(yaw_of(np.array(quaternion(turned))))
-    at = message.pose.position
-    return GoalPose(at.x, at.y, heading, message.header.frame_id)
-
-
-def _path(message: Any, value: Path, view: View) -> None:
-    stamped: Any = load_message("geometry_msgs/PoseStamped")
-    set_header(message, view, value.stamp, value.frame)
-    for x, y, yaw in value.poses[view.world].tolist():
-        one = stamped(header=message.header)
-        set_pose(one.pose, (x, y, 0.0), from_yaw(np.array(yaw)))
-        message.poses.append(one)
-
-
-add_decoder(GoalPose, Decoder("geometry_msgs/PoseStamped", _goal))
-add_encoder(Path, Encoder("nav_msgs/Path", _path))
 add_decoder(Push, Decoder("geometry_msgs/Wrench", _push))
 add_service(
     LinkPair,

@@ -1,0 +1,37 @@
+"""How fast a mobile robot may go, and how much room it needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gazelle.errors import SimulationError
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a base can do and what it needs.
+
+    Attributes:
+        radius: Of the smallest circle around its turning axis that holds it [m].
+        clearance: Least distance to obstacles beyond that [m].
+        linear: Highest speed ahead [m/s].
+        angular: Highest turning rate [rad/s].
+        linear_acceleration: [m/s²].
+        angular_acceleration: [rad/s²].
+
+    Raises:
+        SimulationError: One of them is not positive.
+    """
+
+    radius: float = 0.2
+    clearance: float = 0.05
+    linear: float = 0.6
+    angular: float = 1.5
+    linear_acceleration: float = 0.8
+    angular_acceleration: float = 4.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = getattr(self, name)
+            if not value > 0.0:
+                raise SimulationError(f"the limit '{name}' must be positive, not {value:g}")

@@ -1,0 +1,100 @@
+"""Plan a way over a map that leaves the base its room."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.navigation.grid import OccupancyGrid
+from gazelle.navigation.limits import Limits
+from gazelle.navigation.search import Cell, find_way
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# Prices of a cell: near an obstacle a way of twice or four times the length is preferred.
+_NEAR = ((0.1, 4.0), (0.25, 2.0))
+_TIGHT = 20.0  # of ground that is too near to an obstacle, but where the base stands already
+_GOAL_WITHIN = 0.5  # a goal in an obstacle becomes the nearest free place so near to it [m]
+
+
+def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: Limits) -> Floats:
+    """A way from place to place, as far from obstacles as is worth it.
+
+    Args:
+        grid: What is known; it grows to hold both places. Unknown ground counts as free.
+        start: (x, y) [m].
+        goal: (x, y) [m]; if an obstacle is too near, the free place nearest to it is taken.
+        limits: Of the base.
+
+    Returns:
+        Points from start to goal [m], shape (n, 2), a cell apart; (0, 2) if there is no way.
+    """
+    grid.include(np.stack((start, goal)))
+    prices = _prices(grid, start, limits)
+    first = _cell(grid, start)
+    last = _nearest_open(grid, prices, goal)
+    way = None if last is None else find_way(prices, first, last)
+    if way is None:
+        return np.zeros((0, 2))
+    points = _smoothed(grid.centre_of(way))
+    if last == _cell(grid, goal):
+        points[-1] = goal
+    return points
+
+
+def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: Limits) -> bool:
+    """Whether an obstacle has turned up on the rest of a path."""
+    rest = path[int(np.hypot(*(path - here).T).argmin()) :]
+    rest = rest[np.hypot(*(rest - here).T) > limits.radius]
+    blocked = grid.near_obstacles(limits.radius + 0.5 * limits.clearance)
+    return bool(blocked[tuple(grid.cell_of(rest).T)].any())
+
+
+def _prices(grid: OccupancyGrid, start: Floats, limits: Limits) -> Floats:
+    room = limits.radius + limits.clearance
+    prices = np.ones(grid.cells.shape)
+    for distance, price in reversed(_NEAR):
+        prices[grid.near_obstacles(room + distance)] = price
+    prices[grid.near_obstacles(room)] = np.inf
+    here = _around(grid, start, room)
+    prices[here & np.isinf(prices) & ~grid.occupied] = _TIGHT
+    return prices
+
+
+def _around(grid: OccupancyGrid, place: Floats, distance: float) -> Mask:
+    """Cells within a distance of a place."""
+    columns, rows = grid.cells.shape
+    x = grid.origin[0] + (np.arange(columns) + 0.5) * grid.resolution - place[0]
+    y = grid.origin[1] + (np.arange(rows) + 0.5) * grid.resolution - place[1]
+    near: Mask = np.hypot(x[:, None], y) <= distance
+    return near
+
+
+def _cell(grid: OccupancyGrid, place: Floats) -> Cell:
+    column, row = grid.cell_of(place).tolist()
+    return column, row
+
+
+def _nearest_open(grid: OccupancyGrid, prices: Floats, goal: Floats) -> Cell | None:
+    """The cell of the goal, or the open one nearest to it."""
+    wished = _cell(grid, goal)
+    if np.isfinite(prices[wished]):
+        return wished
+    near = np.argwhere(np.isfinite(prices) & _around(grid, goal, _GOAL_WITHIN))
+    if not len(near):
+        return None
+    distance = np.hypot(*(grid.centre_of(near) - goal).T)
+    column, row = near[int(distance.argmin())].tolist()
+    return column, row
+
+
+def _smoothed(points: Floats) -> Floats:
+    """The corners of the grid rounded: each point in the middle of its five neighbours."""
+    if len(points) < 5:
+        return points
+    padded = np.concatenate((points[:1], points[:1], points, points[-1:], points[-1:]))
+    count = len(points)
+    smooth: Floats = sum((padded[i : i + count] for i in range(5)), np.zeros((count, 2))) / 5.0
+    smooth[0], smooth[-1] = points[0], points[-1]
+    return smooth

@@ -1,0 +1,239 @@
+"""Drive to a goal over unknown ground: map, plan, follow, avoid."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.navigation.avoidance import safe_velocity
+from gazelle.navigation.following import Pose2, turn_to, wanted_velocity, wrapped
+from gazelle.navigation.grid import OccupancyGrid
+from gazelle.navigation.limits import Limits
+from gazelle.navigation.planning import is_blocked, plan
+from gazelle.sensors import LaserScan
+
+Floats = NDArray[np.float64]
+
+_HORIZON = 6.0  # what is farther away is not put on the map [m]
+_PLAN_EVERY = 0.5  # least time between two plans [s]
+_STRAY = 0.35  # a base farther off its path gets a new one [m]
+_STUCK_AFTER = 4.0  # without getting anywhere, it looks around [s]
+_LOOK_AROUND = 2.0  # [s]
+_HISTORY = 64  # poses that are kept to place scans on
+
+
+class GoalSeeker:
+    """Drives one base from goal to goal, in the frame of its odometry.
+
+    Plain numbers in, plain numbers out; it knows no simulation. Nothing is known about the
+    ground at first: what the laser sees goes on a map, unknown ground counts as free, and
+    the path is planned anew when something turns up on it. Of a goal too near to an obstacle
+    the nearest free place is taken; where there is no way, it waits for one.
+
+    Args:
+        limits: Of the base.
+        laser: Pose of the laser in the base (x, y, yaw) [m, rad].
+        resolution: Of the map [m].
+        tolerance: A goal is reached within this distance [m].
+        yaw_tolerance: And this error of heading, if the goal has one [rad].
+
+    Attributes:
+        grid: The map.
+        path: Points (x, y) to the goal [m], shape (n, 2); none if there is no way.
+        arrived: Whether the last goal is reached.
+        plans: Counts plans.
+    """
+
+    def __init__(
+        self,
+        limits: Limits | None = None,
+        *,
+        laser: Sequence[float] = (0.0, 0.0, 0.0),
+        resolution: float = 0.05,
+        tolerance: float = 0.1,
+        yaw_tolerance: float = 0.1,
+    ) -> None:
+        self.limits = limits or Limits()
+        self.grid = OccupancyGrid(resolution)
+        self.path: Floats = np.zeros((0, 2))
+        self.arrived = False
+        self._turning = False
+        self.plans = 0
+        self._laser = tuple(laser)
+        self._tolerance, self._yaw_tolerance = tolerance, yaw_tolerance
+        self._goal: Floats | None = None
+        self._poses: deque[tuple[float, Pose2]] = deque(maxlen=_HISTORY)
+        self._seen: Floats = np.zeros((0, 2))
+        self._velocity = (0.0, 0.0)
+        self._scanned_at = -math.inf
+        self._planned_at = -math.inf
+        self._best, self._best_at = math.inf, 0.0
+
+    @property
+    def goal(self) -> tuple[float, ...] | None:
+        """Where it goes (x, y) or (x, y, yaw); None if nowhere."""
+        return None if self._goal is None else tuple(self._goal[~np.isnan(self._goal)].tolist())
+
+    def seek(self, goal: Sequence[float]) -> None:
+        """Go to another goal.
+
+        Args:
+            goal: (x, y) or (x, y, yaw) [m, rad].
+        """
+        self._goal = np.array([*goal, math.nan][:3], np.float64)
+        self.arrived = self._turning = False
+        self.path = np.zeros((0, 2))
+        self._planned_at, self._best = -math.inf, math.inf
+
+    def stop(self) -> None:
+        """Go nowhere; the map stays."""
+        self._goal = None
+        self.path = np.zeros((0, 2))
+        self._turning = False
+
+    def update(self, pose: Pose2, scan: LaserScan | None, time: float) -> tuple[float, float]:
+        """What to do now.
+
+        Args:
+            pose: x, y [m] and heading [rad] in the frame of the goal.
+            scan: The last scan of one row, ranges of shape (n,); None if there is none yet.
+            time: Now [s]; it never goes back.
+
+        Returns:
+            Forward [m/s] and turning [rad/s] velocity to command.
+        """
+        interval = time - self._poses[-1][0] if self._poses else 0.0
+        interval = min(max(interval, 0.01), 0.5)
+        self._poses.append((time, pose))
+        if scan is not None and scan.stamp / 1e9 != self._scanned_at:
+            self._look(scan)
+        if self._goal is None or scan is None:
+            self._velocity = (0.0, 0.0)
+            return self._velocity
+        wanted = self._wanted(pose, time)
+        points = _in_frame(self._seen, pose)
+        self._velocity = safe_velocity(wanted, self._velocity, points, interval, self.limits)
+        return self._velocity
+
+    def _wanted(self, pose: Pose2, time: float) -> tuple[float, float]:
+        """What would be right if nothing were in the way."""
+        self._plan(pose, time)
+        if not len(self.path):
+            return 0.0, 0.0
+        there = self._tolerance * (2.0 if self._turning else 1.0)
+        if math.dist(self.path[-1], pose[:2]) <= there:
+            return self._finish(pose)
+        self._turning = False
+        if self._is_stuck(pose, time):
+            return 0.0, 0.5 * self.limits.angular
+        return wanted_velocity(self.path, pose, self.limits)
+
+    def _finish(self, pose: Pose2) -> tuple[float, float]:
+        """Turn to the heading of the goal, if it has one."""
+        yaw = math.nan if self._goal is None else float(self._goal[2])
+        self._turning = True
+        if not math.isnan(yaw) and abs(wrapped(yaw - pose[2])) > self._yaw_tolerance:
+            return 0.0, turn_to(yaw, pose, self.limits)
+        self.stop()
+        self.arrived = True
+        return 0.0, 0.0
+
+    def _plan(self, pose: Pose2, time: float) -> None:
+        """Plan if there is no path, or if it is no good any more, but not too often."""
+        if self._goal is None or time - self._planned_at < _PLAN_EVERY:
+            return
+        here = np.array(pose[:2])
+        if len(self.path):
+            near = float(np.hypot(*(self.path - here).T).min())
+            if near < _STRAY and not is_blocked(self.grid, self.path, here, self.limits):
+                return
+        self.path = plan(self.grid, here, self._goal[:2], self.limits)
+        self.plans += 1
+        self._planned_at = time
+        self._best, self._best_at = math.inf, time
+
+    def _is_stuck(self, pose: Pose2, time: float) -> bool:
+        """Whether it has not come nearer for a while, so that it should look around."""
+        ahead = np.hypot(*(self.path - np.array(pose[:2])).T)
+        left = len(self.path) - int(ahead.argmin()) + float(ahead.min())
+        if left < self._best - 1.0:
+            self._best, self._best_at = left, time
+        waiting = time - self._best_at
+        if waiting > _STUCK_AFTER + _LOOK_AROUND:
+            self.path = np.zeros((0, 2))
+        return waiting > _STUCK_AFTER
+
+    def _look(self, scan: LaserScan) -> None:
+        """Put a scan on the map, from where the base was when it was made."""
+        self._scanned_at = scan.stamp / 1e9
+        x, y, yaw = self._pose_at(self._scanned_at)
+        at_x, at_y, turned = self._laser
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        place = np.array([x + cos * at_x - sin * at_y, y + sin * at_x + cos * at_y])
+        ranges = np.asarray(scan.ranges, np.float64)
+        angles = yaw + turned + scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        useful = ~np.isnan(ranges) & (ranges > 0.0)
+        ranges, angles = ranges[useful], angles[useful]
+        most = min(scan.range_max, _HORIZON)
+        lengths = np.minimum(ranges, most)
+        ends = place + lengths[:, None] * np.stack((np.cos(angles), np.sin(angles)), axis=1)
+        hits = ranges < most
+        self._seen = ends[hits]
+        self.grid.insert(place, ends, hits)
+
+    def _pose_at(self, time: float) -> Pose2:
+        """Where the base was, between the poses it was told."""
+        times = [when for when, _ in self._poses]
+        after = int(np.searchsorted(times, time))
+        if after >= len(times):
+            return self._poses[-1][1]
+        if after == 0:
+            return self._poses[0][1]
+        (start, first), (end, second) = self._poses[after - 1], self._poses[after]
+        share = (time - start) / (end - start)
+        turned = wrapped(second[2] - first[2])
+        return (
+            first[0] + share * (second[0] - first[0]),
+            first[1] + share * (second[1] - first[1]),
+            first[2] + share * turned,
+        )
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        goal = np.full(3, math.inf) if self._goal is None else self._goal
+        numbers = [*self._velocity, self._scanned_at, self._planned_at, self._best, self._best_at]
+        return {
+            "cells": self.grid.cells.copy(),
+            "origin": self.grid.origin.copy(),
+            "goal": goal.copy(),
+            "path": self.path.copy(),
+            "seen": self._seen.copy(),
+            "poses": np.array([(time, *pose) for time, pose in self._poses]).reshape(-1, 4),
+            "numbers": np.array([*numbers, self.arrived, self.plans, self._turning]),
+        }
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        held = {name: np.array(values, np.float64) for name, values in state.items()}
+        self.grid.cells, self.grid.origin = held["cells"], held["origin"]
+        self._goal = None if np.isinf(held["goal"]).all() else held["goal"]
+        self.path, self._seen = held["path"], held["seen"]
+        self._poses.clear()
+        self._poses.extend((t, (x, y, yaw)) for t, x, y, yaw in held["poses"].tolist())
+        numbers = held["numbers"].tolist()
+        self._velocity = (numbers[0], numbers[1])
+        self._scanned_at, self._planned_at, self._best, self._best_at = numbers[2:6]
+        self.arrived, self.plans, self._turning = bool(numbers[6]), int(numbers[7]), numbers[8] > 0
+
+
+def _in_frame(points: Floats, pose: Pose2) -> Floats:
+    """Points of the ground as the base sees them, shape (n, 2)."""
+    x, y, yaw = pose
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    turn = np.array([[cos, -sin], [sin, cos]])
+    seen: Floats = (points - (x, y)) @ turn
+    return seen

@@ -1,0 +1,42 @@
+"""Values that navigation's ports carry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class GoalPose:
+    """Where to go.
+
+    Attributes:
+        x: [m].
+        y: [m].
+        yaw: Heading to take there [rad]; any if None.
+        frame: Frame of the pose; that of the odometry if empty.
+    """
+
+    x: float
+    y: float
+    yaw: float | None = None
+    frame: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The way that is left, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        frame: Frame of the poses.
+        poses: x, y [m] and heading [rad], one array of shape (n, 3) for each world.
+    """
+
+    stamp: int
+    frame: str
+    poses: tuple[Floats, ...]
