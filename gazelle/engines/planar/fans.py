@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
-_BLOCK = 65  # primitives and bodies that are prepared at once, and one that is never met
+_BLOCK = 64  # primitives and bodies that are prepared at once; more than make a grid worth it
 _SHARE = 4000  # beams that are worth a thread
 
 

@@ -85,6 +85,40 @@ def draw(beams: Floats, lo: int, hi: int, fan: Floats, found: Floats, i: int) ->
 
 
 @part
+def draw_through(beams: Floats, found: Floats, number: int, near: float) -> None:
+    """All beams, each of which may meet any of a ``number`` of segments and discs found.
+
+    The same as ``draw`` for each of them, in one loop for speed where beams are few.
+    """
+    for i in range(np.uint64(number)):
+        x0, y0, x1, y1, radius = found[0, i], found[1, i], found[2, i], found[3, i], found[4, i]
+        name, inverse = found[7, i], found[8, i]
+        if radius > 0.0:
+            square = radius * radius
+            for k in range(np.uint64(beams.shape[1])):
+                dx, dy, best, who = beams[0, k], beams[1, k], beams[2, k], beams[3, k]
+                along = dx * x0 + dy * y0
+                aside = dx * y0 - dy * x0
+                rest = square - aside * aside
+                root = math.sqrt(max(rest, 0.0))
+                front, back = (along + root) * inverse, (along - root) * inverse
+                facing = (front > 0.0) & (front <= near)
+                v = front if facing else back
+                met = (rest >= 0.0) & (v > best) & (v <= near)
+                beams[2, k] = v if met else best
+                beams[3, k] = (name if facing else -name) if met else who
+        else:
+            for k in range(np.uint64(beams.shape[1])):
+                dx, dy, best, who = beams[0, k], beams[1, k], beams[2, k], beams[3, k]
+                c0 = dx * y0 - dy * x0
+                c1 = dx * y1 - dy * x1
+                v = (c1 - c0) * inverse
+                met = (c0 * c1 <= 0.0) & (v > best) & (v <= near)
+                beams[2, k] = v if met else best
+                beams[3, k] = name if met else who
+
+
+@part
 def solve(found: Floats, number: int) -> None:
     """Prepare what was found for drawing: what distances are shares of, and names by side.
 

@@ -55,6 +55,7 @@ from gazelle.engines.planar.kernels_fan import (
     draw,
     draw_circle,
     draw_segment,
+    draw_through,
     solve,
 )
 from gazelle.engines.planar.kernels_grid import place_in, stretch
@@ -116,12 +117,11 @@ def find_lanes(
 def draw_statics(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
     """Draw the static primitives found and solved."""
     count = beams.shape[1]
-    if count > FEW:
-        cover(found, n, fan)
+    if count <= FEW:
+        draw_through(beams, found, n, fan[NEAR])
+        return
+    cover(found, n, fan)
     for i in range(n):
-        if count <= FEW:
-            draw(beams, 0, count, fan, found, i)
-            continue
         for turn in range(2):
             lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
             if lo < hi:
@@ -205,7 +205,7 @@ def draw_bodies(
         nearest = math.sqrt(square) - radius
         away = nearest > 0.0 and nearest * fan[NEAR] >= 1.0
         height = sensors[m, S_Z] - pose[b, Z]
-        lo, hi = 0, count
+        lo, hi = np.int64(0), count
         for turn in range(2 if count > FEW else 1):
             if count > FEW:
                 lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
@@ -266,22 +266,40 @@ def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, in
 
 
 @part
-def draw_view(
+def find_statics(
+    beams: Floats, fan: Floats, found: Floats, n: int, statics: Floats, items: Cells, first: int,
+    last: int, stamp: Indices, height: float, x: float, y: float, cos: float, sin: float,
+) -> int:  # fmt: skip
+    """Write down statics of some cells, listed in ``items``; draw them when there are many.
+
+    ``stamp`` holds the scan that came last to each: each is drawn once a scan.
+    """
+    now = stamp[statics.shape[0]]
+    for i in range(first, last):
+        p = int(items[i])
+        if stamp[p] == now:
+            continue
+        stamp[p] = now
+        n = find_static(found, n, fan, statics, p, height, x, y, cos, sin)
+        if n == found.shape[1]:
+            solve(found, n)
+            draw_statics(beams, fan, found, n)
+            n = 0 * n
+    return n
+
+
+@part
+def draw_view(  # a call for each cell would cost more than what it does
     beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
-    grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices, kinds: Floats,
-    looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
+    grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
     walls: Floats, others: Floats,
 ) -> None:  # fmt: skip
-    """All that is in the cells in view, but for bodies of the family ``me``.
-
-    ``stamp`` holds the scan that came last to each static primitive: each is drawn once.
-    """
-    now = stamp[statics.shape[0]] + 1
-    stamp[statics.shape[0]] = now
-    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    """All that is in the cells in view, but for bodies of the family ``me``."""
+    stamp[statics.shape[0]] += 1
+    c, s, height = sensors[m, S_COS], sensors[m, S_SIN], sensors[m, S_Z]
     x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
     y = s * sensors[m, S_X] - c * sensors[m, S_Y]
-    height = sensors[m, S_Z]
     few = lanes.shape[1]
     if few > 0:
         find_lanes(walls, lanes, height, x, y, c, -s)
@@ -289,30 +307,27 @@ def draw_view(
     n, q = np.int64(0), np.int64(0)
     bottom, top = rows_of(view, grid, widest)
     for r in range(bottom, top + 1):
-        from_cell, to_cell = cells_of(view, grid, widest, r)
-        for i in range(start[from_cell], start[to_cell + 1] if few == 0 else start[from_cell]):
-            p = int(items[i])
-            if stamp[p] == now:
-                continue
-            stamp[p] = now
-            n = find_static(walls, n, fan, statics, p, height, x, y, c, -s)
-            if n == walls.shape[1] - 1:
-                solve(walls, n)
-                draw_statics(beams, fan, walls, n)
-                n = np.int64(0)
-        for cell in range(from_cell, to_cell + 1):
+        left, right = cells_of(view, grid, widest, r)
+        if few == 0:
+            n = find_statics(
+                beams, fan, walls, n, statics, items, int(start[left]), int(start[right + 1]),
+                stamp, height, x, y, c, -s,
+            )  # fmt: skip
+        for cell in range(left, right + 1):
             b = int(head[world, cell])
             while b >= 0:
                 k = b - world * kinds.shape[0]
                 if kinds[k, FAMILY] != me:
                     q = find_body(others, q, fan, sensors, m, kinds, pose, k, b)
-                    if q == others.shape[1] - 1:
+                    if q == others.shape[1]:
                         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
-                        q = np.int64(0)
+                        q = 0 * q
                 b = int(follow[b])
-    solve(walls, n)
-    draw_statics(beams, fan, walls, n)
-    draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
+    if n > 0:
+        solve(walls, n)
+        draw_statics(beams, fan, walls, n)
+    if q > 0:
+        draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
 
 
 @part
@@ -343,7 +358,8 @@ def scan(
         for k in range(np.uint64(beams.shape[1])):
             beams[2, k] = nothing
             beams[3, k] = 0.0
-        put_view(view, outline, sensors, m)
+        if grid[3] * grid[4] > 1.0:
+            put_view(view, outline, sensors, m)
         draw_view(
             beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
             kinds, looks, pose, head, follow, world, me, walls, others,

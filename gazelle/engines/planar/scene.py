@@ -87,7 +87,7 @@ def _corners(rows: Floats) -> Floats:
 
 
 def _lanes_of(rows: Floats, cells: int) -> Floats:
-    if cells > 1:
+    if cells > 1 or len(rows) > _FEW:
         return np.zeros((c.LANES, 0))
     circle = (rows[:, c.KIND].astype(int) & 1) == 1
     lanes = np.empty((c.LANES, len(rows)))
