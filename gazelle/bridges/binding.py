@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges import plugin_conversions  # noqa: F401  it teaches the kinds of plugins
+from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401  they teach kinds
 from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.errors import SimulationWarning

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.engines import Contacts
+from gazelle.sensors import ImuReading
 
 Floats = NDArray[np.float64]
 SixNumbers = tuple[float, float, float, float, float, float]
@@ -224,3 +225,121 @@ class Flags:
     """
 
     values: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class LaserPoints:
+    """Where the rays of a lidar ended, in its own frame, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        points: [m], shape (nworld, rays, 3).
+        intensities: Of the returns, shape (rays,).
+        rings: Row of each ray, from the lowest, shape (rays,).
+        kept: Which are worth telling, shape (nworld, rays).
+    """
+
+    stamp: int
+    points: Floats
+    intensities: Floats
+    rings: NDArray[np.intp]
+    kept: NDArray[np.bool_]
+
+
+class ChannelPoints(LaserPoints):
+    """The same, for those who want each property in a channel of its own."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class UnsureImu:
+    """An IMU's reading and how sure each of its parts is.
+
+    Attributes:
+        reading: Of all worlds.
+        orientation_variance: [rad²], three numbers.
+        rate_variance: [rad²/s²], three numbers.
+        acceleration_variance: [m²/s⁴], three numbers.
+    """
+
+    reading: ImuReading
+    orientation_variance: Floats
+    rate_variance: Floats
+    acceleration_variance: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Where a receiver is on Earth, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        latitude: [deg], shape (nworld,).
+        longitude: [deg], shape (nworld,).
+        altitude: [m], shape (nworld,).
+        variance: Of east, north and up [m²], three numbers.
+        status: As ``sensor_msgs/NavSatStatus`` counts.
+        service: As ``sensor_msgs/NavSatStatus`` counts.
+    """
+
+    stamp: int
+    latitude: Floats
+    longitude: Floats
+    altitude: Floats
+    variance: Floats
+    status: int = 0
+    service: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class VectorValue:
+    """A vector, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        values: Shape (nworld, 3).
+    """
+
+    stamp: int
+    values: Floats
+
+
+class MagneticValue(VectorValue):
+    """A magnetic field [T]."""
+
+    __slots__ = ()
+
+
+class PointValue(VectorValue):
+    """A place [m]."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Bias:
+    """What a sensor shall be wrong by from now on.
+
+    Attributes:
+        values: Three numbers, in the sensor's unit.
+    """
+
+    values: ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
+class GeoReference:
+    """Where on Earth the world's origin is to be.
+
+    Attributes:
+        latitude: [deg].
+        longitude: [deg].
+        altitude: [m].
+        heading: [rad].
+    """
+
+    latitude: float
+    longitude: float
+    altitude: float
+    heading: float

@@ -1,0 +1,131 @@
+"""Readings of plugins' sensors to ROS messages; imported for what it teaches."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.conversions import (
+    Encoder,
+    ServiceCodec,
+    View,
+    add_encoder,
+    add_service,
+    encoder_of,
+    point,
+    quaternion,
+    set_header,
+    set_point,
+)
+from gazelle.ros.messages import load_message
+from gazelle.rotations import yaw_of
+from gazelle.sensors import ImuReading
+from gazelle.simulation.values import (
+    Bias,
+    ChannelPoints,
+    Fix,
+    GeoReference,
+    LaserPoints,
+    MagneticValue,
+    PointValue,
+    UnsureImu,
+    VectorValue,
+)
+
+# Velodyne's layout: name, offset, type as sensor_msgs/PointField counts, type here.
+_FIELDS = (
+    ("x", 0, 7, "<f4"),
+    ("y", 4, 7, "<f4"),
+    ("z", 8, 7, "<f4"),
+    ("intensity", 12, 7, "<f4"),
+    ("ring", 16, 4, "<u2"),
+    ("time", 18, 7, "<f4"),
+)
+_POINT = np.dtype([(name, kind) for name, _, _, kind in _FIELDS])
+
+
+def _point_cloud2(message: Any, value: LaserPoints, view: View) -> None:
+    set_header(message, view, value.stamp)
+    kept = value.kept[view.world]
+    points = value.points[view.world][kept]
+    packed = np.zeros(len(points), _POINT)
+    packed["x"], packed["y"], packed["z"] = points.T
+    packed["intensity"], packed["ring"] = value.intensities[kept], value.rings[kept]
+    field: Any = load_message("sensor_msgs/PointField")
+    message.fields = [field(name, offset, kind, 1) for name, offset, kind, _ in _FIELDS]
+    message.height, message.width = 1, len(points)
+    message.point_step, message.row_step = _POINT.itemsize, _POINT.itemsize * len(points)
+    message.is_bigendian, message.is_dense = False, True
+    message.data = packed.tobytes()
+
+
+def _point_cloud(message: Any, value: ChannelPoints, view: View) -> None:
+    set_header(message, view, value.stamp)
+    kept = value.kept[view.world]
+    place: Any = load_message("geometry_msgs/Point32")
+    message.points = [place(*xyz) for xyz in value.points[view.world][kept].tolist()]
+    channel: Any = load_message("sensor_msgs/ChannelFloat32")
+    message.channels = [channel("intensities", value.intensities[kept].tolist())]
+
+
+def _unsure_imu(message: Any, value: UnsureImu, view: View) -> None:
+    encoder_of(ImuReading).fill(message, value.reading, view)
+    message.orientation_covariance = _three(value.orientation_variance)
+    message.angular_velocity_covariance = _three(value.rate_variance)
+    message.linear_acceleration_covariance = _three(value.acceleration_variance)
+
+
+def _three(variance: Any) -> list[float]:
+    return [float(x) for x in np.diag(variance).ravel()]
+
+
+def _fix(message: Any, value: Fix, view: View) -> None:
+    set_header(message, view, value.stamp)
+    message.status.status, message.status.service = value.status, value.service
+    message.latitude = float(value.latitude[view.world])
+    message.longitude = float(value.longitude[view.world])
+    message.altitude = float(value.altitude[view.world])
+    message.position_covariance = _three(value.variance)
+    message.position_covariance_type = 2  # only the diagonal is known
+
+
+def _vector(message: Any, value: VectorValue, view: View) -> None:
+    set_header(message, view, value.stamp)
+    set_point(message.vector, value.values[view.world])
+
+
+def _magnetic(message: Any, value: MagneticValue, view: View) -> None:
+    set_header(message, view, value.stamp)
+    set_point(message.magnetic_field, value.values[view.world])
+
+
+def _place(message: Any, value: PointValue, view: View) -> None:
+    set_header(message, view, value.stamp)
+    set_point(message.point, value.values[view.world])
+
+
+def _reference(request: Any) -> GeoReference:
+    position = request.geo_pose.position
+    turn = np.asarray(quaternion(request.geo_pose.orientation))
+    heading = float(yaw_of(turn[None])[0])
+    return GeoReference(position.latitude, position.longitude, position.altitude, heading)
+
+
+add_encoder(LaserPoints, Encoder("sensor_msgs/PointCloud2", _point_cloud2))
+add_encoder(ChannelPoints, Encoder("sensor_msgs/PointCloud", _point_cloud))
+add_encoder(UnsureImu, Encoder("sensor_msgs/Imu", _unsure_imu))
+add_encoder(Fix, Encoder("sensor_msgs/NavSatFix", _fix))
+add_encoder(VectorValue, Encoder("geometry_msgs/Vector3Stamped", _vector))
+add_encoder(MagneticValue, Encoder("sensor_msgs/MagneticField", _magnetic))
+add_encoder(PointValue, Encoder("geometry_msgs/PointStamped", _place))
+add_service(
+    Bias,
+    None,
+    ServiceCodec("hector_gazebo_plugins/SetBias", lambda r: Bias(point(r.bias)), lambda _: {}),
+)
+add_service(
+    GeoReference,
+    None,
+    ServiceCodec("hector_gazebo_plugins/SetReferenceGeoPose", _reference, lambda _: {}),
+)

@@ -1,0 +1,147 @@
+"""How Hector's sensors err: offset, drift, noise and scale.
+
+Drift is a first-order Gauss-Markov process: at every measurement it shrinks by
+``exp(-interval * frequency)`` and takes up ``interval * N(0, sqrt(2 * frequency) * drift)``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.description import Parameters
+from gazelle.errors import FormatError
+from gazelle.streams import Stream
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+_TAGS = {"offset": 0.0, "drift": 0.0, "driftFrequency": 1.0 / 3600.0, "gaussianNoise": 0.0}
+
+
+class SensorErrors:
+    """Errors of one quantity, in every world.
+
+    Args:
+        parameters: Holds tags such as ``accelDrift``: one number for all axes, or one each.
+        prefix: Such as ``accel``; empty for ``drift`` and the like.
+        axes: Numbers a measurement has.
+        seed: The run's seed.
+        name: Names the random stream.
+        nworld: Number of worlds.
+    """
+
+    def __init__(
+        self, parameters: Parameters, prefix: str, axes: int, seed: int, name: str, nworld: int
+    ) -> None:
+        self._axes = axes
+        numbers = {tag: _numbers(parameters, prefix, tag, axes, _TAGS[tag]) for tag in _TAGS}
+        self.offset, self.spread = numbers["offset"], numbers["gaussianNoise"]
+        self._drift, self._frequency = numbers["drift"], numbers["driftFrequency"]
+        self._scale = _numbers(parameters, prefix, "scaleError", axes, 1.0)
+        self._stream = Stream(seed, name, nworld)
+        self._drifted: Floats = np.zeros((nworld, axes))
+        self._noise: Floats = np.zeros((nworld, axes))
+
+    @property
+    def variance(self) -> Floats:
+        """Of drift and noise together, shape (axes,)."""
+        return self._drift**2 + self.spread**2
+
+    @property
+    def error(self) -> Floats:
+        """What the last measurement was wrong by, shape (nworld, axes)."""
+        return self.offset + self._drifted + self._noise
+
+    def apply(self, values: Floats, interval: float) -> Floats:
+        """Measured values, from true ones of shape (nworld, axes).
+
+        Args:
+            values: True.
+            interval: Since the last measurement [s].
+        """
+        keep = np.exp(-interval * self._frequency)
+        taken = np.sqrt(2.0 * self._frequency) * self._drift * interval
+        if taken.any():
+            self._drifted = keep * self._drifted + taken * self._stream.normal(self._axes)
+        else:
+            self._drifted = keep * self._drifted
+        if self.spread.any():
+            self._noise = self.spread * self._stream.normal(self._axes)
+        return values * self._scale + self.error
+
+    def set_drift(self, values: ArrayLike, worlds: Worlds | None) -> None:
+        """Be wrong by this much from now on, and drift on."""
+        self._drifted[slice(None) if worlds is None else worlds] = values
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """Use the random numbers of another seed."""
+        self._stream.reseed(seed, worlds)
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Forget drift; with all worlds, the random numbers start over too."""
+        if worlds is None:
+            self._stream.rewind()
+        self.set_drift(0.0, worlds)
+        self._noise[slice(None) if worlds is None else worlds] = 0.0
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes."""
+        return {
+            "keys": self._stream.keys.copy(),
+            "counters": self._stream.counters.copy(),
+            "drifted": self._drifted.copy(),
+            "noise": self._noise.copy(),
+        }
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
+        self._drifted[:], self._noise[:] = state["drifted"], state["noise"]
+
+
+class Interval:
+    """Time since the last measurement."""
+
+    def __init__(self) -> None:
+        self._last: float | None = None
+
+    def since(self, now: float) -> float:
+        """The time since the last call [s]; 0 at the first and when time went back."""
+        last, self._last = self._last, now
+        return max(0.0, now - last) if last is not None else 0.0
+
+    def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
+        """It has no random numbers."""
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Start over when all worlds do."""
+        if worlds is None:
+            self._last = None
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """The last time; NaN for none."""
+        return {"last": np.array(math.nan if self._last is None else self._last)}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        last = float(np.asarray(state["last"], np.float64))
+        self._last = None if math.isnan(last) else last
+
+
+def _numbers(parameters: Parameters, prefix: str, tag: str, axes: int, default: float) -> Floats:
+    name = f"{prefix}{tag[0].upper()}{tag[1:]}" if prefix else tag
+    child = parameters.find(name)
+    if child is None or not child.text:
+        return np.full(axes, default)
+    try:
+        values = np.array([float(word) for word in child.text.split()])
+    except ValueError:
+        values = np.empty(0)
+    if len(values) not in (1, axes):
+        raise FormatError(
+            f"expected 1 or {axes} numbers in <{name}>, found '{child.text}'", source=child.source
+        )
+    return np.broadcast_to(values, axes).copy()

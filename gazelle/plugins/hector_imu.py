@@ -1,0 +1,118 @@
+"""Hector's IMU: what ``libhector_gazebo_ros_imu.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Imu, Parameters, Pose
+from gazelle.plugins.hector_errors import Interval, SensorErrors
+from gazelle.plugins.publishing import Publishing
+from gazelle.plugins.stateful import Noisy
+from gazelle.rotations import from_yaw, multiply
+from gazelle.sensors import ImuModel, ImuReading
+from gazelle.simulation import Output, Robot, Service, absolute, namespace_of
+from gazelle.simulation.values import Bias, UnsureImu
+
+Worlds = NDArray[np.intp]
+
+
+class HectorImu(Noisy, Publishing):
+    """Publishes orientation, turning rate and acceleration, gravity included, with their errors."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the body, open topics and services."""
+        simulation = robot.simulation
+        self._simulation = simulation
+        body = parameters.get("bodyName", next(iter(robot.links)))
+        link, frame = robot.frame(body)
+        offset = parameters.numbers("xyzOffset", (0.0, 0.0, 0.0))
+        turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
+        pose = frame * Pose(*offset, *turn)
+        name = f"{robot.name}::{body}::hector_imu"
+        self._model = ImuModel(Imu(), simulation.engine, link.name, pose, simulation.seed, name)
+        self._accel, self._rate, self._yaw = (
+            SensorErrors(
+                parameters, prefix, axes, simulation.seed, f"{name}::{prefix}", simulation.nworld
+            )
+            for prefix, axes in (("accel", 3), ("rate", 3), ("yaw", 1))
+        )
+        if parameters.get("gaussianNoise", 0.0) != 0.0:
+            self._accel.spread[:] = parameters.get("gaussianNoise", 0.0)
+            self._rate.spread[:] = parameters.get("gaussianNoise", 0.0)
+        self._interval = Interval()
+        self._noises = {
+            "accel": self._accel,
+            "rate": self._rate,
+            "yaw": self._yaw,
+            "interval": self._interval,
+        }
+        self.update_rate = rate_of(parameters, 0.0)
+        self._open(robot, parameters, parameters.get("frameId", body))
+
+    def _open(self, robot: Robot, parameters: Parameters, frame: str) -> None:
+        namespace = namespace_of(robot, parameters)
+        topic = parameters.get("topicName", "imu")
+        bias = parameters.get("biasTopicName", f"{topic}/bias")
+        for name, kind, produce in (
+            (topic, UnsureImu, self._measure),
+            (bias, ImuReading, self._biases),
+        ):
+            output = robot.outputs[name.strip("/")] = Output(
+                absolute(namespace, name), kind, produce, frame=frame, queue_size=10
+            )
+            self._published.append(output)
+        calibrate = parameters.get("serviceName", f"{topic}/calibrate")
+        robot.services[calibrate.strip("/")] = Service(
+            absolute(namespace, calibrate), None, None, self._calibrate
+        )
+        for name, errors in (("accel", self._accel), ("rate", self._rate)):
+            service = f"{topic}/set_{name}_bias"
+            robot.services[service.strip("/")] = Service(
+                absolute(namespace, service), Bias, None, _setter(errors)
+            )
+
+    def _calibrate(self, _request: None, worlds: Worlds | None) -> None:
+        self._rate.set_drift(0.0, worlds)
+        self._yaw.set_drift(0.0, worlds)
+
+    def _measure(self) -> UnsureImu:
+        now = self._simulation.clock
+        true = self._model.reading(self._model.measure(), now.now_ns)
+        interval = self._interval.since(now.now)
+        rates = self._rate.apply(true.angular_velocity, interval)
+        accelerations = self._accel.apply(true.linear_acceleration, interval)
+        turned = self._yaw.apply(np.zeros((self._simulation.nworld, 1)), interval)
+        orientation = multiply(from_yaw(turned[:, 0]), true.orientation)
+        reading = ImuReading(now.now_ns, orientation, rates, accelerations)
+        # Roll and pitch come from the accelerometer, heading from its own errors.
+        level = float(self._accel.variance[:2].sum()) / (2.0 * 9.8065**2)
+        return UnsureImu(
+            reading,
+            np.array([level, level, float(self._yaw.variance[0])]),
+            self._rate.variance,
+            self._accel.variance,
+        )
+
+    def _biases(self) -> ImuReading:
+        return ImuReading(
+            self._simulation.clock.now_ns,
+            from_yaw(self._yaw.error[:, 0]),
+            self._rate.error,
+            self._accel.error,
+        )
+
+
+def rate_of(parameters: Parameters, default: float) -> float:
+    """Updates a second [Hz] that ``updateRate`` or ``updatePeriod`` ask for."""
+    period = parameters.get("updatePeriod", 0.0)
+    if "updateRate" not in parameters and period > 0.0:
+        return 1.0 / period
+    return parameters.get("updateRate", default)
+
+
+def _setter(errors: SensorErrors):  # noqa: ANN202  a function of a service
+    def answer(bias: Bias, worlds: Worlds | None) -> None:
+        errors.set_drift(bias.values, worlds)
+
+    return answer

@@ -1,0 +1,63 @@
+"""Hector's sonar: what ``libhector_gazebo_ros_sonar.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.plugins.hector_errors import Interval, SensorErrors
+from gazelle.plugins.hector_imu import rate_of
+from gazelle.plugins.stateful import Noisy
+from gazelle.sensors import LidarModel
+from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
+from gazelle.simulation.values import RangeValue
+
+
+class HectorSonar(Noisy, SensorPlugin):
+    """Publishes the shortest of a sensor's rays with its errors."""
+
+    def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
+        """Read the tags, open the port."""
+        if not isinstance(sensor.model, LidarModel):
+            raise SimulationError(
+                f"'{sensor.name}' has no rays to measure a range with", source=parameters.source
+            )
+        robot, simulation = sensor.robot, sensor.robot.simulation
+        self._sensor, self._clock = sensor, simulation.clock
+        lidar = sensor.model.lidar
+        self._least, self._most = lidar.range_min, lidar.range_max
+        spans = [
+            float(angles[-1] - angles[0])
+            for angles in (sensor.model.angles, sensor.model.vertical_angles)
+            if len(angles) > 1
+        ]
+        self._fov = min(spans, default=0.0)
+        self._interval = Interval()
+        self._error = SensorErrors(
+            parameters, "", 1, simulation.seed, f"{sensor.name}::sonar", simulation.nworld
+        )
+        self._noises = {"errors": self._error, "interval": self._interval}
+        sensor.schedule.rate = rate_of(parameters, 10.0)
+        topic = parameters.get("topicName", "sonar")
+        robot.outputs[topic.strip("/")] = SensorOutput(
+            sensor,
+            absolute(namespace_of(robot, parameters), topic),
+            RangeValue,
+            frame=parameters.get("frameId", "/sonar_link"),
+            read=self._read,
+        )
+
+    def _read(self) -> RangeValue:
+        nearest = np.minimum(self._sensor.current().min(axis=1), self._most)
+        interval = self._interval.since(self._clock.now)
+        wrong = self._error.apply(nearest[:, None], interval)[:, 0]
+        distance = np.where(nearest < self._most, wrong, nearest)
+        return RangeValue(
+            self._clock.now_ns,
+            np.clip(distance, self._least, self._most),
+            self._least,
+            self._most,
+            self._fov,
+            ultrasound=True,
+        )

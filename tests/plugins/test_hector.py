@@ -1,0 +1,153 @@
+"""Hector's sensors: IMU, GPS, magnetometer, barometer, and how they err."""
+
+import math
+
+import numpy as np
+import pytest
+from models import block, plugin, simulate
+
+from gazelle.errors import FormatError
+from gazelle.simulation.values import Bias, GeoReference, MagneticValue
+
+
+def cube(filename, nworld=1, *, gravity=False, **tags):
+    model = block(plugin=plugin(filename, bodyName="core", **tags), gravity=gravity)
+    return simulate(model, ground=False, nworld=nworld)
+
+
+IMU = "libhector_gazebo_ros_imu.so"
+
+
+def test_an_imu_measures_turning_and_gravity_in_its_body():
+    with cube(IMU, accelOffset="0.1 0.2 0.3", rateOffset="0.5") as sim:
+        robot = sim.robots["cube"]
+        robot.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.3))
+        sim.step()
+        reading = robot.outputs["imu"].last.reading
+        assert reading.angular_velocity[0] == pytest.approx([0.5, 0.5, 0.8], abs=1e-6)
+        assert reading.linear_acceleration[0] == pytest.approx([0.1, 0.2, 10.1], abs=0.02)
+        assert robot.outputs["imu"].topic == "/imu"
+        assert robot.outputs["imu/bias"].last.angular_velocity[0] == pytest.approx([0.5] * 3)
+
+
+def test_an_imus_noise_and_variance_are_those_of_its_file():
+    with cube(IMU, nworld=400, gaussianNoise="0.05", yawGaussianNoise="0.02") as sim:
+        value = sim.robots["cube"].outputs["imu"].last
+        assert value.reading.angular_velocity.std() == pytest.approx(0.05, rel=0.1)
+        assert value.rate_variance == pytest.approx([0.0025] * 3)
+        yaw = 2.0 * value.reading.orientation[:, 2]
+        assert yaw.std() == pytest.approx(0.02, rel=0.15)
+        assert value.orientation_variance[2] == pytest.approx(4e-4)
+
+
+def test_an_imus_bias_is_set_and_calibrated_away():
+    with cube(IMU, nworld=2) as sim:
+        robot = sim.robots["cube"]
+        robot.services["imu/set_rate_bias"].call(Bias((0.1, 0.0, 0.0)), np.array([1]))
+        robot.services["imu/set_accel_bias"].call(Bias((0.0, 1.0, 0.0)))
+        reading = robot.outputs["imu"].last.reading
+        assert reading.angular_velocity[:, 0] == pytest.approx([0.0, 0.1])
+        assert reading.linear_acceleration[:, 1] == pytest.approx([1.0, 1.0])
+        robot.services["imu/calibrate"].call(None)
+        assert robot.outputs["imu"].last.reading.angular_velocity == pytest.approx(0.0)
+        assert robot.services["imu/calibrate"].topic == "/imu/calibrate"
+        sim.reset()
+        assert robot.outputs["imu"].last.reading.linear_acceleration[:, 1] == pytest.approx(0.0)
+
+
+def test_drift_grows_and_a_snapshot_keeps_it():
+    with cube(IMU, nworld=100, rateDrift="0.5", rateDriftFrequency="1.0", updateRate="50") as sim:
+        output = sim.robots["cube"].outputs["imu"]
+        heard = []
+        output.subscribe(heard.append)
+        sim.run(seconds=2.0)
+        assert len(heard) == pytest.approx(100, abs=1)
+        rates = heard[-1].reading.angular_velocity
+        # Stationary: interval sqrt(2 f) drift / sqrt(1 - exp(-2 f interval)).
+        spread = 0.02 * math.sqrt(2.0) * 0.5 / math.sqrt(1.0 - math.exp(-0.04))
+        assert rates.std() == pytest.approx(spread, rel=0.25)
+        state = sim.snapshot()
+        sim.run(seconds=0.1)
+        expected = heard[-1].reading.angular_velocity
+        sim.restore(state)
+        sim.run(seconds=0.1)
+        assert heard[-1].reading.angular_velocity == pytest.approx(expected)
+
+
+GPS = "libhector_gazebo_ros_gps.so"
+
+
+def test_a_gps_counts_from_its_reference():
+    with cube(GPS) as sim:
+        robot = sim.robots["cube"]
+        robot.set_pose((111.2, -100.0, 7.0))
+        fix = robot.outputs["fix"].last
+        # A degree of latitude at 49.9 north is 111.23 km, one of longitude 71.85 km.
+        assert fix.latitude[0] == pytest.approx(49.9 + 0.1112 / 111.23, abs=1e-7)
+        assert fix.longitude[0] == pytest.approx(8.9 + 0.1 / 71.85, abs=1e-6)
+        assert fix.altitude[0] == pytest.approx(7.0)
+        assert (robot.outputs["fix"].topic, robot.outputs["fix"].frame) == ("/fix", "/world")
+
+
+def test_a_gps_turns_with_its_heading_and_tells_its_velocity():
+    with cube(GPS, nworld=2, referenceHeading="90", velocityOffset="0 0 0.5") as sim:
+        robot = sim.robots["cube"]
+        robot.set_twist((1.0, 2.0, 0.0), (0.0, 0.0, 0.0))
+        velocity = robot.outputs["fix_velocity"].last.values
+        assert velocity[0] == pytest.approx([2.0, -1.0, 0.5], abs=1e-6)
+
+
+def test_a_gps_is_given_another_reference():
+    with cube(GPS, nworld=2) as sim:
+        robot = sim.robots["cube"]
+        service = robot.services["fix/set_reference_geopose"]
+        service.call(GeoReference(10.0, 20.0, 30.0, 0.0), np.array([1]))
+        fix = robot.outputs["fix"].last
+        assert fix.latitude == pytest.approx([49.9, 10.0])
+        assert fix.longitude == pytest.approx([8.9, 20.0])
+
+
+def test_a_gps_publishes_four_times_a_second():
+    with cube(GPS) as sim:
+        heard = []
+        sim.robots["cube"].outputs["fix"].subscribe(heard.append)
+        sim.run(seconds=2.0)
+        assert len(heard) == pytest.approx(8, abs=1)
+
+
+MAGNETIC = "libhector_gazebo_ros_magnetic.so"
+
+
+def test_the_earths_field_is_felt_in_the_body():
+    with cube(MAGNETIC, magnitude="2.0", inclination="60", offset="0 0 0.1") as sim:
+        robot = sim.robots["cube"]
+        down = -2.0 * math.sin(math.radians(60.0)) + 0.1
+        value = robot.outputs["magnetic"].last
+        assert not isinstance(value, MagneticValue)
+        assert value.values[0] == pytest.approx([1.0, 0.0, down])
+        robot.set_pose((0.0, 0.0, 0.5), yaw=math.pi / 2)
+        assert robot.outputs["magnetic"].last.values[0] == pytest.approx([0.0, -1.0, down])
+        assert robot.outputs["magnetic"].frame == "core"
+
+
+def test_the_field_comes_as_the_message_that_is_asked_for():
+    with cube(
+        MAGNETIC, useMagneticFieldMsgs="true", declination="90", referenceHeading="90"
+    ) as sim:
+        output = sim.robots["cube"].outputs["magnetic"]
+        assert output.kind is MagneticValue
+        assert output.last.values[0, 0] == pytest.approx(0.5)
+
+
+def test_a_barometer_tells_height():
+    with cube("libhector_gazebo_ros_baro.so", nworld=2, offset="0.5", frameId="baro") as sim:
+        robot = sim.robots["cube"]
+        robot.set_pose([[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
+        output = robot.outputs["pressure_height"]
+        assert output.last.values[:, 2] == pytest.approx([1.5, 2.5])
+        assert output.frame == "baro"
+
+
+def test_errors_have_one_number_or_one_an_axis():
+    with pytest.raises(FormatError, match="accelDrift"):
+        cube(IMU, accelDrift="1 2")

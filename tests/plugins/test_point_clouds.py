@@ -1,0 +1,100 @@
+"""Point clouds from lidars, and Hector's sonar."""
+
+import numpy as np
+import pytest
+from models import block, plugin, simulate
+
+from gazelle.errors import SimulationError
+
+RAYS = """<sensor name="eye" type="ray"><pose>0.2 0 0 0 0 0</pose><update_rate>20</update_rate>
+<ray><scan><horizontal><samples>5</samples><min_angle>-0.4</min_angle><max_angle>0.4</max_angle>
+</horizontal><vertical><samples>3</samples><min_angle>-0.1</min_angle><max_angle>0.1</max_angle>
+</vertical></scan><range><min>0.05</min><max>{most}</max></range></ray>{plugin}</sensor>"""
+WALL = """<model name="wall"><static>1</static><pose>1.1 0 0.5 0 0 0</pose><link name="l">
+<collision name="c"><geometry><box><size>0.2 4 2</size></box></geometry></collision></link></model>"""
+
+
+def watching(filename, most=2.0, nworld=1, **tags):
+    rays = RAYS.format(plugin=plugin(filename, **tags), most=most)
+    return simulate(block(rays, gravity=False), WALL, ground=False, nworld=nworld)
+
+
+VELODYNES = ["libgazebo_ros_velodyne_laser.so", "libgazebo_ros_velodyne_gpu_laser.so"]
+
+
+@pytest.mark.parametrize("filename", VELODYNES)
+def test_a_velodynes_points_lie_on_what_it_sees(filename):
+    with watching(filename, nworld=2, topicName="/points", frameName="velo") as sim:
+        output = sim.robots["cube"].outputs["points"]
+        value = output.last
+        assert (output.topic, output.frame) == ("/points", "velo")
+        assert value.kept.all()
+        # The wall is 0.8 m before the sensor, in the sensor's own frame.
+        assert value.points[..., 0] == pytest.approx(0.8, abs=1e-6)
+        assert value.points.shape == (2, 15, 3)
+        assert value.rings.tolist() == [0] * 5 + [1] * 5 + [2] * 5
+        assert value.points[0, :5, 2] == pytest.approx(value.points[0, 0, 2], abs=0.01)
+        assert value.points[0, 0, 1] < 0.0 < value.points[0, 4, 1]
+
+
+def test_a_velodyne_leaves_out_what_it_does_not_see_and_what_the_file_says():
+    with watching(VELODYNES[0], most=0.82) as sim:
+        assert sim.robots["cube"].outputs["points"].last.kept.sum() == 5
+    with watching(VELODYNES[0], max_range="0.85") as sim:
+        assert sim.robots["cube"].outputs["points"].last.kept.sum() == 9
+    with watching(VELODYNES[0], min_intensity="5") as sim:
+        assert not sim.robots["cube"].outputs["points"].last.kept.any()
+
+
+def test_a_block_laser_tells_all_rays_and_the_least_intensity():
+    with watching("libgazebo_ros_block_laser.so", most=0.82, topicName="cloud") as sim:
+        output = sim.robots["cube"].outputs["cloud"]
+        value = output.last
+        assert output.topic == "/cloud"
+        assert value.kept.all()
+        assert (value.intensities == 101.0).all()
+        length = np.linalg.norm(value.points[0], axis=1)
+        assert length.max() == pytest.approx(0.82)
+
+
+def test_a_block_lasers_noise_spares_what_is_out_of_reach():
+    with watching(
+        "libgazebo_ros_block_laser.so", most=0.82, nworld=300, gaussianNoise="0.02"
+    ) as sim:
+        length = np.linalg.norm(sim.robots["cube"].outputs["world"].last.points, axis=2)
+        assert length[:, 0] == pytest.approx(0.82)
+        assert length[:, 7].std() == pytest.approx(0.02, rel=0.15)
+
+
+def test_points_come_at_the_sensors_rate():
+    with watching(VELODYNES[0]) as sim:
+        heard = []
+        sim.robots["cube"].outputs["points"].subscribe(heard.append)
+        sim.run(seconds=1.0)
+        assert len(heard) == pytest.approx(20, abs=1)
+
+
+def test_a_sonar_gives_the_nearest_and_its_field_of_view():
+    with watching("libhector_gazebo_ros_sonar.so", offset="0.1") as sim:
+        output = sim.robots["cube"].outputs["sonar"]
+        value = output.last
+        assert (output.topic, output.frame) == ("/sonar", "/sonar_link")
+        assert value.distance[0] == pytest.approx(0.9, abs=1e-6)
+        assert value.field_of_view == pytest.approx(0.2)
+        assert value.ultrasound
+        heard = []
+        output.subscribe(heard.append)
+        sim.run(seconds=1.0)
+        assert len(heard) == pytest.approx(10, abs=1)
+
+
+def test_a_sonar_that_sees_nothing_gives_its_reach():
+    with watching("libhector_gazebo_ros_sonar.so", most=0.5, gaussianNoise="0.01") as sim:
+        assert sim.robots["cube"].outputs["sonar"].last.distance[0] == 0.5
+
+
+@pytest.mark.parametrize("filename", [VELODYNES[0], "libhector_gazebo_ros_sonar.so"])
+def test_a_sensor_without_rays_is_refused(filename):
+    sensor = f'<sensor name="imu" type="imu">{plugin(filename)}</sensor>'
+    with pytest.raises(SimulationError, match="no rays"):
+        simulate(block(sensor))
