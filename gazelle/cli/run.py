@@ -1,5 +1,5 @@
-"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, a model's
-folder, or a bundled name (see 'gazelle worlds').
+"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, a Stage
+.world, a model's folder, or a bundled name (see 'gazelle worlds').
 
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
@@ -20,7 +20,13 @@ from typing import TYPE_CHECKING
 from gazelle.cli.parsing import positive_float
 
 if TYPE_CHECKING:
+    from gazelle.bridges import RosDoor
+    from gazelle.bridges.stage import StageServer
+    from gazelle.description.stage import StageWorld
     from gazelle.simulation import Simulation
+    from gazelle.simulation.stage import StageSimulation
+
+    Running = Simulation | StageSimulation
 
 _STATUS_EVERY = 0.5
 _SLICE = 0.05
@@ -29,7 +35,9 @@ _SLICE = 0.05
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE", help="a file, or the name of a bundled world")
-    parser.add_argument("--engine", metavar="NAME", default="mujoco", help="default mujoco")
+    parser.add_argument(
+        "--engine", metavar="NAME", help="mujoco or planar (default mujoco, for Stage files planar)"
+    )
     parser.add_argument(
         "--for",
         dest="seconds",
@@ -68,34 +76,57 @@ def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     if args.paused and args.seconds is not None:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
-    from gazelle.simulation import Simulation
+    from gazelle import formats
 
     sys.path[:0] = args.plugins
-    with Simulation(args.file, args.engine, seed=args.seed) as sim:
+    world = formats.load(args.file)
+    if world.stage is not None and args.engine in {None, "planar"}:
+        return _run_fleet(world.stage, args)
+    from gazelle.simulation import Simulation
+
+    engine = args.engine or "mujoco"
+    with Simulation(world, engine, seed=args.seed) as sim:
         for robot in args.spawn:
             sim.spawn(robot, namespace="/")
         models = ", ".join(sim.robots) or "no models"
         sys.stdout.write(f"world '{sim.world.name}': {models}\n")
-        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
+        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {engine}\n")
         sys.stdout.flush()
-        if args.ros:
-            return _serve(sim, args)
-        status = _Status(sim)
-        try:
-            if args.paused:
-                _hold(sim)
-            _advance(sim, args.seconds, args.rate, status)
-        except KeyboardInterrupt:
-            status.show(final=True)
-            return 130
+        return _serve(sim, args) if args.ros else _go(sim, args)
+
+
+def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:
+    """Run a Stage file's robots in the plane."""
+    from gazelle.simulation.stage import StageSimulation
+
+    if args.spawn:
+        args.parser.error("--spawn puts robots into worlds in space; this is a Stage file")
+    with StageSimulation(world, seed=args.seed) as sim:
+        count = len(sim.robots)
+        sys.stdout.write(f"Stage world '{world.name}': {count} robot{'s' * (count != 1)}\n")
+        sys.stdout.write(f"step {sim.clock.step_ns / 1e6:g} ms, in the plane\n")
+        sys.stdout.flush()
+        return _serve_fleet(sim, args) if args.ros else _go(sim, args)
+
+
+def _go(sim: Running, args: argparse.Namespace) -> int:
+    """Run until the end of the time, or Ctrl-C."""
+    status = _Status(sim)
+    try:
+        if args.paused:
+            _hold(sim)
+        _advance(sim, args.seconds, args.rate, status)
+    except KeyboardInterrupt:
         status.show(final=True)
+        return 130
+    status.show(final=True)
     return 0
 
 
 class _Status:
     """A line with simulated time and real-time factor, rewritten in place on a terminal."""
 
-    def __init__(self, sim: Simulation) -> None:
+    def __init__(self, sim: Running) -> None:
         self._sim = sim
         self._live = sys.stderr.isatty()
         self._start = time.monotonic()
@@ -115,7 +146,7 @@ class _Status:
         sys.stderr.flush()
 
 
-def _advance(sim: Simulation, seconds: float | None, rate: float | None, status: _Status) -> None:
+def _advance(sim: Running, seconds: float | None, rate: float | None, status: _Status) -> None:
     """Step in slices of wall time, so that the status and Ctrl-C are prompt."""
     piece = _SLICE * (rate or 1.0)
     end = float("inf") if seconds is None else seconds
@@ -126,7 +157,7 @@ def _advance(sim: Simulation, seconds: float | None, rate: float | None, status:
         left = end - sim.time
         if rate is None:
             took = max(time.monotonic() - began, 1e-4)
-            piece = min(max(piece * _SLICE / took, sim.engine.time_step), 2 * piece)
+            piece = min(max(piece * _SLICE / took, sim.clock.step_ns / 1e9), 2 * piece)
         status.show()
 
 
@@ -138,19 +169,33 @@ def _serve(sim: Simulation, args: argparse.Namespace) -> int:
         sim.pause()
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     with serve_ros(sim) as door:
-        sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n")
-        sys.stdout.flush()
-        status = _Status(sim)
-        try:
-            door.run(args.seconds)
-        except KeyboardInterrupt:
-            status.show(final=True)
-            return 130
+        return _attend(sim, door, args)
+
+
+def _serve_fleet(sim: StageSimulation, args: argparse.Namespace) -> int:
+    """Be the ROS node that stage_ros would be, until Ctrl-C or the end of the time."""
+    from gazelle.bridges.stage import serve_stage
+
+    if args.paused:
+        sim.pause()
+    with serve_stage(sim, rate=args.rate) as server:
+        return _attend(sim, server, args)
+
+
+def _attend(sim: Running, door: RosDoor | StageServer, args: argparse.Namespace) -> int:
+    sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n")
+    sys.stdout.flush()
+    status = _Status(sim)
+    try:
+        door.run(args.seconds)
+    except KeyboardInterrupt:
         status.show(final=True)
+        return 130
+    status.show(final=True)
     return 0
 
 
-def _hold(sim: Simulation) -> None:
+def _hold(sim: Running) -> None:
     """Wait while the simulation is paused."""
     sim.pause()
     sys.stderr.write("paused; Ctrl-C ends it\n")
