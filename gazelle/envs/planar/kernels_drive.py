@@ -161,16 +161,24 @@ def glide(
         j = i + 1
         while j < steps and (settled or math.isnan(intervals[j])):
             j += 1
-        vx, vy, turn = command[b, 0], command[b, 1], command[b, 2]
-        moving = vx != 0.0 or vy != 0.0 or turn != 0.0
-        if moving:
-            go(pose, goal, b, vx, vy, turn, dt * (j - i), False)
-            for c in range(6):
-                pose[b, c] = goal[b, c]
+        moving = hop(b, pose, goal, command, velocity, dt * (j - i))
         i = j
-    for axis in range(3):
-        velocity[b, axis] = command[b, axis]
     return moving
+
+
+@part
+def hop(
+    b: int, pose: Floats, goal: Floats, command: Floats, velocity: Floats, time: float
+) -> bool:
+    """Go as commanded for a time, with nothing in the way; whether that is anywhere."""
+    vx, vy, turn = command[b, 0], command[b, 1], command[b, 2]
+    velocity[b, 0], velocity[b, 1], velocity[b, 2] = vx, vy, turn
+    if vx == 0.0 and vy == 0.0 and turn == 0.0:
+        return False
+    go(pose, goal, b, vx, vy, turn, time, False)
+    for c in range(6):
+        pose[b, c] = goal[b, c]
+    return True
 
 
 @part
@@ -252,7 +260,15 @@ def drive(
                 most = law[LAW_RAMP] * intervals[i] if law[LAW_RAMP] > 0.0 else -1.0
                 ramp(speeds, w, left, right, most)
                 command_of(command, b, speeds, w, law[LAW_RADIUS], matrix)
-            advance(base, base + nbody, 1, *own)
+            step = reach_of(speeds, w, left, right) * dt
+            if crowded(
+                pose, base, robot, step, drift, kinds, pieces, room, corner, law[LAW_REACH]
+            ):
+                advance(base, base + nbody, 1, *own)
+            else:
+                if hop(b, pose, goal, command, velocity, dt):
+                    stalled[b] = False
+                relink(b, b + 1, nbody, grid, pose, head, follow, cell)
 
 
 @kernel
@@ -279,7 +295,7 @@ def begin(
 
 @kernel
 def measure_room(
-    room: Floats, corner: Floats, segments: Floats, discs: Floats,
+    room: Table, corner: Floats, segments: Floats, discs: Floats,
 ) -> None:  # fmt: skip
     """Fill a map with lower bounds of the distance from anywhere in a cell to the nearest static.
 

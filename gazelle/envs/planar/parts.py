@@ -38,7 +38,7 @@ from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot, Simulation
 from gazelle.simulation.stepping import ScheduledPlugin
 
-_MAP = 240  # cells along the longer side of the map of distances
+_MAP = 480  # cells along the longer side of the map of distances
 _SAME = 1e-12
 
 
@@ -186,7 +186,7 @@ def statics_of(fleet: Fleet, height: float) -> Statics:
     per_metre = _MAP / max(float((high - low).max()), 1e-3)
     corner = np.array([*low, per_metre])
     columns, lines = np.maximum(np.ceil((high - low) * per_metre).astype(int), 1)
-    room = np.zeros((lines, columns))
+    room = np.zeros((lines, columns), np.float32)
     measure_room(room, corner, ends[~disc].copy(), ends[disc][:, :3].copy())
     return Statics(faces, ends[level & disc][:, :3].copy(), room, corner)
 
