@@ -1,12 +1,6 @@
-"""Mobile robots: go to a goal over unknown ground, around what a laser sees.
+"""Mobile robots on plain numbers: control loops and motions, for any number of robots at once."""
 
-It knows neither ROS nor learning; ``GoalSeeker`` knows not even the simulation.
-"""
+from gazelle.navigation.agv import Limits, Motions, Outcome
+from gazelle.navigation.pid import Pid
 
-from gazelle.navigation.grid import OccupancyGrid
-from gazelle.navigation.limits import Limits
-from gazelle.navigation.plugin import GoToGoal
-from gazelle.navigation.seeker import GoalSeeker
-from gazelle.navigation.values import GoalPose, Path
-
-__all__ = ["GoToGoal", "GoalPose", "GoalSeeker", "Limits", "OccupancyGrid", "Path"]
+__all__ = ["Limits", "Motions", "Outcome", "Pid"]

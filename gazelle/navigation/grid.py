@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -60,8 +58,7 @@ class OccupancyGrid:
 
     def centre_of(self, cells: ArrayLike) -> Floats:
         """Middles of cells [m], shape (..., 2)."""
-        middles = self.origin + (np.asarray(cells, np.float64) + 0.5) * self.resolution
-        return cast("Floats", middles)
+        return self.origin + (np.asarray(cells, np.float64) + 0.5) * self.resolution
 
     def include(self, points: ArrayLike) -> None:
         """Grow until points, shape (n, 2), are on the map, with some ground around them."""
@@ -133,4 +130,4 @@ def _widened(mask: Mask, half: int) -> Mask:
     index = np.arange(rows)
     high = np.minimum(index + half + 1, rows)
     low = np.maximum(index - half, 0)
-    return cast("Mask", sums[:, high] > sums[:, low])
+    return sums[:, high] > sums[:, low]

@@ -124,13 +124,27 @@ class GoalSeeker:
         self._plan(pose, time)
         if not len(self.path):
             return 0.0, 0.0
-        there = self._tolerance * (2.0 if self._turning else 1.0)
-        if math.dist(self.path[-1], pose[:2]) <= there:
-            return self._finish(pose)
+        if self._is_there(pose):
+            if not self._replaced(time):
+                return self._finish(pose)
+            self._plan(pose, time, anew=True)
+            if not len(self.path) or self._is_there(pose):
+                return 0.0, 0.0
         self._turning = False
         if self._is_stuck(pose, time):
             return 0.0, 0.5 * self.limits.angular
         return wanted_velocity(self.path, pose, self.limits)
+
+    def _is_there(self, pose: Pose2) -> bool:
+        """Whether the end of the path is reached; turning there may shift the base a little."""
+        there = self._tolerance * (2.0 if self._turning else 1.0)
+        return math.dist(self.path[-1], pose[:2]) <= there
+
+    def _replaced(self, time: float) -> bool:
+        """Whether the path ends beside a goal that could be free by now: the map has grown."""
+        if self._goal is None or self._turning or time - self._planned_at < _PLAN_EVERY:
+            return False
+        return math.dist(self.path[-1], self._goal[:2]) > 1e-6
 
     def _finish(self, pose: Pose2) -> tuple[float, float]:
         """Turn to the heading of the goal, if it has one."""
@@ -142,12 +156,12 @@ class GoalSeeker:
         self.arrived = True
         return 0.0, 0.0
 
-    def _plan(self, pose: Pose2, time: float) -> None:
+    def _plan(self, pose: Pose2, time: float, *, anew: bool = False) -> None:
         """Plan if there is no path, or if it is no good any more, but not too often."""
         if self._goal is None or time - self._planned_at < _PLAN_EVERY:
             return
         here = np.array(pose[:2])
-        if len(self.path):
+        if len(self.path) and not anew:
             near = float(np.hypot(*(self.path - here).T).min())
             if near < _STRAY and not is_blocked(self.grid, self.path, here, self.limits):
                 return
