@@ -43,7 +43,9 @@ class Pid:
     ) -> None:
         for name, (low, high) in (("integral", integral), ("output", output)):
             if not low <= high:
-                raise ControlError(f"the bounds of the {name} are the wrong way round: {low}, {high}")
+                raise ControlError(
+                    f"the bounds of the {name} are the wrong way round: {low}, {high}"
+                )
         if count < 0:
             raise ControlError(f"a PID needs a number of loops, not {count}")
         self.p, self.i, self.d = p, i, d
