@@ -111,3 +111,28 @@ def test_unknown_benchmark_is_an_error(cli):
     code, _, err = cli("bench", "no_such_benchmark")
     assert code == 1
     assert "there is no benchmark 'no_such_benchmark'" in err
+
+
+STAGE = """# two robots in a yard
+define car position ( size [0.4 0.4 0.3] drive "diff" localization "gps" )
+model ( name "wall" size [10 0.2 1] pose [0 3 0 0] )
+car ( name "a" pose [0 0 0 0] )
+car ( name "b" pose [2 0 0 90] )
+"""
+
+
+def test_run_of_a_stage_file_goes_in_the_plane(cli, tmp_path):
+    file = tmp_path / "yard.world"
+    file.write_text(STAGE, encoding="utf-8")
+    code, out, err = cli("run", file, "--for", 2, "--rate", "max")
+    assert code == 0, err
+    assert "Stage world 'yard': 2 robots" in out
+    assert "simulated 2.00 s" in err
+
+
+def test_run_of_a_stage_file_spawns_nothing_else(cli, tmp_path):
+    file = tmp_path / "yard.world"
+    file.write_text(STAGE, encoding="utf-8")
+    code, _, err = cli("run", file, "--spawn", "turtlebot3_burger", "--for", 1)
+    assert code == 2
+    assert "--spawn puts robots into worlds in space" in err
