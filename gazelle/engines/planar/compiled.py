@@ -49,5 +49,7 @@ def _follow_all_sources(made: Any) -> None:
 
 @lru_cache(maxsize=1)
 def _digest() -> str:
-    texts = [path.read_bytes() for path in sorted(Path(__file__).parent.glob("kernels_*.py"))]
+    folder = Path(__file__).parent
+    files = [folder / "columns.py", *sorted(folder.glob("kernels_*.py"))]
+    texts = [path.read_bytes() for path in files]
     return hashlib.sha256(b"".join(texts)).hexdigest()

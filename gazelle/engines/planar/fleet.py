@@ -108,6 +108,8 @@ class Fleet:
         self._describe(bodies)
         first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
         heights = np.array([body.z for body in bodies], np.float64)
+        if not (np.isfinite(first).all() and np.isfinite(heights).all()):
+            raise EngineError("a pose must be finite")
         self._initial = _rows_of(first, heights)
         extent = first[:, :2] if len(bodies) else np.zeros((1, 2))
         side = max(cell, 2.0 * self._widest)
@@ -198,9 +200,15 @@ class Fleet:
             body: Its index.
             pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
             worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: A number is not finite.
         """
         rows = slice(body, None, self.nbody) if worlds is None else worlds * self.nbody + body
-        x, y, yaw = np.moveaxis(np.asarray(pose, np.float64), -1, 0)
+        wanted = np.asarray(pose, np.float64)
+        if not np.isfinite(wanted).all():
+            raise EngineError("a pose must be finite")
+        x, y, yaw = np.moveaxis(wanted, -1, 0)
         self.rows[rows, c.X], self.rows[rows, c.Y], self.rows[rows, c.YAW] = x, y, yaw
         self.rows[rows, c.COS], self.rows[rows, c.SIN] = np.cos(yaw), np.sin(yaw)
         self._relink(rows)
@@ -213,6 +221,8 @@ class Fleet:
             heights: Of their frames [m], shape (nworld, nbody).
         """
         flat = np.asarray(pose, np.float64).reshape(-1, 3)
+        if not np.isfinite(flat).all():
+            raise EngineError("a pose must be finite")
         self.rows[:] = _rows_of(flat, np.asarray(heights, np.float64).ravel())
         self._relink(slice(None))
 

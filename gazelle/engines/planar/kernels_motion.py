@@ -121,6 +121,10 @@ def propose(
         if vx == 0.0 and vy == 0.0 and turn == 0.0:
             continue
         go(pose, goal, b, vx, vy, turn, dt, euler)
+        if not math.isfinite(goal[b, X] + goal[b, Y] + goal[b, YAW]):
+            state[b] = BLOCKED  # a command that is no number leads nowhere
+            velocity[b, 0], velocity[b, 1], velocity[b, 2] = 0.0, 0.0, 0.0
+            continue
         state[b] = MOVING
         longest = max(longest, vx * vx + vy * vy)
     return math.sqrt(longest) * dt

@@ -246,3 +246,34 @@ def test_memory_and_loading_stay_small():
     arrays = [v for v in vars(fleet).values() if isinstance(v, np.ndarray)]
     arrays += [fleet.scene.grid, fleet.scene.start, fleet.scene.items, fleet.scene.table.rows]
     assert sum(array.nbytes for array in arrays) / 5000 < 1000
+
+
+def test_numbers_that_are_none_do_no_harm():
+    fleet = one(Drive("omni"), nworld=2)
+    for bad in (math.nan, math.inf):
+        fleet.command[0] = bad, bad, bad
+        fleet.command[1] = 0.5, 0.0, 0.0
+        fleet.step()
+        assert fleet.stalled[:, 0].tolist() == [True, False]
+        assert np.isfinite(fleet.pose).all()
+        with pytest.raises(EngineError, match="finite"):
+            fleet.place(0, (bad, 0.0, 0.0))
+    fleet.command[:] = 0.5, 0.0, 0.0
+    fleet.step()
+    assert not fleet.stalled.any()
+
+
+@pytest.mark.parametrize("noise", [None, RangeNoise(0.01)])
+def test_roaming_alone_and_in_a_crew_is_the_same(noise):
+    poses = []
+    for threads in (1, 2):
+        bodies = [
+            Body((Part.box(0.3, 0.2),), (0.6 * (i % 13), 0.6 * (i // 13), i), drive=Drive())
+            for i in range(150)
+        ]
+        fleet = Fleet(bodies, [Part.box(9.0, 9.0, x=3.6, y=3.6)], threads=threads)
+        mounts = [Mount(i) for i in range(150)]
+        scanner = Scanner(fleet, Fan.spread(3.0, 40, 3.0), mounts, noise=noise)
+        Roaming(fleet, scanner).run(25)
+        poses.append(fleet.pose.copy())
+    assert (poses[0] == poses[1]).all()
