@@ -1,6 +1,25 @@
-"""Mobile robots on plain numbers: control loops and motions, for any number of robots at once."""
+"""Mobile robots: motions and control loops for many at once, and a way to a goal for one.
+
+All on plain numbers, with neither ROS nor learning; only ``GoToGoal`` knows the simulation.
+"""
 
 from gazelle.navigation.agv import Limits, Motions, Outcome
+from gazelle.navigation.grid import OccupancyGrid
+from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.pid import Pid
+from gazelle.navigation.plugin import GoToGoal
+from gazelle.navigation.seeker import GoalSeeker
+from gazelle.navigation.values import GoalPose, Path
 
-__all__ = ["Limits", "Motions", "Outcome", "Pid"]
+__all__ = [
+    "BaseLimits",
+    "GoToGoal",
+    "GoalPose",
+    "GoalSeeker",
+    "Limits",
+    "Motions",
+    "OccupancyGrid",
+    "Outcome",
+    "Path",
+    "Pid",
+]

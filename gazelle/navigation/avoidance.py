@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.limits import Limits
+from gazelle.navigation.limits import BaseLimits
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def safe_velocity(
     now: tuple[float, float],
     points: Floats,
     interval: float,
-    limits: Limits,
+    limits: BaseLimits,
 ) -> tuple[float, float]:
     """The velocity nearest to what is wanted that hits nothing before the base stands.
 
@@ -62,7 +62,9 @@ def _choices(wanted: float, low: float, high: float, count: int) -> Floats:
     return np.unique(np.concatenate((np.linspace(low, high, count), special)))
 
 
-def _room(tried: Floats, points: Floats, interval: float, limits: Limits) -> tuple[Floats, float]:
+def _room(
+    tried: Floats, points: Floats, interval: float, limits: BaseLimits
+) -> tuple[Floats, float]:
     """Least distance of the base's rim to obstacles until it stands [m], for each velocity.
 
     Also what it is now. Stopping takes the reaction, the interval and the braking.

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.limits import Limits
+from gazelle.navigation.limits import BaseLimits
 
 Floats = NDArray[np.float64]
 Pose2 = tuple[float, float, float]
@@ -22,7 +22,7 @@ def wrapped(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
-def wanted_velocity(path: Floats, pose: Pose2, limits: Limits) -> tuple[float, float]:
+def wanted_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[float, float]:
     """Forward [m/s] and turning [rad/s] velocity that follow a path, were there nothing around.
 
     The base steers for a point of the path a little ahead of it, on an arc (pure pursuit,
@@ -52,7 +52,7 @@ def wanted_velocity(path: Floats, pose: Pose2, limits: Limits) -> tuple[float, f
     return speed, _bounded(turning, limits.angular)
 
 
-def turn_to(heading: float, pose: Pose2, limits: Limits) -> float:
+def turn_to(heading: float, pose: Pose2, limits: BaseLimits) -> float:
     """Turning rate towards a heading on the spot [rad/s]."""
     return _bounded(_TURNING_GAIN * wrapped(heading - pose[2]), limits.angular)
 

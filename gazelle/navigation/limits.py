@@ -8,7 +8,7 @@ from gazelle.errors import SimulationError
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class BaseLimits:
     """What a base can do and what it needs.
 
     Attributes:

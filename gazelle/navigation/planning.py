@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.grid import OccupancyGrid
-from gazelle.navigation.limits import Limits
+from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.search import Cell, find_way
 
 Floats = NDArray[np.float64]
@@ -18,7 +18,7 @@ _TIGHT = 20.0  # of ground that is too near to an obstacle, but where the base s
 _GOAL_WITHIN = 0.5  # a goal in an obstacle becomes the nearest free place so near to it [m]
 
 
-def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: Limits) -> Floats:
+def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -> Floats:
     """A way from place to place, as far from obstacles as is worth it.
 
     Args:
@@ -43,7 +43,7 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: Limits) -> Fl
     return points
 
 
-def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: Limits) -> bool:
+def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:
     """Whether an obstacle has turned up on the rest of a path."""
     rest = path[int(np.hypot(*(path - here).T).argmin()) :]
     rest = rest[np.hypot(*(rest - here).T) > limits.radius]
@@ -51,7 +51,7 @@ def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: Limits) 
     return bool(blocked[tuple(grid.cell_of(rest).T)].any())
 
 
-def _prices(grid: OccupancyGrid, start: Floats, limits: Limits) -> Floats:
+def _prices(grid: OccupancyGrid, start: Floats, limits: BaseLimits) -> Floats:
     room = limits.radius + limits.clearance
     prices = np.ones(grid.cells.shape)
     for distance, price in reversed(_NEAR):

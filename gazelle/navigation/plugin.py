@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.navigation.following import Pose2
-from gazelle.navigation.limits import Limits
+from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.seeker import GoalSeeker
 from gazelle.navigation.values import GoalPose, Path
 from gazelle.rotations import conjugate, rotate, yaw_of
@@ -236,9 +236,9 @@ class GoToGoal(ModelPlugin):
         self._shown_at = -math.inf
 
 
-def _limits(parameters: Parameters) -> Limits:
-    usual = Limits()
-    return Limits(
+def _limits(parameters: Parameters) -> BaseLimits:
+    usual = BaseLimits()
+    return BaseLimits(
         radius=parameters.get("robotRadius", usual.radius),
         clearance=parameters.get("clearance", usual.clearance),
         linear=parameters.get("maxSpeed", usual.linear),

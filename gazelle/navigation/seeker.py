@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.navigation.avoidance import safe_velocity
 from gazelle.navigation.following import Pose2, turn_to, wanted_velocity, wrapped
 from gazelle.navigation.grid import OccupancyGrid
-from gazelle.navigation.limits import Limits
+from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.planning import is_blocked, plan
 from gazelle.sensors import LaserScan
 
@@ -50,14 +50,14 @@ class GoalSeeker:
 
     def __init__(
         self,
-        limits: Limits | None = None,
+        limits: BaseLimits | None = None,
         *,
         laser: Sequence[float] = (0.0, 0.0, 0.0),
         resolution: float = 0.05,
         tolerance: float = 0.1,
         yaw_tolerance: float = 0.1,
     ) -> None:
-        self.limits = limits or Limits()
+        self.limits = limits or BaseLimits()
         self.grid = OccupancyGrid(resolution)
         self.path: Floats = np.zeros((0, 2))
         self.arrived = False
