@@ -1,0 +1,24 @@
+"""Compile all kernels ahead of their first use: ``python -m gazelle.engines.planar``."""
+
+from __future__ import annotations
+
+from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
+from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar.roaming import Roaming
+from gazelle.engines.planar.shapes import Part
+
+
+def compile_ahead() -> None:
+    """Use every kernel once, so that Numba keeps it for all later runs on this machine."""
+    disc = (Part.circle(0.0, 0.0, 0.1),)
+    for threads, count in ((1, 1), (2, 200)):
+        bodies = [Body(disc, (0.5 * i, 0.0, 0.0), drive=Drive()) for i in range(count)]
+        fleet = Fleet(bodies, threads=threads)
+        for noise in (None, RangeNoise(0.01)):
+            scanner = Scanner(fleet, Fan.spread(1.0, 9, 2.0), [Mount(0)], noise=noise)
+            Roaming(fleet, scanner).run(1)
+        fleet.close()
+
+
+if __name__ == "__main__":
+    compile_ahead()
