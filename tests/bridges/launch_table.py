@@ -1,0 +1,130 @@
+"""What the launch files of the corpus bring up."""
+
+from launching import Expected
+
+_BURGER = "/cmd_vel /imu /joint_states /odom /scan /tf"
+_MESHES = "package://turtlebot3_description/meshes/bases/burger_base.stl"
+
+
+def _under(names, topics):
+    """The same topics of several robots."""
+    return " ".join(f"/{name}{topic}" for name in names for topic in topics.split())
+
+
+def _links(prefix, text):
+    """``parent>child`` with a prefix before both."""
+    return " ".join(
+        ">".join(f"{prefix}{frame}" for frame in pair.split(">")) for pair in text.split()
+    )
+
+
+_BURGER_LINKS = (
+    "base_footprint>base_link base_link>base_scan base_link>caster_back_link "
+    "base_link>imu_link base_link>wheel_left_link base_link>wheel_right_link"
+)
+_TRICYCLE_LINKS = (
+    "base_link>chassis base_link>front_steering base_link>left_wheel base_link>right_wheel "
+    "front_steering>front_wheel"
+)
+_PIONEER_LINKS = (
+    "base_link>chassis chassis>battery0 chassis>front_camera chassis>front_laser "
+    "chassis>left_hub chassis>right_hub chassis>sonar chassis>swivel chassis>top "
+    "left_hub>left_wheel right_hub>right_wheel swivel>center_wheel center_wheel>center_hubcap"
+)
+_TWO = ("r1", "r2")
+_THREE = ("tb3_0", "tb3_1", "tb3_2")
+
+QUICK = [
+    Expected(
+        "turtlebot3_gazebo turtlebot3_world.launch",
+        models="ground_plane ros_symbol turtlebot3_burger",
+        topics=_BURGER,
+        frames="odom>base_footprint",
+        missing=(_MESHES,),
+    ),
+    Expected(
+        "rrbot_gazebo rrbot_world.launch",
+        models="ground_plane rrbot",
+        topics="/rrbot/laser/scan",
+        missing=(
+            "sensor 'rrbot::link3::camera1' of type 'camera' is not measured yet",
+            "ros_control's controllers are not run yet",
+        ),
+    ),
+    Expected(
+        "kobuki_gazebo kobuki_empty_world.launch",
+        models="ground_plane mobile_base",
+        topics="/joint_states /tf /tf_static",
+        frames="base_footprint>base_link base_link>caster_back_link base_link>caster_front_link "
+        "base_link>cliff_sensor_front_link base_link>cliff_sensor_left_link "
+        "base_link>cliff_sensor_right_link base_link>gyro_link",
+        missing=("there is no package 'nodelet'", "libgazebo_ros_kobuki.so"),
+        left_out=1,
+    ),
+]
+
+SLOW = [
+    Expected(
+        "turtlebot3_gazebo turtlebot3_stage_1.launch",
+        models="ground_plane turtlebot3_burger turtlebot3_square",
+        topics=_BURGER,
+        frames="odom>base_footprint",
+    ),
+    Expected(
+        "turtlebot3_gazebo turtlebot3_house.launch",
+        models="ground_plane turtlebot3 turtlebot3_house",
+        topics=_BURGER,
+        frames="odom>base_footprint",
+        missing=("model://mailbox/meshes/mailbox.dae", "model://table_marble"),
+    ),
+    Expected(
+        "turtlebot3_gazebo multi_turtlebot3.launch",
+        models="ground_plane tb3_0 tb3_1 tb3_2 turtlebot3_house",
+        topics=_under(_THREE, "/cmd_vel /imu /joint_states /odom /scan") + " /tf /tf_static",
+        frames="odom>base_footprint "
+        + " ".join(_links(f"{name}/", _BURGER_LINKS) for name in _THREE),
+        missing=(_MESHES,),
+    ),
+    Expected(
+        "gazebo_ros shapes_world.launch",
+        models="box cylinder ground_plane sphere",
+        topics="",
+    ),
+    Expected("gazebo_ros mud_world.launch", models="block ground_plane mud", topics=""),
+    Expected(
+        "gazebo_ros range_world.launch",
+        models="model_1 model_2",
+        topics="/sonar /sonar2",
+    ),
+    Expected(
+        "gazebo_ros rubble_world.launch",
+        models="beam_0 beam_2 brick_0 brick_28 ground_plane",
+        topics="",
+    ),
+    Expected(
+        "gazebo_plugins tricycle_drive_scenario.launch",
+        models="ground_plane r1 r2",
+        topics=_under(_TWO, "/cmd_vel /joint_states /odom") + " /tf /tf_static",
+        frames="odom>base_link base_link>r1/odom base_link>r2/odom "
+        + " ".join(_links(f"{name}/", _TRICYCLE_LINKS) for name in _TWO),
+    ),
+    Expected(
+        "gazebo_plugins multi_robot_scenario.launch",
+        models="ground_plane r1 r2",
+        topics=_under(_TWO, "/cmd_vel /front_laser/scan /joint_states /odom") + " /tf /tf_static",
+        frames="odom>base_link base_link>r1/odom base_link>r2/odom "
+        + " ".join(_links(f"{name}/", _PIONEER_LINKS) for name in _TWO),
+        missing=("nodes of 'rviz' are left out", "a box without size is left out"),
+    ),
+]
+
+REFUSED = {
+    "husky_gazebo husky_playpen.launch": (
+        "there is no package 'fath_pivot_mount_description'",
+        "there is no package 'twist_mux'",
+    ),
+    "gazebo_ros elevator_world.launch": ("worlds/elevator_ros.world: there is no such world",),
+    "gazebo_ros willowgarage_world.launch": ("willowgarage",),
+    "gazebo_plugins test_single_pendulum.launch": ("there is no package 'gazebo'",),
+    "gazebo_plugins balance.launch": ("there is no package 'gazebo_tests'",),
+}
