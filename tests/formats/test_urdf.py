@@ -352,3 +352,10 @@ def test_a_root_without_mass_takes_all_below_it_along():
         found = urdf(body + "<gazebo><plugin name='p' filename='f'/></gazebo>")
     assert found.links == ()
     assert [plugin.name for plugin in found.plugins] == ["p"]
+
+
+def test_a_box_without_size_is_left_out_with_a_word():
+    nothing = "<collision><geometry><box size='0 0.0 0'/></geometry></collision>"
+    with pytest.warns(FormatWarning, match="a box without size is left out"):
+        m = urdf(urdf_link("a", f"{INERTIAL}{nothing}<collision>{BOX}</collision>"))
+    assert [each.geometry for each in m.links[0].collisions] == [Box((1, 1, 1))]

@@ -61,7 +61,19 @@ def read_collisions(body: Body, robot: Robot) -> tuple[Collision, ...]:
     return tuple(
         _collision(member, node, name, robot)
         for member, node, name, _ in part_names(body, "collision")
+        if not _is_nothing(node, robot)
     )
+
+
+def _is_nothing(node: Parameters, robot: Robot) -> bool:
+    """Whether the shape is a box without size, which Gazebo takes and nothing ever touches."""
+    box = node.find("geometry/box")
+    if box is None:
+        return False
+    if any(values.parse_reals(box, values.attribute(box, "size"), "attribute 'size'", 3)):
+        return False
+    robot.reading.note("a box without size is left out", box)
+    return True
 
 
 def _collision(member: Member, node: Parameters, name: str, robot: Robot) -> Collision:
@@ -117,7 +129,9 @@ def _surface(extensions: Extensions, link: str, blob: Parameters | None) -> Surf
 def read_visuals(body: Body, robot: Robot) -> tuple[Visual, ...]:
     """All visuals of a body."""
     return tuple(
-        _visual(member, node, name, robot) for member, node, name, _ in part_names(body, "visual")
+        _visual(member, node, name, robot)
+        for member, node, name, _ in part_names(body, "visual")
+        if not _is_nothing(node, robot)
     )
 
 
