@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges.conversions import (
+    Decoder,
     Encoder,
     ServiceCodec,
     View,
+    add_decoder,
     add_encoder,
     add_service,
     encoder_of,
@@ -23,12 +25,16 @@ from gazelle.rotations import yaw_of
 from gazelle.sensors import ImuReading
 from gazelle.simulation.values import (
     Bias,
+    BumperValue,
     ChannelPoints,
+    CliffValue,
     Fix,
     GeoReference,
     LaserPoints,
     MagneticValue,
+    MotorPower,
     PointValue,
+    Trigger,
     UnsureImu,
     VectorValue,
 )
@@ -129,3 +135,18 @@ add_service(
     None,
     ServiceCodec("hector_gazebo_plugins/SetReferenceGeoPose", _reference, lambda _: {}),
 )
+
+
+def _cliff(message: Any, value: CliffValue, view: View) -> None:
+    message.sensor, message.state = value.place, int(value.deep[view.world])
+    message.bottom = int(value.reading[view.world])
+
+
+def _bump(message: Any, value: BumperValue, view: View) -> None:
+    message.bumper, message.state = value.place, int(value.pressed[view.world])
+
+
+add_encoder(CliffValue, Encoder("kobuki_msgs/CliffEvent", _cliff))
+add_encoder(BumperValue, Encoder("kobuki_msgs/BumperEvent", _bump))
+add_decoder(MotorPower, Decoder("kobuki_msgs/MotorPower", lambda m: MotorPower(bool(m.state))))
+add_decoder(Trigger, Decoder("std_msgs/Empty", lambda _message: Trigger()))

@@ -343,3 +343,43 @@ class GeoReference:
     longitude: float
     altitude: float
     heading: float
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """That something shall happen; it says no more."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotorPower:
+    """Whether motors shall have power."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class CliffValue:
+    """What a sensor that looks at the floor sees.
+
+    Attributes:
+        place: 0 left, 1 in the middle, 2 right.
+        deep: Whether the floor is farther than it should be, shape (nworld,).
+        reading: Of the sensor's converter, shape (nworld,).
+    """
+
+    place: int
+    deep: NDArray[np.bool_]
+    reading: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class BumperValue:
+    """Whether a bumper is pressed.
+
+    Attributes:
+        place: 0 left, 1 in the middle, 2 right.
+        pressed: Shape (nworld,).
+    """
+
+    place: int
+    pressed: NDArray[np.bool_]

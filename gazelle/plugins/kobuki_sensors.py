@@ -1,0 +1,151 @@
+"""What a Kobuki tells of when it changes: cliffs and bumps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.rotations import yaw_of
+from gazelle.sensors import ContactModel, LidarModel
+from gazelle.sensors.lidar import directions_of
+from gazelle.simulation import Output, Robot, SensorUnit
+from gazelle.simulation.values import BumperValue, CliffValue
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+_PLACES = ("left", "center", "right")
+# Contacts at these heights above the floor press the bumper [m], from these sides [rad].
+_LOW, _HIGH = 0.015, 0.085
+_SIDE, _MIDDLE = math.pi / 2.0, math.pi / 6.0
+# How the infrared sensor's converter counts: scale, and the height of its reference [m].
+_SCALE, _HEIGHT = 76123.0, 0.995
+# A bottomless depth [m].
+_FAR = 1e3
+
+
+class Cliffs:
+    """Three sensors that look at the floor.
+
+    Attributes:
+        deep: Whether the floor is too far away, shape (nworld, 3).
+    """
+
+    def __init__(self, robot: Robot, parameters: Parameters) -> None:
+        self._threshold = parameters.require("cliff_detection_threshold", float)
+        self._sensors = [
+            _with(robot, parameters, f"cliff_sensor_{place}_name", LidarModel) for place in _PLACES
+        ]
+        self.deep = np.zeros((robot.simulation.nworld, 3), np.bool_)
+        self._engine = robot.simulation.engine
+        self._distances: Floats = np.zeros((robot.simulation.nworld, 3))
+        self._outputs: list[Output[CliffValue]] = []
+
+    def open(self, robot: Robot, topic: str) -> None:
+        """Offer what changes."""
+        for place, name in enumerate(_PLACES):
+            made = Output(topic, CliffValue, self._value_of(place), queue_size=10)
+            robot.outputs[f"cliff_{name}"] = made
+            self._outputs.append(made)
+
+    def _value_of(self, place: int) -> Callable[[], CliffValue]:
+        def read() -> CliffValue:
+            reading = _SCALE * np.arctan2(self._distances[:, place], _HEIGHT)
+            return CliffValue(place, self.deep[:, place].copy(), np.clip(reading, 0, 65535))
+
+        return read
+
+    def tell(self) -> None:
+        """Look, and publish where something changed."""
+        if not any(output.wanted for output in self._outputs):
+            return
+        for place, sensor in enumerate(self._sensors):
+            nearest = self._distances[:, place] = self._look(sensor)
+            deep = nearest >= self._threshold
+            changed = (deep != self.deep[:, place]).any()
+            self.deep[:, place] = deep
+            if changed:
+                self._outputs[place].publish()
+
+    def _look(self, sensor: SensorUnit) -> Floats:
+        """Distance to the floor [m]; the base's own hull, which the sensors are in, is no floor."""
+        model: LidarModel = sensor.model  # type: ignore[assignment]  # seen to in _with
+        pose, least = sensor.description.pose, model.lidar.range_min
+        rays = directions_of(model.angles, model.vertical_angles) @ pose.matrix()[:3, :3].T
+        origins = np.asarray(pose.position) + least * rays
+        link = sensor.name.rpartition("::")[0]
+        hits = self._engine.cast_rays(link, origins, rays, ignore_own=True)
+        return np.minimum(hits.distance.min(axis=1) + least, _FAR)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """There is a floor."""
+        self.deep[slice(None) if worlds is None else worlds] = False
+
+
+class Bumpers:
+    """A contact sensor whose sides are told apart by where they are touched.
+
+    Attributes:
+        pressed: Shape (nworld, 3).
+    """
+
+    def __init__(self, robot: Robot, parameters: Parameters) -> None:
+        self._robot = robot
+        self._sensor = _with(robot, parameters, "bumper_name", ContactModel)
+        self.pressed = np.zeros((robot.simulation.nworld, 3), np.bool_)
+        self._outputs: list[Output[BumperValue]] = []
+
+    def open(self, robot: Robot, topic: str) -> None:
+        """Offer what changes."""
+        for place, name in enumerate(_PLACES):
+            made = Output(topic, BumperValue, self._value_of(place), queue_size=10)
+            robot.outputs[f"bumper_{name}"] = made
+            self._outputs.append(made)
+
+    def _value_of(self, place: int) -> Callable[[], BumperValue]:
+        return lambda: BumperValue(place, self.pressed[:, place].copy())
+
+    def tell(self) -> None:
+        """Feel, and publish what changed."""
+        if not any(output.wanted for output in self._outputs):
+            return
+        touched = self._touched()
+        changed = (touched != self.pressed).any(axis=0)
+        self.pressed[:] = touched
+        for output in np.array(self._outputs, object)[changed]:
+            output.publish()
+
+    def _touched(self) -> NDArray[np.bool_]:
+        values = self._sensor.current()
+        contacts = values.reshape(len(values), -1, 15)
+        place = self._robot.placement()
+        apart = contacts[:, :, 2:5] - place.position[:, None]
+        heading = np.arctan2(apart[..., 1], apart[..., 0]) - yaw_of(place.quaternion)[:, None]
+        heading = np.arctan2(np.sin(heading), np.cos(heading))
+        counts = (apart[..., 2] >= _LOW) & (apart[..., 2] <= _HIGH)
+        sides = (
+            (heading > _MIDDLE) & (heading <= _SIDE),
+            np.abs(heading) <= _MIDDLE,
+            (heading < -_MIDDLE) & (heading >= -_SIDE),
+        )
+        return np.stack([(counts & side).any(axis=1) for side in sides], axis=1)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Nothing is touched."""
+        self.pressed[slice(None) if worlds is None else worlds] = False
+
+
+def _with(robot: Robot, parameters: Parameters, tag: str, model: type[object]) -> SensorUnit:
+    """The sensor that a tag names, of the kind that it must be."""
+    sensor = robot.sensors[parameters.require(tag, str)]
+    if not isinstance(sensor.model, model):
+        raise SimulationError(
+            f"<{tag}> names '{sensor.name}', which is of type '{sensor.description.type}'",
+            source=parameters.source,
+        )
+    return sensor

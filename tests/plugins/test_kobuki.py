@@ -1,0 +1,139 @@
+"""The Kobuki base: wheels, gyro, cliffs and bumps."""
+
+import numpy as np
+import pytest
+from models import base, plugin, simulate
+
+from gazelle.errors import FormatError, SimulationError
+from gazelle.simulation.values import MotorPower, Trigger
+
+TAGS = {
+    "publish_tf": "1",
+    "left_wheel_joint_name": "joint0",
+    "right_wheel_joint_name": "joint1",
+    "wheel_separation": "0.4",
+    "wheel_diameter": "0.2",
+    "torque": "10",
+    "velocity_command_timeout": "0.6",
+    "cliff_sensor_left_name": "cliff_l",
+    "cliff_sensor_center_name": "cliff_c",
+    "cliff_sensor_right_name": "cliff_r",
+    "cliff_detection_threshold": "0.2",
+    "bumper_name": "bumpers",
+    "imu_name": "imu",
+}
+CLIFF = """<sensor name="cliff_{name}" type="ray"><pose>0.24 {y} 0 0 1.5708 0</pose><update_rate>50
+</update_rate><ray><scan><horizontal><samples>1</samples><min_angle>0</min_angle><max_angle>0
+</max_angle></horizontal></scan><range><min>0.01</min><max>1</max></range></ray></sensor>"""
+SENSORS = (
+    "".join(CLIFF.format(name=name, y=y) for name, y in (("l", 0.1), ("c", 0), ("r", -0.1)))
+    + '<sensor name="imu" type="imu"><update_rate>100</update_rate></sensor>'
+    '<sensor name="bumpers" type="contact"><update_rate>100</update_rate><contact>'
+    "<collision>c</collision></contact></sensor>"
+)
+
+
+def kobuki(**tags):
+    model = base(plugin("libgazebo_ros_kobuki.so", **{**TAGS, **tags}), wheels=2)
+    caster = """<collision name="caster"><pose>-0.2 0 -0.07 0 0 0</pose><geometry><sphere>
+    <radius>0.05</radius></sphere></geometry><surface><friction><ode><mu>0</mu><mu2>0</mu2></ode>
+    </friction></surface></collision>"""
+    return model.replace("</collision>\n    </link>", f"</collision>{caster}{SENSORS}</link>", 1)
+
+
+WALL = """<model name="wall"><static>1</static><pose>{x} {y} 0.1 0 0 0</pose><link name="l">
+<collision name="c"><geometry><box><size>{size} 0.2</size></box></geometry></collision></link>
+</model>"""
+
+
+def test_it_drives_until_its_command_is_too_old():
+    with simulate(kobuki()) as sim:
+        robot = sim.robots["base"]
+        assert robot.inputs["cmd_vel"].topic == "/mobile_base/commands/velocity"
+        robot.inputs["cmd_vel"].send(linear=0.3)
+        sim.run(seconds=0.5)
+        assert robot.twist.linear[0] == pytest.approx(0.3, rel=0.05)
+        sim.run(seconds=0.8)
+        assert robot.twist.linear[0] == pytest.approx(0.0, abs=0.01)
+
+
+def test_its_heading_comes_from_the_gyro():
+    with simulate(kobuki(), nworld=2) as sim:
+        robot = sim.robots["base"]
+        robot.inputs["cmd_vel"].send(angular=[0.8, -0.8])
+        sim.run(seconds=0.5)
+        odometry = robot.outputs["odom"].last
+        yaw = 2.0 * np.arctan2(odometry.quaternion[:, 2], odometry.quaternion[:, 3])
+        assert yaw == pytest.approx(robot.yaw, abs=0.02)
+        assert yaw[0] > 0.2 > -0.2 > yaw[1]
+        assert odometry.pose_variance == (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
+        assert robot.outputs["odom_tf"].last.transforms[0].child_frame == "base_footprint"
+        assert robot.outputs["joint_states"].last.names == ("joint0", "joint1")
+        assert robot.outputs["imu_data"].topic == "/mobile_base/sensors/imu_data"
+
+
+def test_without_power_it_stands():
+    with simulate(kobuki(), nworld=2) as sim:
+        robot = sim.robots["base"]
+        robot.inputs["motor_power"].send(MotorPower(on=False), np.array([0]))
+        robot.inputs["cmd_vel"].send(linear=0.3)
+        sim.run(seconds=0.5)
+        assert robot.motion().linear[:, 0] == pytest.approx([0.0, 0.3], abs=0.02)
+        assert robot.outputs["odom"].last.position[1, 0] == pytest.approx(0.15, abs=0.03)
+        robot.inputs["reset_odometry"].send(Trigger())
+        assert (robot.outputs["odom"].last.position == 0.0).all()
+
+
+def test_it_tells_of_cliffs_when_they_come_and_go():
+    with simulate(kobuki()) as sim:
+        robot = sim.robots["base"]
+        heard = []
+        robot.outputs["cliff_center"].subscribe(heard.append)
+        sim.run(seconds=0.2)
+        assert heard == []
+        robot.set_pose((0.0, 0.0, 0.5))
+        sim.run(seconds=0.05)
+        assert [bool(each.deep[0]) for each in heard] == [True]
+        assert heard[0].place == 1
+        sim.run(seconds=1.0)
+        assert [bool(each.deep[0]) for each in heard] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("place", "x", "y", "size"),
+    [("center", 0.5, 0.0, "0.1 0.1"), ("left", 0.05, 0.155, "0.06 0.02")],
+)
+def test_it_tells_where_it_is_touched(place, x, y, size):
+    with simulate(kobuki(), WALL.format(x=x, y=y, size=size)) as sim:
+        robot = sim.robots["base"]
+        heard = {name: [] for name in ("left", "center", "right")}
+        for name, values in heard.items():
+            robot.outputs[f"bumper_{name}"].subscribe(values.append)
+        for _ in range(4):
+            robot.inputs["cmd_vel"].send(linear=0.4)
+            sim.run(seconds=0.3)
+        pressed = {name for name, values in heard.items() if any(v.pressed[0] for v in values)}
+        assert place in pressed
+        assert "right" not in pressed
+
+
+def test_a_snapshot_goes_on_as_the_run_did_and_a_reset_starts_over():
+    with simulate(kobuki()) as sim:
+        robot = sim.robots["base"]
+        robot.inputs["cmd_vel"].send(linear=0.3)
+        sim.run(seconds=0.2)
+        state = sim.snapshot()
+        sim.run(seconds=0.3)
+        expected = robot.outputs["odom"].last.position
+        sim.restore(state)
+        sim.run(seconds=0.3)
+        assert robot.outputs["odom"].last.position == pytest.approx(expected, abs=1e-9)
+        sim.reset()
+        assert (robot.outputs["odom"].last.position == 0.0).all()
+
+
+def test_what_it_lacks_is_named():
+    with pytest.raises(FormatError, match="wheel_separation"):
+        simulate(kobuki(wheel_separation=""))
+    with pytest.raises(SimulationError, match="bumper_name"):
+        simulate(kobuki(bumper_name="imu"))
