@@ -41,7 +41,8 @@ WIRE = {"ros", "bridges", "clients"}
 STRANGERS = {
     "assets": {"description"},
     "ros": SIMULATION,
-    "clients": SIMULATION | {"bridges"},
+    # Motions are arithmetic on poses and velocities, whoever brings these.
+    "clients": (SIMULATION - {"navigation"}) | {"bridges"},
     "builders": WIRE,
     "envs": WIRE,
 }

@@ -8,6 +8,7 @@
         simulator.gazebo.pause()
 """
 
+from gazelle.clients.agv import AGV, AGVFleet
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.descriptions import load_parameters, load_urdf, read_urdf
 from gazelle.clients.errors import ClientError
@@ -21,6 +22,8 @@ from gazelle.clients.spawning import spawn_robot
 from gazelle.clients.states import LiveStates
 
 __all__ = [
+    "AGV",
+    "AGVFleet",
     "ClientError",
     "Controllers",
     "Driver",

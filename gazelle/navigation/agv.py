@@ -103,7 +103,8 @@ class Motions:
     @property
     def active(self) -> NDArray[np.bool_]:
         """Whether each robot has a motion to make, shape (count,)."""
-        return self.outcome == Outcome.MOVING
+        moving: NDArray[np.bool_] = self.outcome == Outcome.MOVING
+        return moving
 
     def move_l(
         self, x: ArrayLike, y: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
@@ -225,7 +226,7 @@ class Motions:
         rows = self._rows(robots)
         for value in values:
             if not np.isfinite(np.asarray(value, np.float64)).all():
-                raise ControlError(f"a motion needs finite numbers, not {value}")
+                raise ControlError(f"a motion needs finite numbers, not {value!r}")
         if not timeout > 0.0:
             raise ControlError(f"a motion needs time; the timeout is {timeout} s")
         self.outcome[rows], self.taken[rows] = Outcome.MOVING, 0.0
@@ -238,7 +239,7 @@ class Motions:
             return np.arange(self.count)
         rows = np.atleast_1d(np.asarray(robots, np.intp))
         if rows.size and (rows.min() < 0 or rows.max() >= self.count):
-            raise ControlError(f"robots are 0 to {self.count - 1}, not {robots}")
+            raise ControlError(f"robots are 0 to {self.count - 1}, not {robots!r}")
         return rows
 
 

@@ -93,7 +93,8 @@ def test_a_robot_that_does_not_get_there_times_out_and_stands():
     for tick in range(25):
         command = motions.update(np.zeros((2, 3)), tick * STEP)
     assert motions.outcome.tolist() == [Outcome.IDLE, Outcome.TIMED_OUT]
-    assert motions.taken[1] == pytest.approx(2.0) and not command.any()
+    assert motions.taken[1] == pytest.approx(2.0)
+    assert not command.any()
 
 
 def test_a_cancelled_motion_ends_and_others_go_on():
@@ -102,7 +103,8 @@ def test_a_cancelled_motion_ends_and_others_go_on():
     motions.update(np.zeros((2, 3)), 0.0)
     motions.cancel(0)
     command = motions.update(np.zeros((2, 3)), STEP)
-    assert not command[0].any() and command[1, 0] > 0.0
+    assert not command[0].any()
+    assert command[1, 0] > 0.0
     assert motions.outcome.tolist() == [Outcome.CANCELLED, Outcome.MOVING]
 
 

@@ -1,0 +1,274 @@
+"""Automated guided vehicles on any ROS 1 graph: Gazelle's, a stage_ros's, real ones.
+
+The motions themselves are those of ``gazelle.navigation``. They run on simulated time where
+poses bring it, so they take the same simulated time at any speed of the simulation.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.clients.agv_poses import PoseSource, pose_source
+from gazelle.clients.errors import ClientError
+from gazelle.clients.poses import twist_message
+from gazelle.navigation import Limits, Motions, Outcome
+from gazelle.ros import Node, load_message
+
+Floats = NDArray[np.float64]
+
+_PATIENCE_S = 30.0  # of wall time without a new pose
+
+
+class AGVFleet:
+    """Many AGVs, moved together by one thread; also a context manager, which stops them.
+
+    Args:
+        node: Publishes and listens.
+        spaces: Namespace of each robot, such as ``/robot_3``; empty for a single one without.
+        poses: ``topic`` for ``nav_msgs/Odometry``, or ``service`` for one that answers with
+            x, y [m] and an angle [degrees], as ``sim_agv/AgvPose`` does.
+        pose_name: Of the topic or service under each namespace; ``base_pose_ground_truth`` or
+            ``get_pose`` by default.
+        service_type: Of the service; register its text first, see ``gazelle.ros.messages``.
+        limits: How fast and how exact they are.
+        rate: How often a service is asked [Hz of simulated time].
+
+    Raises:
+        UnknownTypeError: The type of the service is not known.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        spaces: Sequence[str],
+        *,
+        poses: str = "topic",
+        pose_name: str | None = None,
+        service_type: str = "sim_agv/AgvPose",
+        limits: Limits | None = None,
+        rate: float = 10.0,
+    ) -> None:
+        names = [f"/{space.strip('/')}" if space.strip("/") else "" for space in spaces]
+        self.motions = Motions(len(names), limits)
+        self._lock = threading.RLock()
+        self._ended = threading.Condition(self._lock)
+        self._stop = threading.Event()
+        self._fault: Exception | None = None
+        self._source: PoseSource = pose_source(poses, node, names, pose_name, service_type, rate)
+        kind = load_message("geometry_msgs/Twist")
+        self._publishers = [node.advertise(f"{name}/cmd_vel", kind, 1) for name in names]
+        self._standing = np.ones(len(names), np.bool_)
+        self._thread = threading.Thread(target=self._run, name="agv", daemon=True)
+        self._thread.start()
+
+    def wait(self, timeout: float = 30.0) -> Self:
+        """Wait until all robots listen and their poses are known.
+
+        Raises:
+            ClientError: That takes longer than ``timeout`` [s of wall time].
+        """
+        end = time.monotonic() + timeout
+        while not (self._source.known and all(p.num_connections for p in self._publishers)):
+            if time.monotonic() > end:
+                what = "cmd_vel" if self._source.known else self._source.name
+                raise ClientError(f"not all robots have a {what} within {timeout:g} s")
+            time.sleep(0.01)
+        return self
+
+    @property
+    def poses(self) -> Floats:
+        """x, y [m] and heading [rad] as last heard, shape (count, 3)."""
+        return self._source.latest()[0]
+
+    def move_l(
+        self, x: ArrayLike, y: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
+    ) -> Floats:
+        """Let robots go straight to points [m], together; see ``gazelle.navigation.Motions``.
+
+        Returns:
+            The simulated time that each took [s].
+
+        Raises:
+            ClientError: One did not get there in time, or was cancelled.
+        """
+        with self._lock:
+            self.motions.move_l(x, y, robots, timeout=timeout)
+        return self._finish(robots)
+
+    def move_c(
+        self, angle: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
+    ) -> Floats:
+        """Let robots turn by angles [rad]; as ``move_l``."""
+        with self._lock:
+            self.motions.move_c(angle, robots, timeout=timeout)
+        return self._finish(robots)
+
+    def move_ofsc(
+        self, heading: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
+    ) -> Floats:
+        """Let robots turn to absolute headings [rad]; as ``move_l``."""
+        with self._lock:
+            self.motions.move_ofsc(heading, robots, timeout=timeout)
+        return self._finish(robots)
+
+    def cancel(self, robots: ArrayLike | None = None) -> None:
+        """End motions, from any thread; who waits for one gets a ClientError."""
+        with self._lock:
+            self.motions.cancel(robots)
+
+    def close(self) -> None:
+        """Stop all robots and leave the topics."""
+        self._stop.set()
+        self._source.close()
+        self._thread.join()
+        for publisher in self._publishers:
+            publisher.publish(twist_message((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+            publisher.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _finish(self, robots: ArrayLike | None) -> Floats:
+        """Wait until these robots stand; the time they took."""
+        rows = np.arange(self.motions.count) if robots is None else np.atleast_1d(robots)
+        with self._ended:
+            last, since = self._source.count, time.monotonic()
+            while self.motions.active[rows].any() or not self._standing[rows].all():
+                self._ended.wait(0.2)
+                if self._source.count != last:
+                    last, since = self._source.count, time.monotonic()
+                if self._fault is not None:
+                    raise ClientError(f"the AGVs cannot be moved: {self._fault}") from self._fault
+                if self._stop.is_set() or time.monotonic() - since > _PATIENCE_S:
+                    raise ClientError("no poses come any more")
+            outcome, taken = self.motions.outcome[rows], self.motions.taken[rows].copy()
+        for code, text in (
+            (Outcome.TIMED_OUT, "did not get there in time"),
+            (Outcome.CANCELLED, "was cancelled"),
+        ):
+            found = np.asarray(rows)[outcome == code]
+            if len(found):
+                raise ClientError(f"the motion of AGV {', '.join(map(str, found))} {text}")
+        return taken
+
+    def _run(self) -> None:
+        """Answer new poses with commands."""
+        try:
+            while not self._stop.is_set():
+                if self._source.await_news(0.1):
+                    self._update()
+        except Exception as error:  # noqa: BLE001  # told to who waits
+            self._fault = error
+
+    def _update(self) -> None:
+        poses, now = self._source.latest()
+        with self._ended:
+            command = self.motions.update(np.nan_to_num(poses), now)
+            moving = self.motions.active
+            told = np.flatnonzero(moving | ~self._standing)
+            self._standing[:] = ~moving
+            rows = command[told].tolist()
+        for robot, (linear, angular) in zip(told.tolist(), rows, strict=True):
+            self._publishers[robot].publish(twist_message((linear, 0.0, 0.0), (0.0, 0.0, angular)))
+        with self._ended:
+            self._ended.notify_all()
+
+
+class AGV:
+    """One AGV; its moves return the simulated time they took [s]. Many may run in threads.
+
+    Args:
+        node: Publishes and listens.
+        space: Its namespace, such as ``/robot_3``.
+        poses: See ``AGVFleet``; the other arguments as well.
+        pose_name: See there.
+        service_type: See there.
+        limits: See there.
+        rate: See there.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        space: str = "",
+        *,
+        poses: str = "topic",
+        pose_name: str | None = None,
+        service_type: str = "sim_agv/AgvPose",
+        limits: Limits | None = None,
+        rate: float = 10.0,
+    ) -> None:
+        self._fleet = AGVFleet(
+            node,
+            [space],
+            poses=poses,
+            pose_name=pose_name,
+            service_type=service_type,
+            limits=limits,
+            rate=rate,
+        )
+
+    def wait(self, timeout: float = 30.0) -> Self:
+        """Wait until the robot listens and its pose is known.
+
+        Raises:
+            ClientError: That takes longer than ``timeout`` [s of wall time].
+        """
+        self._fleet.wait(timeout)
+        return self
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """x, y [m] and heading [rad] as last heard."""
+        x, y, heading = self._fleet.poses[0].tolist()
+        return x, y, heading
+
+    def move_l(self, x: float, y: float, *, timeout: float = 60.0) -> float:
+        """Go straight to a point [m]; returns the simulated time that took [s].
+
+        Raises:
+            ClientError: It did not get there in time, or was cancelled.
+        """
+        return float(self._fleet.move_l(x, y, timeout=timeout)[0])
+
+    def move_c(self, angle: float, *, timeout: float = 60.0) -> float:
+        """Turn by an angle [rad]; as ``move_l``."""
+        return float(self._fleet.move_c(angle, timeout=timeout)[0])
+
+    def move_ofsc(self, heading: float, *, timeout: float = 60.0) -> float:
+        """Turn to an absolute heading [rad]; as ``move_l``."""
+        return float(self._fleet.move_ofsc(heading, timeout=timeout)[0])
+
+    def cancel(self) -> None:
+        """End the motion, from any thread; who waits for it gets a ClientError."""
+        self._fleet.cancel()
+
+    def close(self) -> None:
+        """Stop and leave the topics."""
+        self._fleet.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
