@@ -18,7 +18,8 @@ def test_everything_named_is_a_file():
 def test_worlds_by_name():
     stages = {f"turtlebot3_stage_{number}" for number in (1, 2, 3, 4)}
     gazebos = {"empty", "shapes", "rubble", "mud"}
-    assert stages | gazebos | {"turtlebot3_world", "furnished_room"} == set(assets.worlds())
+    indoors = {"furnished_room", "office", "turtlebot3_world"}
+    assert stages | gazebos | indoors == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 
 
@@ -42,7 +43,12 @@ def test_models_are_described():
         assert len(config.findtext("description")) > 10
 
 
-@pytest.mark.parametrize("package", ["turtlebot3_description", "turtlebot3_gazebo"])
+PACKAGES = [
+    f"{robot}_{kind}" for robot in ("courier", "turtlebot3") for kind in ("description", "gazebo")
+]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
 def test_packages_carry_their_names(package):
     manifest = etree.parse(str(assets.root() / package / "package.xml")).getroot()
     assert manifest.findtext("name") == package
