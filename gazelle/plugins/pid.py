@@ -1,0 +1,94 @@
+"""PID controllers as Gazebo has them, in every world.
+
+The output is ``-(p e + i sum + d de/dt)`` of the error ``e = measured - wanted``, each sum and
+the output held within limits; limits whose upper end is below the lower do not hold.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Gains:
+    """Gains and limits of a PID controller.
+
+    Attributes:
+        p: Proportional.
+        i: Integral.
+        d: Derivative.
+        i_max: Largest integral term.
+        i_min: Smallest integral term.
+        most: Largest output.
+        least: Smallest output.
+    """
+
+    p: float = 0.0
+    i: float = 0.0
+    d: float = 0.0
+    i_max: float = math.inf
+    i_min: float = -math.inf
+    most: float = math.inf
+    least: float = -math.inf
+
+    @classmethod
+    def read(cls, parameters: Parameters | None) -> Gains:
+        """From tags ``p``, ``i``, ``d``, ``i_max``, ``i_min``, ``cmd_max``, ``cmd_min``; 0 each."""
+        if parameters is None:
+            return cls(most=0.0, least=0.0)
+        tags = ("p", "i", "d", "i_max", "i_min", "cmd_max", "cmd_min")
+        return cls(*(parameters.get(tag, 0.0) for tag in tags))
+
+
+class Pid:
+    """One controller in every world.
+
+    Args:
+        gains: Of all worlds.
+        nworld: Number of worlds.
+    """
+
+    def __init__(self, gains: Gains, nworld: int) -> None:
+        self.gains = gains
+        self._sum: Floats = np.zeros(nworld)
+        self._last: Floats = np.zeros(nworld)
+
+    def update(self, error: Floats, interval: float) -> Floats:
+        """The output, from measured less wanted, both of shape (nworld,)."""
+        gains = self.gains
+        if interval <= 0.0:
+            return np.zeros_like(error)
+        self._sum = self._sum + interval * error
+        integral = gains.i * self._sum
+        if gains.i_max >= gains.i_min and gains.i != 0.0:
+            integral = np.clip(integral, gains.i_min, gains.i_max)
+            self._sum = integral / gains.i
+        change = (error - self._last) / interval
+        self._last = error
+        output = -gains.p * error - integral - gains.d * change
+        if gains.most >= gains.least:
+            output = np.clip(output, gains.least, gains.most)
+        return output
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Forget sums and errors."""
+        rows = slice(None) if worlds is None else worlds
+        self._sum[rows], self._last[rows] = 0.0, 0.0
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes."""
+        return {"sum": self._sum.copy(), "last": self._last.copy()}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._sum[:], self._last[:] = state["sum"], state["last"]
