@@ -68,12 +68,12 @@ class TopicPoses(PoseSource):
 
     def __init__(self, node: Node, spaces: Sequence[str], name: str) -> None:
         super().__init__(len(spaces), name)
+        self._stamps = np.zeros(len(spaces))
         kind = load_message("nav_msgs/Odometry")
         self._subscribers = [
             node.subscribe(f"{space}/{name}", kind, partial(self._receive, index), 1)
             for index, space in enumerate(spaces)
         ]
-        self._stamps = np.zeros(len(spaces))
 
     def _receive(self, index: int, message: Any) -> None:
         place, turned = message.pose.pose.position, message.pose.pose.orientation

@@ -33,14 +33,17 @@ def running(tmp_path):
     file.write_text(WORLD)
     world = load(file)
     assert isinstance(world, World)
-    with Master(port=0) as master, StageSimulation(world) as simulation:
-        with serve_stage(simulation, master.uri, rate=20.0) as server:
-            thread = threading.Thread(target=server.run, args=(1e9,))
-            thread.start()
-            with Node("client", master_uri=master.uri) as node:
-                yield simulation, node
-            server.stop()
-            thread.join()
+    with (
+        Master(port=0) as master,
+        StageSimulation(world) as simulation,
+        serve_stage(simulation, master.uri, rate=20.0) as server,
+    ):
+        thread = threading.Thread(target=server.run, args=(1e9,))
+        thread.start()
+        with Node("client", master_uri=master.uri) as node:
+            yield simulation, node
+        server.stop()
+        thread.join()
 
 
 @pytest.mark.parametrize("poses", ["topic", "service"])
