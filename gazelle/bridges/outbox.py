@@ -7,12 +7,12 @@ import time
 from gazelle.ros import Publisher
 
 # Longest that a message waits for others, in wall time [s], and how many go at once.
-_PATIENCE_S = 0.001
+_PATIENCE_S = 0.002
 _MOST = 64
 
 
 class Outbox:
-    """Collects serialised messages of one topic for a millisecond of wall time at most.
+    """Collects serialised messages of one topic for two milliseconds of wall time at most.
 
     In real time every message goes out at once. ``flush`` must be called when no more come.
 

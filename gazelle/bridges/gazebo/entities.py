@@ -66,7 +66,8 @@ class Entities:
 
     def __init__(self, simulation: Simulation, world: int) -> None:
         self.simulation = simulation
-        self.worlds = np.array([world])
+        # None, for all, is quicker than a list of the only one there is.
+        self.worlds = None if simulation.nworld == 1 else np.array([world])
 
     def model(self, name: str) -> Robot | None:
         """A model."""
