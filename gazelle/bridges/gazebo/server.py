@@ -16,8 +16,14 @@ from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
 
 # Options that name a value, and those that do not, which change nothing here.
-_PASSED_OVER = ("-e", "--physics", "-s", "--server-plugin", "-g", "--gui-plugin", "--record_path")
-_IGNORED = ("-r", "--record", "--verbose", "--lockstep", "-q", "--pose")
+_PASSED_OVER = (
+    *("-e", "--physics", "-s", "--server-plugin", "-g", "--gui-plugin", "-o", "--profile"),
+    *("--record_path", "--record_encoding", "--record_period", "--record_filter"),
+)
+_IGNORED = (
+    *("-r", "--record", "--record_resources", "--verbose", "--lockstep", "--minimal_comms"),
+    *("-q", "--quiet", "--pose"),
+)
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import functools
 import struct
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.bridges.gazebo.context import Context
-from gazelle.bridges.gazebo.entities import State
 from gazelle.bridges.outbox import Outbox
+from gazelle.engines import Motion, Placement
 from gazelle.ros import load_message
-from gazelle.simulation import Plugin
+from gazelle.simulation import LinkHandle, Plugin, Robot
+
+Worlds = NDArray[np.intp]
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0
@@ -85,6 +87,11 @@ class StatesBeat(Plugin):
             "~link_states", load_message("gazebo_msgs/LinkStates"), 10
         )
         self._outboxes = Outbox(self._models), Outbox(self._links)
+        self._tables: tuple[Table, Table] | None = None
+        events = context.simulation.events
+        self._forgetting = [
+            event.subscribe(self._forget) for event in (events.spawned, events.deleted)
+        ]
 
     @property
     def active(self) -> bool:
@@ -97,16 +104,11 @@ class StatesBeat(Plugin):
 
     def publish(self) -> None:
         """Tell where everything is."""
-        entities = self._context.entities
-        if self._models.has_listener:
-            robots = self._context.simulation.robots
-            states = [entities.model_state(robot) for robot in robots.values()]
-            self._outboxes[0].add(packed(tuple(robots), states))
-        if self._links.has_listener:
-            links = entities.links()
-            names = tuple(link.name for link in links)
-            states = [entities.link_state(link) for link in links]
-            self._outboxes[1].add(packed(names, states))
+        tables = self._tables or self._make_tables()
+        publishers = (self._models, self._links)
+        for publisher, table, outbox in zip(publishers, tables, self._outboxes, strict=True):
+            if publisher.has_listener:
+                outbox.add(table.packed())
 
     def flush(self) -> None:
         """Send what waits to be sent."""
@@ -115,25 +117,61 @@ class StatesBeat(Plugin):
 
     def close(self) -> None:
         """Stop."""
+        for forget in self._forgetting:
+            forget()
         self._models.close()
         self._links.close()
 
+    def _forget(self, _robot: Robot) -> None:
+        """There are other models now."""
+        self._tables = None
 
-def packed(names: tuple[str, ...], states: Sequence[State]) -> bytes:
-    """A ``ModelStates`` or ``LinkStates``, serialised: it goes out at every step."""
-    count = _COUNT.pack(len(states))
-    poses, twists = np.empty((len(states), 7), "<f8"), np.empty((len(states), 6), "<f8")
-    for pose, twist, state in zip(poses, twists, states, strict=True):
-        pose[:3], pose[3:] = state.position, state.quaternion
-        twist[:3], twist[3:] = state.linear, state.angular
-    return b"".join((_names(names), count, poses.tobytes(), count, twists.tobytes()))
+    def _make_tables(self) -> tuple[Table, Table]:
+        entities = self._context.entities
+        robots = self._context.simulation.robots
+        self._tables = (
+            Table(dict(robots), entities.worlds),
+            Table({link.name: link for link in entities.links()}, entities.worlds),
+        )
+        return self._tables
 
 
-@functools.lru_cache(maxsize=8)
-def _names(names: tuple[str, ...]) -> bytes:
+class Table:
+    """A ``ModelStates`` or ``LinkStates``, serialised: it goes out at every step.
+
+    Args:
+        rows: Models or links by name.
+        worlds: The one world; None if there is only one.
+    """
+
+    def __init__(self, rows: Mapping[str, Robot | LinkHandle], worlds: Worlds | None) -> None:
+        self._rows = tuple(rows.values())
+        self._worlds = worlds
+        count = _COUNT.pack(len(rows))
+        self._head, self._count = _strings(rows) + count, count
+        self._poses = np.empty((len(rows), 7), "<f8")
+        self._twists = np.empty((len(rows), 6), "<f8")
+        self._known: list[tuple[Placement | None, Motion | None]] = [(None, None)] * len(rows)
+
+    def packed(self) -> bytes:
+        """Where all are and how they move, now."""
+        for i, row in enumerate(self._rows):
+            place, motion = row.placement(self._worlds), row.motion(self._worlds)
+            known = self._known[i]
+            # What never moves answers with the very same objects.
+            if place is not known[0]:
+                self._poses[i, :3], self._poses[i, 3:] = place.position[0], place.quaternion[0]
+            if motion is not known[1]:
+                self._twists[i, :3], self._twists[i, 3:] = motion.linear[0], motion.angular[0]
+            self._known[i] = (place, motion)
+        parts = (self._head, self._poses.tobytes(), self._count, self._twists.tobytes())
+        return b"".join(parts)
+
+
+def _strings(names: Iterable[str]) -> bytes:
     """An array of strings, serialised."""
     encoded = [name.encode() for name in names]
-    return b"".join([_COUNT.pack(len(names)), *(_COUNT.pack(len(e)) + e for e in encoded)])
+    return b"".join([_COUNT.pack(len(encoded)), *(_COUNT.pack(len(e)) + e for e in encoded)])
 
 
 class PerformanceBeat(Plugin):
