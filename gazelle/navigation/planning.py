@@ -15,7 +15,7 @@ Mask = NDArray[np.bool_]
 # Prices of a cell: near an obstacle a way of twice or four times the length is preferred.
 _NEAR = ((0.1, 4.0), (0.25, 2.0))
 _TIGHT = 20.0  # of ground that is too near to an obstacle, but where the base stands already
-_GOAL_WITHIN = 0.5  # a goal in an obstacle becomes the nearest free place so near to it [m]
+_GOAL_WITHIN = 0.4  # beyond its room; else a goal in an obstacle has no way to it [m]
 
 
 def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -> Floats:
@@ -33,14 +33,14 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
     grid.include(np.stack((start, goal)))
     prices = _prices(grid, start, limits)
     first = _cell(grid, start)
-    last = _nearest_open(grid, prices, goal)
+    last = _nearest_open(grid, prices, goal, limits)
     way = None if last is None else find_way(prices, first, last)
     if way is None:
         return np.zeros((0, 2))
-    points = _smoothed(grid.centre_of(way))
+    points = grid.centre_of(way)
     if last == _cell(grid, goal):
         points[-1] = goal
-    return points
+    return _smoothed(points)
 
 
 def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:
@@ -76,12 +76,16 @@ def _cell(grid: OccupancyGrid, place: Floats) -> Cell:
     return column, row
 
 
-def _nearest_open(grid: OccupancyGrid, prices: Floats, goal: Floats) -> Cell | None:
+def _nearest_open(
+    grid: OccupancyGrid, prices: Floats, goal: Floats, limits: BaseLimits
+) -> Cell | None:
     """The cell of the goal, or the open one nearest to it."""
     wished = _cell(grid, goal)
-    if np.isfinite(prices[wished]):
+    open_to = prices < _TIGHT
+    if open_to[wished]:
         return wished
-    near = np.argwhere(np.isfinite(prices) & _around(grid, goal, _GOAL_WITHIN))
+    within = limits.radius + limits.clearance + _GOAL_WITHIN
+    near = np.argwhere(open_to & _around(grid, goal, within))
     if not len(near):
         return None
     distance = np.hypot(*(grid.centre_of(near) - goal).T)

@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 
 _HORIZON = 6.0  # what is farther away is not put on the map [m]
 _PLAN_EVERY = 0.5  # least time between two plans [s]
+_WAIT = 2.0  # the same where there was no way [s]
 _STRAY = 0.35  # a base farther off its path gets a new one [m]
 _STUCK_AFTER = 4.0  # without getting anywhere, it looks around [s]
 _LOOK_AROUND = 2.0  # [s]
@@ -147,18 +148,21 @@ class GoalSeeker:
         return math.dist(self.path[-1], self._goal[:2]) > 1e-6
 
     def _finish(self, pose: Pose2) -> tuple[float, float]:
-        """Turn to the heading of the goal, if it has one."""
+        """Turn to the heading of the goal, if it has one, and stand still."""
         yaw = math.nan if self._goal is None else float(self._goal[2])
         self._turning = True
         if not math.isnan(yaw) and abs(wrapped(yaw - pose[2])) > self._yaw_tolerance:
             return 0.0, turn_to(yaw, pose, self.limits)
+        if any(self._velocity):
+            return 0.0, 0.0
         self.stop()
         self.arrived = True
         return 0.0, 0.0
 
     def _plan(self, pose: Pose2, time: float, *, anew: bool = False) -> None:
         """Plan if there is no path, or if it is no good any more, but not too often."""
-        if self._goal is None or time - self._planned_at < _PLAN_EVERY:
+        pause = _PLAN_EVERY if len(self.path) else _WAIT
+        if self._goal is None or time - self._planned_at < pause:
             return
         here = np.array(pose[:2])
         if len(self.path) and not anew:
@@ -178,7 +182,7 @@ class GoalSeeker:
             self._best, self._best_at = left, time
         waiting = time - self._best_at
         if waiting > _STUCK_AFTER + _LOOK_AROUND:
-            self.path = np.zeros((0, 2))
+            self.path, self._planned_at = np.zeros((0, 2)), -math.inf
         return waiting > _STUCK_AFTER
 
     def _look(self, scan: LaserScan) -> None:
