@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import argparse
 import logging
-import os
 import re
 import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.ros import Node, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.errors import RosTimeoutError
 from gazelle.ros.signals import stopping
 
-# How long Gazebo's services are waited for, in wall time [s].
-_PATIENCE_S = 30.0
+# After this wall time without Gazebo's services a word is said; they are waited for all the same [s].
+_PATIENCE_S = 10.0
 _POLL_S = 0.05
+_MESH = re.compile(r"""(<mesh\b[^>]*\bfilename\s*=\s*["'])package://""")
+_FROM_DATABASE = """<sdf version="1.6"><world name="default">
+<include><uri>model://{}</uri></include></world></sdf>"""
 _log = logging.getLogger("gazelle.clients")
 
 
@@ -30,20 +34,29 @@ def main(arguments: Sequence[str]) -> int:
     options = _options(found.plain)
     with found.start() as node:
         spawner = _Spawner(node, options)
-        if not spawner.spawn():
-            return 1
-        if options.bond:
-            _wait_for_the_end(node)
-            spawner.delete()
+        try:
+            if not spawner.spawn():
+                return 1
+            if options.bond:
+                _wait_for_the_end(node)
+        finally:
+            # Ctrl-C may come at any time from the call on.
+            if options.bond and spawner.called:
+                spawner.delete()
     return 0
 
 
 class _Spawner:
-    """One run of the program."""
+    """One run of the program.
+
+    Attributes:
+        called: Whether the model may be there because of this.
+    """
 
     def __init__(self, node: Node, options: argparse.Namespace) -> None:
         self._node = node
         self._options = options
+        self.called = False
         self._gazebo = "/" + options.gazebo_namespace.strip("/")
 
     def spawn(self) -> bool:
@@ -53,8 +66,11 @@ class _Spawner:
         if options.wait:
             self._wait_for(options.wait)
         kind = "urdf" if options.urdf else "sdf"
+        service = f"spawn_{kind}_model"
+        self._wait_for_service(f"{self._gazebo}/{service}")
+        self.called = True
         answer = self._call(
-            f"spawn_{kind}_model",
+            service,
             "SpawnModel",
             model_name=options.model,
             model_xml=text,
@@ -66,6 +82,7 @@ class _Spawner:
         )
         _log.info("%s", answer.status_message)
         if not answer.success:
+            self.called = False
             sys.stderr.write(f"{answer.status_message}\n")
             return False
         return self._configure() and self._unpause()
@@ -106,9 +123,17 @@ class _Spawner:
     def _call(self, name: str, kind: str, package: str = "gazebo_msgs", **fields: Any) -> Any:
         service = load_service(f"{package}/{kind}")
         full = f"{self._gazebo}/{name}"
-        self._node.wait_for_service(full, timeout=_PATIENCE_S)
+        self._wait_for_service(full)
         request = service._request_class(**fields)  # noqa: SLF001  # genpy's name
         return self._node.client(full, service).call(request)
+
+    def _wait_for_service(self, name: str) -> None:
+        """Until Gazebo is there, however long it takes."""
+        try:
+            self._node.wait_for_service(name, timeout=_PATIENCE_S)
+        except RosTimeoutError:
+            sys.stderr.write(f"spawn_model: waiting for the service {name}\n")
+            self._node.wait_for_service(name)
 
 
 def _options(arguments: Sequence[str]) -> argparse.Namespace:
@@ -121,7 +146,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("-file", metavar="FILE")
     source.add_argument("-param", metavar="NAME", help="a parameter holds the description")
-    source.add_argument("-database", metavar="MODEL", help="a model by its name")
+    source.add_argument("-database", metavar="MODEL", help="a model that Gazebo finds by its name")
     source.add_argument("-stdin", action="store_true")
     parser.add_argument("-model", metavar="NAME", required=True)
     parser.add_argument("-reference_frame", metavar="NAME", default="")
@@ -135,14 +160,20 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         "-J", dest="joints", nargs=2, action="append", default=[], metavar=("JOINT", "POSITION")
     )
     parser.add_argument(
-        "-package_to_model", action="store_true", help="write package:// as model://"
+        "-package_to_model",
+        action="store_true",
+        help="look for meshes at model:// instead of package://",
     )
     parser.add_argument("-b", dest="bond", action="store_true", help="delete it at the end")
     return parser.parse_args(list(arguments))
 
 
 def _read(node: Node, options: argparse.Namespace) -> str:
-    """The description; Gazebo knows nothing of ``package://`` in SDF."""
+    """The description.
+
+    Raises:
+        RosError: There is none, or it is empty.
+    """
     if options.param:
         found = node.get_param(options.param, None)
         if not isinstance(found, str):
@@ -150,11 +181,13 @@ def _read(node: Node, options: argparse.Namespace) -> str:
         text = found
     elif options.stdin:
         text = sys.stdin.read()
+    elif options.database:
+        text = _FROM_DATABASE.format(escape(options.database))
     else:
-        text = _read_file(options.file or _in_database(options.database))
-    if options.package_to_model:
-        text = re.sub(r"package://", "model://", text)
-    return text
+        text = _read_file(options.file)
+    if not text.strip():
+        raise RosError("the description is empty", file=options.file)
+    return _MESH.sub(r"\1model://", text) if options.package_to_model else text
 
 
 def _read_file(path: str) -> str:
@@ -162,18 +195,6 @@ def _read_file(path: str) -> str:
         return Path(path).expanduser().read_text(encoding="utf-8")
     except OSError as error:
         raise RosError(f"the model cannot be read: {error.strerror}", file=path) from None
-
-
-def _in_database(model: str) -> str:
-    """The file of a model in one of the folders of ``GAZEBO_MODEL_PATH``."""
-    folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
-    for folder in filter(None, folders):
-        file = Path(folder) / model / "model.sdf"
-        if file.is_file():
-            return str(file)
-    raise RosError(
-        f"there is no model '{model}'", hint=f"looked in GAZEBO_MODEL_PATH: {':'.join(folders)}"
-    )
 
 
 def _wait_for_the_end(node: Node) -> None:
