@@ -1,0 +1,222 @@
+"""Worlds of the planar engine seen from above: walls, robots, scans and trails."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from gazelle.engines.planar import Fleet, PlanarEngine
+from gazelle.engines.planar import columns as c
+from gazelle.errors import Error
+from gazelle.simulation import Simulation
+from gazelle.simulation.stage import StageSimulation
+from gazelle.viewer.plan_scans import PictureScanner, scanners_of
+
+Floats = NDArray[np.float64]
+Picture = NDArray[np.uint8]
+Colour = tuple[int, int, int]
+
+_PAPER: Colour = (250, 250, 248)
+_WALL: Colour = (60, 60, 66)
+_SEEN: Colour = (222, 236, 250)
+_HIT: Colour = (206, 62, 52)
+_BODIES: tuple[Colour, ...] = (
+    (55, 110, 175),
+    (225, 130, 40),
+    (75, 150, 95),
+    (150, 90, 165),
+    (60, 160, 170),
+)
+_FINER = 2  # drawn so many times larger, and made smaller: smooth edges
+_FEW = 8  # robots up to which what they see is filled
+
+
+class TopView:
+    """Draws a world of the planar engine from above; needs no screen.
+
+    Args:
+        simulation: A Stage world, or any with ``engine="planar"``.
+        world: Which world of a batch.
+        size: Width and height of pictures [pixel].
+        scans: Whether to show what rangers and lidars meet.
+        trails: Whether to show where bodies have been at earlier pictures.
+        extent: Least x, least y, greatest x and greatest y that are shown [m]; all by default.
+
+    Raises:
+        Error: The simulation is not in the plane, or there is no such world.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation | StageSimulation,
+        *,
+        world: int = 0,
+        size: tuple[int, int] = (960, 720),
+        scans: bool = True,
+        trails: bool = True,
+        extent: tuple[float, float, float, float] | None = None,
+    ) -> None:
+        self._simulation, self._world, self._size = simulation, world, size
+        self._scans, self._trails = scans, trails
+        fleet = fleet_of(simulation)
+        if not 0 <= world < fleet.nworld:
+            raise Error(f"there is no world {world}; there are {fleet.nworld}")
+        if min(size) < 1:
+            raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
+        self._frame = _Frame(extent or _extent(fleet, world), size)
+        self._been: list[Floats] = []
+        self._scanners: tuple[Fleet | None, list[PictureScanner]] = (None, [])
+
+    def look(self) -> Picture:
+        """The world now, shape (height, width, 3); goes on with the trails."""
+        fleet = fleet_of(self._simulation)
+        poses = fleet.pose[self._world].copy()
+        if self._been and len(self._been[-1]) != len(poses):
+            self._been.clear()  # models came or went
+        self._been.append(poses)
+        width, height = self._size
+        image = Image.new("RGB", (width * _FINER, height * _FINER), _PAPER)
+        draw = ImageDraw.Draw(image)
+        if self._scans:
+            self._draw_scans(draw, fleet)
+        self._draw_statics(draw, fleet.scene.table.rows)
+        if self._trails:
+            self._draw_trails(draw)
+        for body in range(fleet.nbody):
+            self._draw_body(draw, fleet, body, poses[body])
+        return np.asarray(image.resize(self._size, Image.Resampling.BOX), np.uint8)
+
+    def forget(self) -> None:
+        """Begin the trails anew."""
+        self._been.clear()
+
+    def _draw_scans(self, draw: ImageDraw.ImageDraw, fleet: Fleet) -> None:
+        if self._scanners[0] is not fleet:
+            self._scanners = fleet, scanners_of(self._simulation, fleet)
+        crowd = fleet.nbody > _FEW
+        for scanner in self._scanners[1]:
+            eyes, ends, met = rays_of(scanner, self._world)
+            for eye, beams, hits in zip(eyes, ends, met, strict=True):
+                if not crowd:
+                    draw.polygon(self._frame.path([eye, *beams]), fill=_SEEN)
+                for x, y in self._frame.path(beams[hits]):
+                    draw.rectangle((x - 1, y - 1, x + 1, y + 1), fill=_HIT)
+
+    def _draw_statics(self, draw: ImageDraw.ImageDraw, rows: Floats) -> None:
+        circle = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
+        starts = self._frame.path(rows[~circle][:, [c.X0, c.Y0]])
+        ends = self._frame.path(rows[~circle][:, [c.X1, c.Y1]])
+        for start, end in zip(starts, ends, strict=True):
+            draw.line((start, end), fill=_WALL, width=2 * _FINER)
+        for x, y, radius in rows[circle][:, [c.X0, c.Y0, c.X1]]:
+            draw.ellipse(self._frame.box(x, y, radius), outline=_WALL, width=2 * _FINER)
+
+    def _draw_trails(self, draw: ImageDraw.ImageDraw) -> None:
+        if len(self._been) < 2:
+            return
+        for body, way in enumerate(np.moveaxis(np.array(self._been), 1, 0)):
+            if np.ptp(way[:, :2], axis=0).any():
+                draw.line(self._frame.path(way[:, :2]), fill=_pale(_colour(body)), width=_FINER)
+
+    def _draw_body(self, draw: ImageDraw.ImageDraw, fleet: Fleet, body: int, pose: Floats) -> None:
+        kind, colour = fleet.kinds[body], _colour(body)
+        cos, sin = np.cos(pose[2]), np.sin(pose[2])
+        turn = np.array([[cos, sin], [-sin, cos]])
+        for piece in fleet.pieces[int(kind[c.FIRST_PIECE]) : int(kind[c.LAST_PIECE])]:
+            if piece[c.COUNT] == 0:
+                x, y = piece[[c.CENTRE_X, c.CENTRE_Y]] @ turn + pose[:2]
+                draw.ellipse(self._frame.box(x, y, piece[c.BOUND]), fill=colour)
+                continue
+            first = int(piece[c.FIRST])
+            corners = fleet.corners[first : first + int(piece[c.COUNT])]
+            draw.polygon(self._frame.path(corners @ turn + pose[:2]), fill=colour)
+        ahead = np.array([pose[:2], [kind[c.RADIUS], 0.0] @ turn + pose[:2]])
+        draw.line(self._frame.path(ahead), fill=_PAPER, width=_FINER)
+
+
+class _Frame:
+    """From metres to pixels of the large picture."""
+
+    def __init__(self, extent: tuple[float, float, float, float], size: tuple[int, int]) -> None:
+        low, high = np.array(extent[:2]), np.array(extent[2:])
+        if not (high > low).all():
+            raise Error(f"a picture needs a part of the world with a size, not {extent}")
+        pixels = np.array(size) * _FINER
+        self._scale = float((pixels / (high - low)).min())
+        self._middle, self._centre = (low + high) / 2.0, pixels / 2.0
+
+    def path(self, points: Iterable[Any] | Floats) -> list[tuple[float, float]]:
+        """Points [m] as pixels."""
+        array = np.asarray(points, np.float64).reshape(-1, 2)
+        x, y = ((array - self._middle) * self._scale * [1.0, -1.0] + self._centre).T
+        return list(zip(x.tolist(), y.tolist(), strict=True))
+
+    def box(self, x: float, y: float, radius: float) -> tuple[float, float, float, float]:
+        """The square around a disc."""
+        ((left, top),) = self.path([[x - radius, y + radius]])
+        ((right, bottom),) = self.path([[x + radius, y - radius]])
+        return left, top, right, bottom
+
+
+def fleet_of(simulation: Simulation | StageSimulation) -> Fleet:
+    """The bodies in the plane.
+
+    Raises:
+        Error: The simulation is not in the plane.
+    """
+    if isinstance(simulation, StageSimulation):
+        return simulation.fleet
+    if isinstance(simulation.engine, PlanarEngine):
+        return simulation.engine.fleet
+    raise Error(
+        "only worlds in the plane have a top view",
+        hint='use engine="planar", or take_picture() for worlds in space',
+    )
+
+
+def rays_of(scanner: PictureScanner, world: int) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Where sensors of one world are, where their beams end, and which of these met something.
+
+    Shapes (sensors, 2), (sensors, beams, 2) and (sensors, beams), all in the world's frame [m].
+    """
+    ranges = scanner.scan(np.array([world]))[0]
+    fleet = scanner.fleet
+    eyes = np.array([[m.x, m.y, m.yaw, m.body] for m in scanner.mounts]).reshape(-1, 4)
+    pose = fleet.pose[world, eyes[:, 3].astype(int)]
+    cos, sin = np.cos(pose[:, 2]), np.sin(pose[:, 2])
+    x = pose[:, 0] + cos * eyes[:, 0] - sin * eyes[:, 1]
+    y = pose[:, 1] + sin * eyes[:, 0] + cos * eyes[:, 1]
+    angles = (pose[:, 2] + eyes[:, 2])[:, None] + scanner.fan.angles
+    ends = np.stack(
+        (x[:, None] + ranges * np.cos(angles), y[:, None] + ranges * np.sin(angles)), axis=2
+    )
+    return np.stack((x, y), axis=1), ends, ranges < scanner.fan.reach
+
+
+def _extent(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
+    """All that stands or drives, with some room around."""
+    rows = fleet.scene.table.rows
+    circle = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
+    radius = np.where(circle, rows[:, c.X1], 0.0)[:, None]
+    start = rows[:, [c.X0, c.Y0]]
+    end = np.where(circle[:, None], start, rows[:, [c.X1, c.Y1]])
+    poses, wide = fleet.pose[world, :, :2], fleet.widest
+    points = np.vstack((start - radius, start + radius, end, poses - wide, poses + wide))
+    if not len(points):
+        return (-1.0, -1.0, 1.0, 1.0)
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = 0.03 * float((high - low).max()) + 1e-3
+    return (*(low - margin).tolist(), *(high + margin).tolist())
+
+
+def _colour(body: int) -> Colour:
+    return _BODIES[body % len(_BODIES)]
+
+
+def _pale(colour: Colour) -> Colour:
+    red, green, blue = ((part + 255) // 2 for part in colour)
+    return red, green, blue

@@ -1,0 +1,104 @@
+"""Worlds in the plane are drawn from above, without a screen."""
+
+import shutil
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import gazelle
+from gazelle import assets
+from gazelle.errors import Error
+from gazelle.simulation.stage import StageSimulation
+from gazelle.viewer import TopView, film_plan, take_picture, take_plan
+
+ROOM = """
+define robot position ( size [.4 .4 .4] drive "diff"
+  ranger ( sensor ( range [0 4] fov 90 samples 46 ) ) )
+model ( size [4 .2 1] pose [0 1.5 0 0] )
+model ( size [4 .2 1] pose [0 -1.5 0 0] )
+robot ( name "r" pose [-1 0 0 0] )
+"""
+
+
+@pytest.fixture
+def room(tmp_path):
+    file = tmp_path / "room.world"
+    file.write_text(ROOM)
+    with StageSimulation(file) as simulation:
+        yield simulation
+
+
+def test_a_picture_of_a_stage_world_shows_its_robot_and_what_that_sees(room, tmp_path):
+    picture = take_plan(room, tmp_path / "room.png", size=(320, 240))
+    assert picture.shape == (240, 320, 3)
+    assert (np.asarray(Image.open(tmp_path / "room.png")) == picture).all()
+    blind = take_plan(room, tmp_path / "blind.png", size=(320, 240), scans=False)
+    assert (blind != picture).any()
+    blue = (blind[..., 2] > 150) & (blind[..., 0] < 90)
+    rows, columns = np.nonzero(blue)
+    assert abs(rows.mean() - 120) < 3  # the robot is in the middle, on the left
+    assert columns.mean() < 120
+
+
+def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
+    view = TopView(room, size=(320, 240), scans=False)
+    before = view.look()
+    room.commands[0, 0, 0] = 1.0
+    room.run(2.0)
+    with_trail = view.look()
+    view.forget()
+    without = view.look()
+    assert (before != without).any()
+    changed = (with_trail != without).any(axis=2)
+    columns = np.nonzero(changed)[1]
+    assert columns.size
+    assert columns.max() - columns.min() > 40
+
+
+def test_a_film_has_as_many_pictures_as_asked_for(room, tmp_path):
+    room.commands[0, 0, 0] = 0.5
+    assert film_plan(room, tmp_path / "room.gif", 2.0, rate=5.0, speed=2.0) == 6
+    assert room.time == pytest.approx(2.0)
+    with Image.open(tmp_path / "room.gif") as film:
+        assert film.n_frames == 6
+        assert film.info["duration"] == 200
+
+
+def test_without_ffmpeg_an_mp4_is_refused_clearly(room, tmp_path, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda _program: None)
+    with pytest.raises(Error, match="ffmpeg") as caught:
+        film_plan(room, tmp_path / "room.mp4", 1.0)
+    assert ".gif" in caught.value.hint
+
+
+def test_worlds_of_the_planar_engine_are_drawn_too_and_keep_their_random_numbers():
+    with gazelle.Simulation("turtlebot3_stage_4", engine="planar", nworld=2) as simulation:
+        robot = simulation.spawn("turtlebot3_burger", pose=gazelle.Pose(x=-0.7))
+        before = simulation.snapshot()
+        picture = TopView(simulation, world=1, size=(200, 200)).look()
+        assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 5
+        assert simulation.snapshot() == before
+        assert robot.name in simulation.robots
+
+
+def test_the_bundled_fleet_is_drawn():
+    with StageSimulation(assets.world("fleet")) as simulation:
+        picture = TopView(simulation, size=(480, 320)).look()
+    assert (picture[..., 0] > 200).any()
+
+
+def test_what_cannot_be_drawn_is_refused(room, tmp_path):
+    with gazelle.Simulation("empty") as simulation, pytest.raises(Error, match="in the plane"):
+        TopView(simulation)
+    for attempt in (
+        lambda: take_plan(room, tmp_path / "room.gif"),
+        lambda: film_plan(room, tmp_path / "room.png", 1.0),
+        lambda: film_plan(room, tmp_path / "room.gif", 0.0),
+        lambda: TopView(room, world=1),
+        lambda: TopView(room, size=(0, 10)),
+        lambda: TopView(room, extent=(1.0, 0.0, 0.0, 1.0)),
+    ):
+        with pytest.raises(Error):
+            attempt()
+    assert callable(take_picture)
