@@ -33,7 +33,7 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
     grid.include(np.stack((start, goal)))
     prices = _prices(grid, start, limits)
     first = _cell(grid, start)
-    last = _nearest_open(grid, prices, goal, limits)
+    last = _nearest_open(grid, prices, start, goal, limits)
     way = None if last is None else find_way(prices, first, last)
     if way is None:
         return np.zeros((0, 2))
@@ -77,9 +77,9 @@ def _cell(grid: OccupancyGrid, place: Floats) -> Cell:
 
 
 def _nearest_open(
-    grid: OccupancyGrid, prices: Floats, goal: Floats, limits: BaseLimits
+    grid: OccupancyGrid, prices: Floats, start: Floats, goal: Floats, limits: BaseLimits
 ) -> Cell | None:
-    """The cell of the goal, or the open one nearest to it."""
+    """The cell of the goal, or an open one near to it."""
     wished = _cell(grid, goal)
     open_to = prices < _TIGHT
     if open_to[wished]:
@@ -88,7 +88,9 @@ def _nearest_open(
     near = np.argwhere(open_to & _around(grid, goal, within))
     if not len(near):
         return None
-    distance = np.hypot(*(grid.centre_of(near) - goal).T)
+    # Of places as near to the goal the one on this side is taken, lest it circles the goal.
+    places = grid.centre_of(near)
+    distance = 3.0 * np.hypot(*(places - goal).T) + np.hypot(*(places - start).T)
     column, row = near[int(distance.argmin())].tolist()
     return column, row
 
