@@ -34,6 +34,8 @@ from gazelle.simulation.values import (
     MagneticValue,
     MotorPower,
     PointValue,
+    Transform,
+    Transforms,
     Trigger,
     UnsureImu,
     VectorValue,
@@ -150,3 +152,21 @@ add_encoder(CliffValue, Encoder("kobuki_msgs/CliffEvent", _cliff))
 add_encoder(BumperValue, Encoder("kobuki_msgs/BumperEvent", _bump))
 add_decoder(MotorPower, Decoder("kobuki_msgs/MotorPower", lambda m: MotorPower(bool(m.state))))
 add_decoder(Trigger, Decoder("std_msgs/Empty", lambda _message: Trigger()))
+
+
+def _read_transforms(message: Any) -> Transforms:
+    """Stamps differ in one message; those who take frames from it take the latest."""
+    frames = tuple(
+        Transform(
+            each.header.frame_id,
+            each.child_frame_id,
+            np.array([point(each.transform.translation)]),
+            np.array([quaternion(each.transform.rotation)]),
+        )
+        for each in message.transforms
+    )
+    stamps = [each.header.stamp.to_nsec() for each in message.transforms]
+    return Transforms(max(stamps, default=0), frames)
+
+
+add_decoder(Transforms, Decoder("tf2_msgs/TFMessage", _read_transforms))

@@ -1,0 +1,108 @@
+"""Batteries: what ``libLinearBatteryPlugin.so`` and ``libLinearBatteryConsumerPlugin.so`` do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.simulation import ModelPlugin, Robot
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class BatteryConsumer(ModelPlugin):
+    """Takes power from a battery of its model.
+
+    Attributes:
+        robot: The model.
+        battery: Name of the battery.
+        power: What it takes [W].
+    """
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags."""
+        self.robot = robot
+        self.battery = parameters.require("battery_name", str)
+        self.power = parameters.get("power_load", 0.0)
+
+
+class LinearBattery(ModelPlugin):
+    """A battery whose voltage falls evenly with its charge, and with its current.
+
+    The current follows the power that is taken with the time constant of the file.
+
+    Attributes:
+        charge: [A h], shape (nworld,).
+        current: [A], shape (nworld,).
+        voltage: [V], shape (nworld,).
+    """
+
+    update_rate = 0.0
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags."""
+        self._robot, self._simulation = robot, robot.simulation
+        self._battery = parameters.require("battery_name", str)
+        self._full = parameters.get("open_circuit_voltage_constant_coef", 12.0)
+        self._slope = parameters.get("open_circuit_voltage_linear_coef", 0.0)
+        self._capacity = parameters.get("capacity", 1.0)
+        self._first = parameters.get("initial_charge", self._capacity)
+        self._resistance = parameters.get("resistance", 0.0)
+        self._tau = parameters.get("smooth_current_tau", 1.0)
+        if self._capacity <= 0.0 or self._tau <= 0.0:
+            raise SimulationError(
+                "capacity and smooth_current_tau must be positive", source=parameters.source
+            )
+        nworld = robot.simulation.nworld
+        self.charge: Floats = np.full(nworld, self._first)
+        self.current: Floats = np.zeros(nworld)
+        self.voltage: Floats = self._open_voltage()
+        self._last_time = robot.simulation.time
+
+    def _open_voltage(self) -> Floats:
+        return np.asarray(self._full + self._slope * (1.0 - self.charge / self._capacity))
+
+    def on_update(self, time: float) -> None:
+        """Lose charge."""
+        interval = time - self._last_time
+        self._last_time = time
+        taken = sum(
+            entry.plugin.power
+            for entry in self._simulation.plugins
+            if isinstance(entry.plugin, BatteryConsumer)
+            and entry.plugin.robot is self._robot
+            and entry.plugin.battery == self._battery
+        )
+        share = min(1.0, interval / self._tau)
+        wanted = taken / np.maximum(self.voltage, 1e-3)
+        self.current += share * (wanted - self.current)
+        self.charge = np.maximum(self.charge - interval * self.current / 3600.0, 0.0)
+        self.voltage = self._open_voltage() - self._resistance * self.current
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Charge."""
+        rows = slice(None) if worlds is None else worlds
+        self.charge[rows], self.current[rows] = self._first, 0.0
+        self.voltage[rows] = self._open_voltage()[rows]
+        if worlds is None:
+            self._last_time = self._simulation.time
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Charge, current, voltage."""
+        return {
+            "charge": self.charge.copy(),
+            "current": self.current.copy(),
+            "voltage": self.voltage.copy(),
+            "time": np.array(self._last_time),
+        }
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self.charge[:], self.current[:] = state["charge"], state["current"]
+        self.voltage[:] = state["voltage"]
+        self._last_time = float(np.asarray(state["time"], np.float64))

@@ -1,0 +1,116 @@
+"""Joints under control: what ``libJointControlPlugin.so`` does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError, did_you_mean
+from gazelle.plugins.pid import Gains, Pid
+from gazelle.simulation import JointHandle, ModelPlugin, Robot
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+_TYPES = ("force", "position", "velocity")
+
+
+@dataclass(slots=True)
+class _Controller:
+    """One joint's share of a ``<controller>``; no PID for a force."""
+
+    joint: JointHandle
+    type: str
+    target: float
+    pid: Pid | None
+
+    def effort(self, interval: float) -> Floats:
+        """What it asks for now, shape (nworld,)."""
+        if self.type == "position":
+            values = self.joint.positions()[:, 0]
+        else:
+            values = self.joint.velocities()[:, 0]
+        if self.pid is None:
+            return np.full_like(values, self.target)
+        return self.pid.update(values - self.target, interval)
+
+
+class JointControl(ModelPlugin):
+    """Holds joints at positions or velocities by PID, or turns them with constant efforts.
+
+    Controllers of one joint add up.
+    """
+
+    update_rate = 0.0
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the controllers, find their joints."""
+        self._clock = robot.simulation.clock
+        self._controllers = [
+            controller
+            for tags in parameters.find_all("controller")
+            for controller in _controllers(robot, tags)
+        ]
+        self._last_time = robot.simulation.time
+
+    def on_update(self, time: float) -> None:
+        """Turn the joints."""
+        interval = time - self._last_time
+        self._last_time = time
+        efforts: dict[str, Floats] = {}
+        joints: dict[str, JointHandle] = {}
+        for each in self._controllers:
+            joints[each.joint.name] = each.joint
+            efforts[each.joint.name] = efforts.get(each.joint.name, 0.0) + each.effort(interval)
+        for name, joint in joints.items():
+            joint.effort = efforts[name]
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget sums and errors."""
+        for each in self._controllers:
+            if each.pid is not None:
+                each.pid.reset(worlds)
+        if worlds is None:
+            self._last_time = self._clock.now
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Sums and errors."""
+        pids = {
+            f"{i} {key}": value
+            for i, each in enumerate(self._controllers)
+            if each.pid is not None
+            for key, value in each.pid.state().items()
+        }
+        return {**pids, "time": np.array(self._last_time)}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._last_time = float(np.asarray(state["time"], np.float64))
+        for i, each in enumerate(self._controllers):
+            if each.pid is not None:
+                each.pid.restore({key: state[f"{i} {key}"] for key in ("sum", "last")})
+
+
+def _controllers(robot: Robot, tags: Parameters) -> list[_Controller]:
+    kind = tags.attributes.get("type", "")
+    if kind not in _TYPES:
+        raise SimulationError(
+            f"a controller of type '{kind}' is not known",
+            source=tags.source,
+            hint=did_you_mean(kind, _TYPES),
+        )
+    p, i, d = tags.numbers("pid_gains", (0.0, 0.0, 0.0))
+    target, nworld = tags.get("target", 0.0), robot.simulation.nworld
+    return [
+        _Controller(
+            robot.joints[name.text.rpartition("::")[2]],
+            kind,
+            target,
+            None if kind == "force" else Pid(Gains(p, i, d), nworld),
+        )
+        for name in tags.find_all("joint")
+    ]
