@@ -1,0 +1,218 @@
+"""What plugins publish, hear and answer, as a client on the graph sees it."""
+
+from __future__ import annotations
+
+import contextlib
+import struct
+import threading
+import time
+from types import SimpleNamespace
+
+import pytest
+from door_client import Client
+from models import block, plugin
+
+import gazelle
+from gazelle import formats
+from gazelle.bridges import serve_ros
+from gazelle.ros import Master, load_message
+
+RAYS = """<sensor name="eye" type="ray"><pose>0.2 0 0 0 0 0</pose><update_rate>50</update_rate>
+<ray><scan><horizontal><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle>
+</horizontal><vertical><samples>2</samples><min_angle>-0.1</min_angle><max_angle>0.1</max_angle>
+</vertical></scan><range><min>0.05</min><max>2</max></range></ray>{plugin}</sensor>"""
+WALL = """<model name="wall"><static>1</static><pose>1.1 0 0.5 0 0 0</pose><link name="l">
+<collision name="c"><geometry><box><size>0.2 4 2</size></box></geometry></collision></link></model>"""
+ARM = """<model name="arm"><pose>0 3 0 0 0 0</pose><link name="stand"><inertial><mass>1</mass>
+</inertial></link><joint name="fix" type="fixed"><parent>world</parent><child>stand</child></joint>
+<link name="tip"><gravity>0</gravity><inertial><mass>1</mass><inertia><ixx>0.5</ixx><iyy>0.5</iyy>
+<izz>0.5</izz></inertia></inertial></link><joint name="elbow" type="revolute">
+<parent>stand</parent><child>tip</child><axis><xyz>0 0 1</xyz></axis></joint>{plugin}</model>"""
+
+
+@contextlib.contextmanager
+def running(*models):
+    """A simulation of some models on a graph, run in the background."""
+    text = f'<sdf version="1.6"><world name="w">{"".join(models)}</world></sdf>'
+    with (
+        Master(port=0, rosout=False) as master,
+        gazelle.Simulation(formats.load_string(text)) as sim,
+        serve_ros(sim, master.uri) as door,
+    ):
+        client = Client(master.uri)
+        thread = threading.Thread(target=door.run)
+        thread.start()
+        try:
+            yield SimpleNamespace(sim=sim, client=client)
+        finally:
+            client.node.close()
+            door.stop()
+            thread.join()
+
+
+def wait(condition, seconds=20.0):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    assert condition()
+
+
+def first(graph, topic, kind):
+    heard = graph.client.listen(topic, kind)
+    wait(lambda: heard)
+    return heard[-1]
+
+
+def send(graph, topic, kind, **fields):
+    """Publish until somebody is there to hear."""
+    message = load_message(kind)(**fields)
+    publisher = graph.client.node.advertise(topic, type(message))
+    wait(lambda: publisher.num_connections)
+    publisher.publish(message)
+    return publisher
+
+
+def cube(filename, **tags):
+    return block(plugin=plugin(filename, bodyName="core", **tags), gravity=False)
+
+
+def test_a_velodynes_cloud_has_its_fields_and_rings():
+    tags = plugin("libgazebo_ros_velodyne_laser.so", topicName="/points", frameName="velo")
+    with running(block(RAYS.format(plugin=tags), gravity=False), WALL) as graph:
+        cloud = first(graph, "/points", "sensor_msgs/PointCloud2")
+    layout = [(f.name, f.offset, f.datatype, f.count) for f in cloud.fields]
+    assert layout == [
+        ("x", 0, 7, 1),
+        ("y", 4, 7, 1),
+        ("z", 8, 7, 1),
+        ("intensity", 12, 7, 1),
+        ("ring", 16, 4, 1),
+        ("time", 18, 7, 1),
+    ]
+    assert (cloud.header.frame_id, cloud.height, cloud.width) == ("velo", 1, 6)
+    assert (cloud.point_step, cloud.row_step, cloud.is_dense) == (22, 132, True)
+    points = list(struct.iter_unpack("<ffffHf", bytes(cloud.data)))
+    assert [point[4] for point in points] == [0, 0, 0, 1, 1, 1]
+    assert all(point[0] == pytest.approx(0.8, abs=1e-5) for point in points)
+
+
+def test_a_block_lasers_cloud_has_its_intensities():
+    tags = plugin("libgazebo_ros_block_laser.so", topicName="cloud", frameName="eye")
+    with running(block(RAYS.format(plugin=tags), gravity=False), WALL) as graph:
+        cloud = first(graph, "/cloud", "sensor_msgs/PointCloud")
+    assert len(cloud.points) == 6
+    assert cloud.points[0].x == pytest.approx(0.8, abs=1e-5)
+    assert cloud.channels[0].name == "intensities"
+    assert list(cloud.channels[0].values) == [101.0] * 6
+
+
+def test_hectors_imu_says_how_sure_it_is_and_takes_a_bias():
+    with running(cube("libhector_gazebo_ros_imu.so", rateGaussianNoise="0.01")) as graph:
+        imu = first(graph, "/imu", "sensor_msgs/Imu")
+        assert imu.angular_velocity_covariance[0] == pytest.approx(1e-4)
+        assert imu.linear_acceleration_covariance[8] == 0.0
+        assert imu.header.frame_id == "core"
+        vector = load_message("geometry_msgs/Vector3")(0.0, 3.0, 0.0)
+        graph.client.call("/imu/set_accel_bias", "hector_gazebo_plugins/SetBias", bias=vector)
+        graph.client.call("/imu/calibrate", "std_srvs/Empty")
+        heard = graph.client.listen("/imu/bias", "sensor_msgs/Imu")
+        wait(lambda: heard and heard[-1].linear_acceleration.y > 2.9)
+
+
+def test_hectors_gps_tells_its_fix_and_takes_another_reference():
+    with running(cube("libhector_gazebo_ros_gps.so", drift="2", status="1")) as graph:
+        fix = first(graph, "/fix", "sensor_msgs/NavSatFix")
+        assert (fix.status.status, fix.status.service) == (1, 0)
+        assert fix.latitude == pytest.approx(49.9, abs=1e-3)
+        assert (fix.position_covariance[0], fix.position_covariance_type) == (4.0, 2)
+        place = load_message("geographic_msgs/GeoPose")()
+        place.position.latitude, place.position.longitude = 10.0, 20.0
+        graph.client.call(
+            "/fix/set_reference_geopose",
+            "hector_gazebo_plugins/SetReferenceGeoPose",
+            geo_pose=place,
+        )
+        heard = graph.client.listen("/fix", "sensor_msgs/NavSatFix")
+        wait(lambda: heard and abs(heard[-1].latitude - 10.0) < 1e-3)
+        speed = first(graph, "/fix_velocity", "geometry_msgs/Vector3Stamped")
+        assert speed.vector.x == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("flag", "kind", "field"),
+    [
+        ("false", "geometry_msgs/Vector3Stamped", "vector"),
+        ("true", "sensor_msgs/MagneticField", "magnetic_field"),
+    ],
+)
+def test_the_magnetic_field_comes_as_either_message(flag, kind, field):
+    with running(cube("libhector_gazebo_ros_magnetic.so", useMagneticFieldMsgs=flag)) as graph:
+        message = first(graph, "/magnetic", kind)
+    assert getattr(message, field).x == pytest.approx(0.5)
+
+
+def test_a_barometers_height_is_a_point():
+    with running(cube("libhector_gazebo_ros_baro.so")) as graph:
+        message = first(graph, "/pressure_height", "geometry_msgs/PointStamped")
+    assert message.point.z == pytest.approx(0.5)
+
+
+def test_a_wrench_pushes():
+    with running(cube("libgazebo_ros_force.so", topicName="push")) as graph:
+        force = load_message("geometry_msgs/Vector3")(5.0, 0.0, 0.0)
+        send(graph, "/push", "geometry_msgs/Wrench", force=force)
+        robot = graph.sim.robots["cube"]
+        wait(lambda: robot.pose.x > 0.05)
+
+
+def test_joint_paths_come_by_topic_and_by_service():
+    with running(ARM.format(plugin=plugin("libgazebo_ros_joint_pose_trajectory.so"))) as graph:
+        point = load_message("trajectory_msgs/JointTrajectoryPoint")(positions=[0.4])
+        path = {"joint_names": ["elbow"], "points": [point]}
+        send(graph, "/set_joint_trajectory", "trajectory_msgs/JointTrajectory", **path)
+        elbow = graph.sim.robots["arm"].joints["elbow"]
+        wait(lambda: abs(elbow.position - 0.4) < 1e-3)
+        point.positions = [-0.6]
+        answer = graph.client.call(
+            "/set_joint_trajectory",
+            "gazebo_msgs/SetJointTrajectory",
+            model_name="arm",
+            joint_trajectory=load_message("trajectory_msgs/JointTrajectory")(**path),
+        )
+        assert answer.success
+        wait(lambda: abs(elbow.position + 0.6) < 1e-3)
+
+
+def test_links_are_attached_by_the_service_of_its_own_package():
+    other = block(gravity=False).replace('"cube"', '"other"').replace("0 0 0.5", "1 0 0.5")
+    with running(block(gravity=False), other, plugin("libgazebo_ros_link_attacher.so")) as graph:
+        names = {
+            "model_name_1": "cube",
+            "link_name_1": "core",
+            "model_name_2": "other",
+            "link_name_2": "core",
+        }
+        kind = "gazebo_ros_link_attacher/Attach"
+        assert not graph.client.call("/link_attacher_node/detach", kind, **names).ok
+        assert graph.client.call("/link_attacher_node/attach", kind, **names).ok
+        assert graph.client.call("/link_attacher_node/detach", kind, **names).ok
+
+
+def test_a_cup_is_switched_by_empty_services_and_tells_whether_it_holds():
+    with running(cube("libgazebo_ros_vacuum_gripper.so", topicName="grasping")) as graph:
+        graph.client.call("/on", "std_srvs/Empty")
+        assert first(graph, "/grasping", "std_msgs/Bool").data is False
+        assert graph.client.call("/off", "std_srvs/Empty") is not None
+
+
+def test_a_hand_follows_a_frame_of_tf_and_tells_where_it_is():
+    tags = plugin("libgazebo_ros_hand_of_god.so", linkName="core")
+    with running(block(plugin=tags)) as graph:
+        stamped = load_message("geometry_msgs/TransformStamped")(child_frame_id="hog_desired")
+        stamped.header.frame_id = "world"
+        stamped.transform.translation.z = 2.0
+        stamped.transform.rotation.w = 1.0
+        send(graph, "/tf", "tf2_msgs/TFMessage", transforms=[stamped])
+        wait(lambda: graph.sim.robots["cube"].pose.z > 1.9)
+        heard = graph.client.listen("/tf", "tf2_msgs/TFMessage")
+        wait(lambda: any(t.child_frame_id == "hog_actual" for m in heard for t in m.transforms))
