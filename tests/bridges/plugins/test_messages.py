@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 from door_client import Client
+from kobuki_model import kobuki
 from models import block, plugin
 
 import gazelle
@@ -28,6 +29,16 @@ ARM = """<model name="arm"><pose>0 3 0 0 0 0</pose><link name="stand"><inertial>
 <link name="tip"><gravity>0</gravity><inertial><mass>1</mass><inertia><ixx>0.5</ixx><iyy>0.5</iyy>
 <izz>0.5</izz></inertia></inertial></link><joint name="elbow" type="revolute">
 <parent>stand</parent><child>tip</child><axis><xyz>0 0 1</xyz></axis></joint>{plugin}</model>"""
+
+GROUND = "<include><uri>model://ground_plane</uri></include>"
+LIFT = """<model name="lift"><link name="car"><inertial><mass>500</mass></inertial></link>
+<link name="door"><gravity>0</gravity><inertial><mass>5</mass></inertial></link>
+<joint name="up" type="prismatic"><parent>world</parent><child>car</child><axis><xyz>0 0 1</xyz>
+<limit><lower>0</lower><upper>9</upper></limit></axis></joint>
+<joint name="side" type="prismatic"><parent>car</parent><child>door</child><axis><xyz>0 1 0</xyz>
+<limit><lower>0</lower><upper>1</upper></limit></axis></joint>
+<plugin name="p" filename="libgazebo_ros_elevator.so"><lift_joint>lift::up</lift_joint>
+<door_joint>lift::side</door_joint></plugin></model>"""
 
 
 @contextlib.contextmanager
@@ -216,3 +227,38 @@ def test_a_hand_follows_a_frame_of_tf_and_tells_where_it_is():
         wait(lambda: graph.sim.robots["cube"].pose.z > 1.9)
         heard = graph.client.listen("/tf", "tf2_msgs/TFMessage")
         wait(lambda: any(t.child_frame_id == "hog_actual" for m in heard for t in m.transforms))
+
+
+def test_a_kobuki_hears_and_tells_in_its_own_messages():
+    with running(kobuki(), GROUND) as graph:
+        robot = graph.sim.robots["base"]
+        cliffs = graph.client.listen("/mobile_base/events/cliff", "kobuki_msgs/CliffEvent")
+        wait(lambda: robot.outputs["cliff_center"].wanted)
+        robot.set_pose((0.0, 0.0, 0.6))
+        wait(lambda: any((event.sensor, event.state) == (1, 1) for event in cliffs))
+        assert all(event.bottom > 0 for event in cliffs)
+        send(graph, "/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", state=0)
+        send(graph, "/mobile_base/commands/reset_odometry", "std_msgs/Empty")
+        odometry = first(graph, "/odom", "nav_msgs/Odometry")
+        assert odometry.pose.covariance[35] == 0.05
+        assert first(graph, "/mobile_base/sensors/imu_data", "sensor_msgs/Imu")
+        assert list(first(graph, "/joint_states", "sensor_msgs/JointState").name) == [
+            "joint0",
+            "joint1",
+        ]
+
+
+def test_a_kobuki_tells_of_bumps():
+    wall = WALL.replace("1.1 0 0.5", "0.42 0 0.1").replace("0.2 4 2", "0.2 0.1 0.2")
+    with running(kobuki(velocity_command_timeout="100"), wall, GROUND) as graph:
+        bumps = graph.client.listen("/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
+        wait(lambda: graph.sim.robots["base"].outputs["bumper_center"].wanted)
+        ahead = load_message("geometry_msgs/Vector3")(0.3, 0.0, 0.0)
+        send(graph, "/mobile_base/commands/velocity", "geometry_msgs/Twist", linear=ahead)
+        wait(lambda: any((event.bumper, event.state) == (1, 1) for event in bumps))
+
+
+def test_a_lift_is_called_by_a_string():
+    with running(LIFT) as graph:
+        send(graph, "/elevator", "std_msgs/String", data="1")
+        wait(lambda: graph.sim.robots["lift"].joints["up"].position > 2.8, 40.0)
