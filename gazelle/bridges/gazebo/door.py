@@ -156,7 +156,7 @@ class GazeboDoor:
         models, joints = ModelServices(self.context, lights), JointServices(self.context)
         world = WorldServices(self.context)
         self._offer("spawn_sdf_model", "SpawnModel", models.spawn, wait=False)
-        self._offer("spawn_urdf_model", "SpawnModel", models.spawn, wait=False)
+        self._offer("spawn_urdf_model", "SpawnModel", models.spawn_urdf, wait=False)
         for name, handler in {
             "delete_model": models.delete,
             "delete_light": lights.delete,

@@ -70,8 +70,8 @@ class LinkServices:
         frame = self._entities.frame(request.reference_frame)
         if frame is None:
             return no(
-                "GetLinkState: reference link not found, did you forget to scope the link by "
-                "model name?"
+                "GetLinkState: reference reference_frame not found, did you forget to scope the "
+                "link by model name?"
             )
         seen = self._entities.link_state(link).seen_from(frame)
         response = self._context.response("GetLinkState")

@@ -18,9 +18,10 @@ from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.entities import State
 from gazelle.bridges.gazebo.lights import LightServices
-from gazelle.bridges.gazebo.spawning import read_light, read_model
+from gazelle.bridges.gazebo.spawning import NEITHER, failure, is_model, is_urdf, read
 from gazelle.description import Light, Model, Pose
 from gazelle.errors import Error
+from gazelle.ros.errors import ServiceError
 from gazelle.simulation import Robot
 
 _NO_FRAME = "reference reference_frame not found, did you forget to scope the link by model name?"
@@ -36,17 +37,31 @@ class ModelServices:
         self._simulation = context.simulation
         self._calls: Counter[str] = Counter()
 
+    def spawn_urdf(self, request: Any) -> Answer:
+        """``spawn_urdf_model``.
+
+        Raises:
+            ServiceError: The text is no URDF; the call fails, as Gazebo's does.
+        """
+        if not is_urdf(request.model_xml):
+            raise ServiceError("SpawnModel: Failure - entity format is invalid.")
+        return self.spawn(request)
+
     def spawn(self, request: Any) -> Answer:
-        """``spawn_sdf_model`` and ``spawn_urdf_model``: a model, or a light.
+        """``spawn_sdf_model``: a model, or a light, from SDF or URDF.
 
         The text is read beside the running simulation; only what follows waits for its turn.
         """
+        if not is_model(request.model_xml):
+            return no(NEITHER)
+        try:
+            found = read(request.model_xml, request.model_name)
+        except Error as error:
+            return no(failure(error))
         requests = self._simulation.requests
-        light = read_light(request.model_xml, request.model_name)
-        if light is not None:
-            return requests.call(lambda: self._spawn_light(light, request))
-        model = read_model(request.model_xml, request.model_name)
-        return requests.call(lambda: self._spawn(model, request))
+        if isinstance(found, Light):
+            return requests.call(lambda: self._spawn_light(found, request))
+        return requests.call(lambda: self._spawn(found, request))
 
     def _pose(self, request: Any) -> Pose | None:
         """Where a request wants its model; None if there is no such frame."""
@@ -75,7 +90,7 @@ class ModelServices:
         try:
             self._simulation.spawn(model, request.model_name, pose, request.robot_namespace)
         except Error as error:
-            return no(f"SpawnModel: Failure - {error}")
+            return no(failure(error))
         return yes("SpawnModel: Successfully spawned entity")
 
     def delete(self, request: Any) -> Answer:

@@ -2,42 +2,59 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from gazelle import formats
 from gazelle.description import Light, Model, World
-from gazelle.errors import Error
-from gazelle.ros.errors import ServiceError
+from gazelle.errors import Error, FormatError
+
+# What may stand before the first element.
+_BEFORE = re.compile(r"<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>", re.DOTALL)
+_ELEMENT = re.compile(r"<([^\s/>]+)")
+_ROOTS = frozenset({"sdf", "gazebo", "robot"})
+
+NEITHER = (
+    "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be "
+    "converted to Gazebo compatible format."
+)
+"""Gazebo's answer to a text that is neither SDF nor URDF."""
 
 
-def read_model(text: str, name: str) -> Model:
-    """The model of a request.
+def is_urdf(text: str) -> bool:
+    """Whether the first element is URDF's."""
+    return _root(text) == "robot"
+
+
+def is_model(text: str) -> bool:
+    """Whether the first element is SDF's or URDF's."""
+    return _root(text) in _ROOTS
+
+
+def _root(text: str) -> str:
+    found = _ELEMENT.search(_BEFORE.sub("", text))
+    return found[1] if found else ""
+
+
+def read(text: str, name: str) -> Model | Light:
+    """The model of a request, or the light if it holds nothing else.
 
     Raises:
-        ServiceError: The text cannot be read; the call fails, as Gazebo's does.
+        Error: The text cannot be read.
     """
-    world = _read(text, name)
+    world = formats.load_string(text, name=f"model_xml of '{name}'")
+    if world.lights and not world.models:
+        return replace(world.lights[0], name=name or world.lights[0].name)
+    model = _only_model(world)
+    return replace(model, name=name or model.name)
+
+
+def _only_model(world: World) -> Model:
     if len(world.models) != 1:
-        raise ServiceError(f"SpawnModel: expected one model, found {len(world.models)}")
-    return replace(world.models[0], name=name or world.models[0].name)
+        raise FormatError(f"expected one model, found {len(world.models)}")
+    return world.models[0]
 
 
-def read_light(text: str, name: str) -> Light | None:
-    """The light of a request that holds nothing else; None if there is a model.
-
-    Raises:
-        ServiceError: The text cannot be read.
-    """
-    if "<light" not in text:
-        return None
-    world = _read(text, name)
-    if world.models or not world.lights:
-        return None
-    return replace(world.lights[0], name=name or world.lights[0].name)
-
-
-def _read(text: str, name: str) -> World:
-    try:
-        return formats.load_string(text, name=f"model_xml of '{name}'")
-    except Error as error:
-        raise ServiceError(f"SpawnModel: {error}") from error
+def failure(error: Error) -> str:
+    """The status message for a text that cannot be read."""
+    return f"SpawnModel: Failure - {error}"

@@ -52,10 +52,27 @@ def test_urdf_is_spawned_and_its_namespace_goes_before_its_topics(graph):
     assert list(graph.sim.robots["arm"].joints) == ["elbow"]
 
 
-def test_what_is_no_model_fails_the_call_and_says_where(graph):
-    with pytest.raises(ServiceError, match="model_xml of 'ball'"):
-        spawn(graph, "<sdf version='1.6'><model name='ball'><link></model></sdf>")
+def test_what_cannot_be_read_is_answered_with_the_place(graph):
+    answer = spawn(graph, "<sdf version='1.6'><model name='ball'><link></model></sdf>")
+    assert not answer.success
+    assert answer.status_message.startswith("SpawnModel: Failure - model_xml of 'ball'")
     assert "ball" not in graph.sim.robots
+
+
+@pytest.mark.parametrize("text", ["", "no XML", "<?xml version='1.0'?><!-- <sdf/> --><mujoco/>"])
+def test_what_is_neither_sdf_nor_urdf_gets_gazebos_answer(graph, text):
+    answer = spawn(graph, text)
+    assert not answer.success
+    assert answer.status_message == (
+        "GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be "
+        "converted to Gazebo compatible format."
+    )
+
+
+def test_what_is_no_urdf_fails_the_call_that_asks_for_one(graph):
+    with pytest.raises(ServiceError, match="SpawnModel: Failure - entity format is invalid"):
+        spawn(graph, BALL, "ball", "urdf")
+    assert spawn(graph, ARM, "arm", "sdf").success
 
 
 def test_a_light_is_spawned_listed_changed_and_deleted(graph):

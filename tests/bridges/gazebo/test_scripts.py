@@ -23,7 +23,8 @@ spawn crate: True SpawnModel: Successfully spawned entity
 spawn parcel: True SpawnModel: Successfully spawned entity
 spawn dice: True SpawnModel: Successfully spawned entity
 again: False SpawnModel: Failure - entity already exists.
-broken: ServiceException
+broken: False
+no urdf: ServiceException
 ['crate', 'dice', 'parcel']
 delete crate: True DeleteModel: successfully deleted model
 delete parcel: True DeleteModel: successfully deleted model

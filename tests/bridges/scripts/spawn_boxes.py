@@ -49,10 +49,13 @@ def main():
         print("spawn %s: %s %s" % (name, answer.success, answer.status_message))
     again = spawn(boxes[0][0], BOX.format(0.1), "", Pose(), "world")
     print("again: %s %s" % (again.success, again.status_message))
+    broken = spawn("broken", "<sdf><model", "", Pose(), "world")
+    print("broken: %s" % broken.success)
+    urdf = rospy.ServiceProxy("/gazebo/spawn_urdf_model", SpawnModel)
     try:
-        spawn("broken", "<sdf><model", "", Pose(), "world")
+        urdf("sdf", BOX.format(0.1), "", Pose(), "world")
     except rospy.ServiceException:
-        print("broken: ServiceException")
+        print("no urdf: ServiceException")
     print(sorted(set(world().model_names) & {box[0] for box in boxes}))
     for name, _, _, _ in boxes + [("nobody", 0, 0, 0)]:
         answer = delete(model_name=name)
