@@ -88,6 +88,7 @@ class _Scratch:
     beams: Floats
     view: Floats
     stamp: NDArray[np.int64]
+    spans: NDArray[np.int64]
     walls: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
     others: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
 
@@ -136,9 +137,14 @@ class Scanner:
         beams = np.zeros((4, fan.count))
         beams[0], beams[1] = np.cos(fan.angles), np.sin(fan.angles)
         self._outline = _outline(fan)
-        statics = len(fleet.scene.table.rows)
+        statics, rows = len(fleet.scene.table.rows), int(fleet.scene.grid[4])
         self._scratch = [
-            _Scratch(beams.copy(), np.zeros_like(self._outline), np.zeros(statics + 1, np.int64))
+            _Scratch(
+                beams.copy(),
+                np.zeros_like(self._outline),
+                np.zeros(statics + 1, np.int64),
+                np.zeros((rows, 2), np.int64),
+            )
             for _ in range(fleet.crew.size)
         ]
         total = fleet.nworld * len(mounts)
@@ -225,7 +231,7 @@ class Scanner:
         own = self._scratch[part]
         return (
             self._sensors, self.owners, self._mounts, self._fan, self._outline,
-            own.beams, own.view, own.stamp, own.walls, own.others,
+            own.beams, own.view, own.stamp, own.walls, own.others, own.spans,
         )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ grows with what is in view, not with the number of beams times the way they go, 
 number of bodies in the world.
 """
 
-# ruff: noqa: FBT001  # kernels take their arguments in order
+# kernels take their arguments in order
 
 from __future__ import annotations
 
@@ -15,23 +15,8 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import (
-    CIRCLE,
     COS,
     FAMILY,
-    FIRST_LOOK,
-    GLOW,
-    HIGH,
-    KIND,
-    L_GLOW,
-    L_HIGH,
-    L_LOW,
-    L_RADIUS,
-    LAST_LOOK,
-    LOW,
-    NAMES,
-    NEAR,
-    OPEN,
-    RADIUS,
     REACH,
     S_COS,
     S_SIN,
@@ -39,182 +24,19 @@ from gazelle.engines.planar.columns import (
     S_Y,
     S_Z,
     SIN,
-    X0,
-    X1,
-    Y0,
-    Y1,
     X,
     Y,
     Z,
 )
 from gazelle.engines.planar.compiled import kernel, part
-from gazelle.engines.planar.kernels_fan import (
-    FEW,
-    beams_in,
-    cover,
-    draw,
-    draw_circle,
-    draw_segment,
-    draw_through,
-    solve,
-)
+from gazelle.engines.planar.kernels_bodies import draw_bodies, find_body
+from gazelle.engines.planar.kernels_find import draw_found, draw_statics, find_lanes, find_statics
+from gazelle.engines.planar.kernels_front import draw_nearest_first
 from gazelle.engines.planar.kernels_grid import place_in, stretch
+from gazelle.engines.planar.kernels_walk import FEW_BEAMS, walk
 from gazelle.engines.planar.tables import Cells, Floats, Indices
 
-
-@part
-def find_static(
-    found: Floats, n: int, fan: Floats, statics: Floats, s: int, height: float, x: float,
-    y: float, cos: float, sin: float,
-) -> int:  # fmt: skip
-    """Write down a static primitive as the n-th found if it can be seen; returns how many.
-
-    The world's frame is at (x, y, cos, sin) in the sensor's.
-    """
-    if statics[s, GLOW] < 0.0 or height < statics[s, LOW] or height > statics[s, HIGH]:
-        return n
-    ax, ay, bx, by = statics[s, X0], statics[s, Y0], statics[s, X1], statics[s, Y1]
-    x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
-    x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-    radius = bx if (int(statics[s, KIND]) & int(CIRCLE)) != 0 else 0.0
-    if radius > 0.0:
-        far = fan[REACH] + radius
-        if x0 * x0 + y0 * y0 > far * far:
-            return n
-    else:
-        cross, ex, ey = x0 * y1 - x1 * y0, x1 - x0, y1 - y0
-        if cross * cross > fan[REACH] * fan[REACH] * (ex * ex + ey * ey):
-            return n
-    found[0, n], found[1, n], found[2, n], found[3, n] = x0, y0, x1, y1
-    found[4, n], found[7, n] = radius, s + 1.0
-    return n + 1
-
-
-@part
-def find_lanes(
-    found: Floats, lanes: Floats, height: float, x: float, y: float, cos: float, sin: float
-) -> None:
-    """Write down all static primitives of a world with few, prepared as ``solve`` does.
-
-    Those that cannot be seen are a share 0 of any distance: never met.
-    """
-    for i in range(np.uint64(lanes.shape[1])):
-        ax, ay, bx, by = lanes[X0, i], lanes[Y0, i], lanes[X1, i], lanes[Y1, i]
-        x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
-        x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-        radius, name = lanes[L_RADIUS, i], float(i) + 1.0
-        disc = radius > 0.0
-        cross = x0 * x0 + y0 * y0 - radius * radius if disc else x0 * y1 - x1 * y0
-        seen = (lanes[L_GLOW, i] >= 0.0) & (height >= lanes[L_LOW, i])
-        seen = seen & (height <= lanes[L_HIGH, i]) & (cross != 0.0)
-        found[0, i], found[1, i], found[2, i], found[3, i] = x0, y0, x1, y1
-        found[4, i] = radius
-        found[7, i] = name if disc | (cross < 0.0) else -name
-        found[8, i] = 1.0 / cross if seen else 0.0
-
-
-@part
-def draw_statics(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
-    """Draw the static primitives found and solved."""
-    count = beams.shape[1]
-    if count <= FEW:
-        draw_through(beams, found, n, fan[NEAR])
-        return
-    cover(found, n, fan)
-    for i in range(n):
-        for turn in range(2):
-            lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
-            if lo < hi:
-                draw(beams, lo, hi, fan, found, i)
-
-
-@part
-def hidden(beams: Floats, lo: int, hi: int, inverse: float) -> bool:
-    """Whether beams lo to hi all meet something nearer than one over ``inverse``."""
-    for k in range(lo, hi):  # noqa: SIM110  # compiled code knows no generators
-        if beams[2, k] < inverse:
-            return False
-    return True
-
-
-@part
-def draw_looks(
-    beams: Floats, lo: int, hi: int, fan: Floats, looks: Floats, first: int, last: int,
-    height: float, found: Floats, i: int, away: bool, name: float,
-) -> None:  # fmt: skip
-    """Primitives of the i-th body found.
-
-    Of closed outlines that beams begin ``away`` from only the front is drawn.
-    """
-    x, y, cos, sin = found[0, i], found[1, i], found[2, i], found[3, i]
-    for p in range(first, last):
-        if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
-            continue
-        ax, ay, bx, by = looks[p, X0], looks[p, Y0], looks[p, X1], looks[p, Y1]
-        x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
-        x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-        kind = int(looks[p, KIND])
-        circle = (kind & int(CIRCLE)) != 0
-        cross = x0 * x0 + y0 * y0 - bx * bx if circle else x0 * y1 - x1 * y0
-        back = cross > 0.0 and not circle
-        if cross == 0.0 or (back and away and (kind & int(OPEN)) == 0):
-            continue
-        inverse = 1.0 / cross
-        if circle:
-            draw_circle(beams, lo, hi, x0, y0, bx * bx, inverse, fan[NEAR], name + p)
-        else:
-            seen = -name - p if back else name + p
-            draw_segment(beams, lo, hi, x0, y0, x1, y1, inverse, fan[NEAR], seen)
-
-
-@part
-def find_body(
-    found: Floats, n: int, fan: Floats, sensors: Floats, m: int, kinds: Floats, pose: Floats,
-    k: int, b: int,
-) -> int:  # fmt: skip
-    """Write down body b, of kind k, as the n-th found if it can be seen; returns how many."""
-    ox, oy = pose[b, X] - sensors[m, S_X], pose[b, Y] - sensors[m, S_Y]
-    radius = kinds[k, RADIUS]
-    far = fan[REACH] + radius
-    if ox * ox + oy * oy > far * far:
-        return n
-    c, s = sensors[m, S_COS], sensors[m, S_SIN]
-    found[0, n], found[1, n] = c * ox + s * oy, c * oy - s * ox
-    found[2, n], found[3, n] = (
-        c * pose[b, COS] + s * pose[b, SIN],
-        c * pose[b, SIN] - s * pose[b, COS],
-    )
-    found[4, n], found[7, n] = radius, b
-    return n + 1
-
-
-@part
-def draw_bodies(
-    beams: Floats, fan: Floats, found: Floats, n: int, sensors: Floats, m: int, kinds: Floats,
-    looks: Floats, pose: Floats, world: int,
-) -> None:  # fmt: skip
-    """Draw the bodies found."""
-    count = beams.shape[1]
-    if count > FEW:
-        cover(found, n, fan)
-    for i in range(n):
-        b = int(found[7, i])
-        k = b - world * kinds.shape[0]
-        x, y, radius = found[0, i], found[1, i], found[4, i]
-        square = x * x + y * y
-        nearest = math.sqrt(square) - radius
-        away = nearest > 0.0 and nearest * fan[NEAR] >= 1.0
-        height = sensors[m, S_Z] - pose[b, Z]
-        lo, hi = np.int64(0), count
-        for turn in range(2 if count > FEW else 1):
-            if count > FEW:
-                lo, hi = beams_in(fan, count, found[5, i], found[6, i], -turn)
-                if away and hidden(beams, lo, hi, 1.0 / nearest):
-                    continue
-            draw_looks(
-                beams, lo, hi, fan, looks, int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK]),
-                height, found, i, away, NAMES * (b + 1.0),
-            )  # fmt: skip
+MANY = 256  # statics in view from which it pays to find out which ones are hidden
 
 
 @part
@@ -266,26 +88,34 @@ def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, in
 
 
 @part
-def find_statics(
-    beams: Floats, fan: Floats, found: Floats, n: int, statics: Floats, items: Cells, first: int,
-    last: int, stamp: Indices, height: float, x: float, y: float, cos: float, sin: float,
-) -> int:  # fmt: skip
-    """Write down statics of some cells, listed in ``items``; draw them when there are many.
+def span_rows(
+    spans: Indices, view: Floats, grid: Floats, widest: float, start: Cells
+) -> tuple[int, int, int]:
+    """First and last row in view, and statics listed there; of each row the cells in view."""
+    bottom, top = rows_of(view, grid, widest)
+    listed = np.int64(0)
+    for r in range(bottom, top + 1):
+        left, right = cells_of(view, grid, widest, r)
+        spans[r, 0], spans[r, 1] = left, right
+        listed += np.int64(start[right + 1] - start[left])
+    return bottom, top, listed
 
-    ``stamp`` holds the scan that came last to each: each is drawn once a scan.
-    """
-    now = stamp[statics.shape[0]]
-    for i in range(first, last):
-        p = int(items[i])
-        if stamp[p] == now:
-            continue
-        stamp[p] = now
-        n = find_static(found, n, fan, statics, p, height, x, y, cos, sin)
-        if n == found.shape[1]:
-            solve(found, n)
-            draw_statics(beams, fan, found, n)
-            n = 0 * n
-    return n
+
+@part
+def draw_all_statics(
+    beams: Floats, fan: Floats, found: Floats, spans: Indices, bottom: int, top: int,
+    statics: Floats, start: Cells, items: Cells, stamp: Indices, height: float, x: float,
+    y: float, cos: float, sin: float,
+) -> None:  # fmt: skip
+    """Draw the statics of some rows, hidden or not."""
+    n = np.int64(0)
+    for r in range(bottom, top + 1):
+        n = find_statics(
+            beams, fan, found, n, statics, items, int(start[spans[r, 0]]),
+            int(start[spans[r, 1] + 1]), stamp, height, x, y, cos, sin,
+        )  # fmt: skip
+    if n > 0:
+        draw_found(beams, fan, found, n)
 
 
 @part
@@ -293,27 +123,31 @@ def draw_view(  # a call for each cell would cost more than what it does
     beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
     grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
-    walls: Floats, others: Floats,
+    walls: Floats, others: Floats, spans: Indices,
 ) -> None:  # fmt: skip
     """All that is in the cells in view, but for bodies of the family ``me``."""
     stamp[statics.shape[0]] += 1
     c, s, height = sensors[m, S_COS], sensors[m, S_SIN], sensors[m, S_Z]
     x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
     y = s * sensors[m, S_X] - c * sensors[m, S_Y]
+    bottom, top, listed = span_rows(spans, view, grid, widest, start)
     few = lanes.shape[1]
     if few > 0:
         find_lanes(walls, lanes, height, x, y, c, -s)
         draw_statics(beams, fan, walls, few)
-    n, q = np.int64(0), np.int64(0)
-    bottom, top = rows_of(view, grid, widest)
+    elif listed > MANY:
+        draw_nearest_first(
+            beams, fan, walls, others, spans, bottom, top, sensors, m, grid, statics, start,
+            items, stamp, height, x, y, c, -s,
+        )  # fmt: skip
+    else:
+        draw_all_statics(
+            beams, fan, walls, spans, bottom, top, statics, start, items, stamp, height, x, y,
+            c, -s,
+        )  # fmt: skip
+    q = np.int64(0)
     for r in range(bottom, top + 1):
-        left, right = cells_of(view, grid, widest, r)
-        if few == 0:
-            n = find_statics(
-                beams, fan, walls, n, statics, items, int(start[left]), int(start[right + 1]),
-                stamp, height, x, y, c, -s,
-            )  # fmt: skip
-        for cell in range(left, right + 1):
+        for cell in range(spans[r, 0], spans[r, 1] + 1):
             b = int(head[world, cell])
             while b >= 0:
                 k = b - world * kinds.shape[0]
@@ -323,9 +157,6 @@ def draw_view(  # a call for each cell would cost more than what it does
                         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
                         q = 0 * q
                 b = int(follow[b])
-    if n > 0:
-        solve(walls, n)
-        draw_statics(beams, fan, walls, n)
     if q > 0:
         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
 
@@ -347,7 +178,8 @@ def scan(
     first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
     outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
-    view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats, names: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, spans: Indices, ranges: Floats,
+    names: Floats,
 ) -> None:  # fmt: skip
     """Scan with the sensors first to last; a beam that meets nothing gets the fan's reach."""
     nothing = 1.0 / fan[REACH]
@@ -358,12 +190,18 @@ def scan(
         for k in range(np.uint64(beams.shape[1])):
             beams[2, k] = nothing
             beams[3, k] = 0.0
-        if grid[3] * grid[4] > 1.0:
-            put_view(view, outline, sensors, m)
-        draw_view(
-            beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
-            kinds, looks, pose, head, follow, world, me, walls, others,
-        )  # fmt: skip
+        if beams.shape[1] <= FEW_BEAMS and lanes.shape[1] == 0:
+            walk(
+                beams, fan, sensors, m, grid, widest, statics, start, items, kinds, looks, pose,
+                head, follow, world, me, others,
+            )  # fmt: skip
+        else:
+            if grid[3] * grid[4] > 1.0:
+                put_view(view, outline, sensors, m)
+            draw_view(
+                beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
+                kinds, looks, pose, head, follow, world, me, walls, others, spans,
+            )  # fmt: skip
         for k in range(np.uint64(beams.shape[1])):
             best = beams[2, k]
             t = 1.0 / best
