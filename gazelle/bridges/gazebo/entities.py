@@ -56,6 +56,11 @@ REST = State(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), np.zeros(3), np.zeros(
 """The world frame."""
 
 
+def is_world(frame: str) -> bool:
+    """Whether a name stands for the inertial frame."""
+    return frame in _WORLD
+
+
 class Entities:
     """What there is in one world of a simulation.
 
@@ -103,7 +108,7 @@ class Entities:
 
     def frame(self, name: str) -> State | None:
         """The state of a model or link by name; the world frame for ``""``, ``world`` or ``map``."""
-        if name in _WORLD:
+        if is_world(name):
             return REST
         robot = self.model(name)
         if robot is not None:

@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.bridges.conversions import point, set_pose, set_twist
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
-from gazelle.bridges.gazebo.entities import State
+from gazelle.bridges.gazebo.entities import State, is_world
 from gazelle.bridges.gazebo.models import read_state
 from gazelle.errors import Error
 from gazelle.rotations import cross, rotate
@@ -96,10 +96,11 @@ class LinkServices:
         frame = self._entities.frame(wanted.reference_frame)
         if frame is None:
             return no("SetLinkState: failed")
-        state, worlds = read_state(wanted).placed_in(frame), self._entities.worlds
+        state, worlds = read_state(wanted), self._entities.worlds
+        place = state.placed_in(frame)
         try:
-            link.set_pose(state.position, state.quaternion, worlds=worlds)
-            # Gazebo takes the frame's own velocity off.
+            link.set_pose(place.position, place.quaternion, worlds=worlds)
+            # Gazebo does not turn the velocity, and takes the frame's own off.
             link.set_twist(state.linear - frame.linear, state.angular - frame.angular, worlds)
         except Error:
             return no("SetLinkState: failed")
@@ -108,9 +109,9 @@ class LinkServices:
     def apply_wrench(self, request: Any) -> Answer:
         """``apply_body_wrench``.
 
-        As in Gazebo the force acts at the centre of mass. Given in a frame, the wrench also has
-        the torque of the force at ``reference_point``, as seen from the body's origin; given in
-        the world frame the point has no meaning.
+        As in Gazebo the force acts at the centre of mass, and the torque of the force at
+        ``reference_point`` is added. Given in a frame, the lever begins at the body's origin;
+        given in the world frame, ``reference_point`` is the lever.
         """
         link = self._entities.link(request.body_name)
         if link is None:
@@ -134,11 +135,10 @@ class LinkServices:
     def _wrench(self, request: Any, link: LinkHandle, frame: State) -> tuple[Any, Any]:
         force = rotate(frame.quaternion, np.array(point(request.wrench.force)))
         torque = rotate(frame.quaternion, np.array(point(request.wrench.torque)))
-        if request.reference_frame not in ("", "world", "map", "/map"):
-            body = self._entities.link_state(link).position
-            offset = np.array(point(request.reference_point))
-            where = frame.position + rotate(frame.quaternion, offset)
-            torque = torque + cross(where - body, force)
+        lever = rotate(frame.quaternion, np.array(point(request.reference_point)))
+        if not is_world(request.reference_frame):
+            lever = lever + frame.position - self._entities.link_state(link).position
+        torque = torque + cross(lever, force)
         return force, torque
 
     def clear_wrenches(self, request: Any) -> Answer:

@@ -55,6 +55,24 @@ def test_a_links_state_is_set(graph, ball):
     assert answer.status_message == "SetLinkState: link does not exist"
 
 
+def test_a_links_velocity_is_not_turned_but_the_frames_own_is_taken_off(graph, ball):
+    graph.sim.robots["r1"].set_pose((1.0, 0.0, 0.0), yaw=math.pi / 2)
+    state = load_message("gazebo_msgs/LinkState")()
+    state.link_name, state.reference_frame = "ball::core", "r1"
+    state.pose.position.x, state.pose.position.z, state.pose.orientation.w = 1.0, 5.0, 1.0
+    state.twist.linear.x = 0.5
+    graph.client.call("set_link_state", "SetLinkState", link_state=state)
+    assert (ball.pose.x, ball.pose.y) == pytest.approx((1.0, 1.0), abs=1e-6)
+    assert ball.twist.linear[0] == pytest.approx(0.5, abs=1e-6)
+    got = graph.client.call(
+        "get_link_state", "GetLinkState", link_name="ball::core", reference_frame="nowhere"
+    )
+    assert got.status_message == (
+        "GetLinkState: reference reference_frame not found, did you forget to scope the link by "
+        "model name?"
+    )
+
+
 def test_a_links_mass_and_inertia_are_read_and_changed(graph, ball):
     got = graph.client.call("get_link_properties", "GetLinkProperties", link_name="ball::core")
     assert (got.mass, got.ixx, got.gravity_mode) == pytest.approx((2.0, 1.0, False))
@@ -112,6 +130,23 @@ def test_a_wrench_given_in_a_frame_is_turned_with_it(graph, ball):
     )
     graph.sim.step(1000)
     assert ball.twist.linear[:2] == pytest.approx([0.0, 1.0], abs=2e-3)
+
+
+@pytest.mark.parametrize("frame", ["world", "ball::core"])
+def test_the_point_of_a_wrench_is_the_lever_of_its_force(graph, ball, frame):
+    point = load_message("geometry_msgs/Point")(0.0, 0.5, 0.0)
+    graph.client.call(
+        "apply_body_wrench",
+        "ApplyBodyWrench",
+        body_name="ball::core",
+        reference_frame=frame,
+        reference_point=point,
+        wrench=wrench(fx=0.02),
+        duration=Duration(1, 0),
+    )
+    graph.sim.step(1000)
+    assert ball.twist.linear[0] == pytest.approx(0.01, rel=1e-2)
+    assert ball.twist.angular[2] == pytest.approx(-0.01, rel=1e-2)
 
 
 def test_a_wrench_that_begins_later_waits(graph, ball):
