@@ -105,6 +105,18 @@ def test_fixed_joints_can_be_sent_again_and_again(make_node):
     assert moving[0].transforms[0].child_frame_id == "tool"
 
 
+def test_the_nearest_tf_prefix_goes_before_all_links(make_node):
+    node, watcher = make_node("rsp"), make_node("watcher")
+    node.set_param("/tf_prefix", "all")
+    node.set_param("~tf_prefix", "r1")
+    fixed = []
+    RobotStatePublisher(node, read_joints(ROBOT))
+    watcher.subscribe("/tf_static", load_message("tf2_msgs/TFMessage"), fixed.append)
+    until(lambda: fixed)
+    names = [(t.header.frame_id, t.child_frame_id) for t in fixed[0].transforms]
+    assert names == [("r1/arm", "r1/tool")]
+
+
 def test_joints_nobody_measures_are_zero(make_node):
     node, watcher = make_node("jsp"), make_node("watcher")
     node.set_param("~source_list", ["/measured"])

@@ -1,0 +1,79 @@
+"""The node gzserver of gazebo_ros, with the flags that launch files give it."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+
+import pytest
+from door_client import Client
+from ros.graph import until
+
+from gazelle.bridges.gazebo.server import find_world
+from gazelle.bridges.gazebo.server import main as serve
+from gazelle.errors import ResolveError
+from gazelle.ros import Master
+
+WORLD = """<sdf version="1.6"><world name="w"><model name="here"><static>true</static>
+<link name="l"/></model></world></sdf>"""
+EVERY_FLAG = (
+    "-u -r --record_resources --record_path /nowhere --record_encoding txt --record_period 1 "
+    "--record_filter * --verbose --lockstep --minimal_comms -q -e ode -s libgazebo_ros_api.so "
+    "-g libsomething.so -o profile --seed 5"
+)
+
+
+@pytest.fixture
+def master(monkeypatch):
+    with Master(port=0, rosout=False) as running:
+        monkeypatch.setenv("ROS_MASTER_URI", running.uri)
+        yield running
+
+
+@pytest.fixture
+def world(tmp_path):
+    file = tmp_path / "worlds" / "mine.world"
+    file.parent.mkdir()
+    file.write_text(WORLD, encoding="utf-8")
+    return file
+
+
+def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
+    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    process = subprocess.Popen([*program, *EVERY_FLAG.split(), str(world), "__name:=gazebo"])
+    client = Client(master.uri)
+    try:
+        client.node.wait_for_service("/gazebo/get_physics_properties", timeout=60.0)
+        assert client.call("get_physics_properties", "GetPhysicsProperties").pause
+        properties = client.call("get_world_properties", "GetWorldProperties")
+        assert (properties.model_names, properties.sim_time) == (["here"], 0.0)
+        client.call("unpause_physics", "std_srvs/Empty")
+        until(lambda: client.call("get_world_properties", "GetWorldProperties").sim_time > 0.0)
+    finally:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(30) == 0
+        client.node.close()
+
+
+def test_it_ends_by_itself_after_so_many_steps(master, world):
+    assert serve(["--iters", "20", str(world)]) == 0
+
+
+def test_worlds_are_found_below_gazebos_resource_path(world, monkeypatch):
+    monkeypatch.setenv("GAZEBO_RESOURCE_PATH", f"/nowhere:{world.parents[1]}")
+    assert find_world("worlds/mine.world") == str(world)
+
+
+def test_bundled_worlds_are_found_and_others_named(monkeypatch):
+    monkeypatch.delenv("GAZEBO_RESOURCE_PATH", raising=False)
+    assert find_world("worlds/empty.world").endswith("worlds/empty.world")
+    assert find_world("turtlebot3_world") == "turtlebot3_world"
+    with pytest.raises(ResolveError, match=r"worlds/none\.world"):
+        find_world("worlds/none.world")
+
+
+def test_a_flag_that_gzserver_does_not_have_is_refused(master, world):
+    with pytest.raises(SystemExit) as caught:
+        serve(["--no-such-flag", str(world)])
+    assert caught.value.code == 2
