@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -39,10 +41,10 @@ class Force(ModelPlugin):
         """Let go."""
         self._push(Push(np.zeros(3), np.zeros(3)), worlds)
 
-    def state(self) -> dict[str, NDArray[np.generic]]:
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
         """What acts."""
         return {"force": self._force.copy(), "torque": self._torque.copy()}
 
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave; that it acts is in the simulation's state."""
         self._force[:], self._torque[:] = state["force"], state["torque"]

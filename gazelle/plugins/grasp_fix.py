@@ -114,7 +114,7 @@ class GraspFix(ModelPlugin):
         worlds = np.array([world])
         place = self._simulation.engine.link_placement(link, worlds).position
         away = [finger.placement(worlds).position - place for finger in arm.fingers]
-        return np.linalg.norm(np.concatenate(away), axis=1)
+        return np.asarray(np.linalg.norm(np.concatenate(away), axis=1), np.float64)
 
     def _let_go_if_open(self, arm: _Arm, world: int) -> None:
         link, gaps = arm.held[world]

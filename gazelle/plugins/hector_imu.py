@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -111,7 +113,7 @@ def rate_of(parameters: Parameters, default: float) -> float:
     return parameters.get("updateRate", default)
 
 
-def _setter(errors: SensorErrors):  # noqa: ANN202  a function of a service
+def _setter(errors: SensorErrors) -> Callable[[Bias, Worlds | None], None]:
     def answer(bias: Bias, worlds: Worlds | None) -> None:
         errors.set_drift(bias.values, worlds)
 

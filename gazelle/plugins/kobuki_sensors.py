@@ -80,7 +80,7 @@ class Cliffs:
         origins = np.asarray(pose.position) + least * rays
         link = sensor.name.rpartition("::")[0]
         hits = self._engine.cast_rays(link, origins, rays, ignore_own=True)
-        return np.minimum(hits.distance.min(axis=1) + least, _FAR)
+        return np.asarray(np.minimum(hits.distance.min(axis=1) + least, _FAR), np.float64)
 
     def reset(self, worlds: Worlds | None) -> None:
         """There is a floor."""

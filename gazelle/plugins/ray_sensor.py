@@ -24,8 +24,8 @@ class RaySensor(PointLaser):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
-        lidar = self.watch(sensor, parameters).lidar
-        self._least, self._most = lidar.range_min, lidar.range_max
+        model = self.watch(sensor, parameters)
+        self._least, self._most = model.lidar.range_min, model.lidar.range_max
         name = parameters.get("output_type", "sensor_msgs/PointCloud2")
         if name not in _KINDS:
             raise SimulationError(
@@ -35,7 +35,7 @@ class RaySensor(PointLaser):
             )
         self._ultrasound = parameters.get("radiation_type", "ultrasound") == "ultrasound"
         kind, robot = _KINDS[name], sensor.robot
-        self._fov = float(np.ptp(sensor.model.angles))
+        self._fov = float(np.ptp(model.angles))
         ros = parameters.find("ros") or parameters
         topic = _remapped(ros) or parameters.get("topicName", f"{sensor.description.name}/out")
         namespace = ros.get("namespace", "") or namespace_of(robot, parameters)
