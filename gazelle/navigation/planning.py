@@ -47,8 +47,7 @@ def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimi
     """Whether an obstacle has turned up on the rest of a path."""
     rest = path[int(np.hypot(*(path - here).T).argmin()) :]
     rest = rest[np.hypot(*(rest - here).T) > limits.radius]
-    blocked = grid.near_obstacles(limits.radius + 0.5 * limits.clearance)
-    return bool(blocked[tuple(grid.cell_of(rest).T)].any())
+    return bool(grid.is_near(rest, limits.radius + 0.5 * limits.clearance).any())
 
 
 def _prices(grid: OccupancyGrid, start: Floats, limits: BaseLimits) -> Floats:

@@ -62,6 +62,17 @@ def test_a_grown_mask_is_what_is_within_the_radius(marked, radius):
         assert grown[cell] == near
 
 
+@given(st.integers(0, 1000), st.floats(0.0, 0.6))
+def test_being_near_is_the_same_for_points_and_for_the_map(seed, distance):
+    stream = np.random.default_rng(seed)
+    grid = OccupancyGrid(0.1)
+    grid.include([(-2.0, -1.0), (2.0, 1.5)])
+    grid.cells[tuple((stream.uniform(size=(5, 2)) * grid.cells.shape).astype(int).T)] = 2.0
+    points = stream.uniform((-2.0, -1.0), (2.0, 1.5), (40, 2))
+    near = grid.near_obstacles(distance)[tuple(grid.cell_of(points).T)]
+    np.testing.assert_array_equal(grid.is_near(points, distance), near)
+
+
 def test_a_cell_has_a_size():
     with pytest.raises(SimulationError, match="resolution"):
         OccupancyGrid(0.0)
