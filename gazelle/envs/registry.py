@@ -42,7 +42,17 @@ def _turtlebot3() -> list[Entry]:
     ]
 
 
-ENTRIES = tuple(_turtlebot3())
+def _agv_fleet() -> Entry:
+    home = "gazelle.envs.agv_fleet.envs"
+    return Entry(
+        id="gazelle/AGVFleet-v0",
+        env=f"{home}:AGVFleetEnv",
+        vector_env=f"{home}:AGVFleetVectorEnv",
+        max_episode_steps=500,
+    )
+
+
+ENTRIES = (*_turtlebot3(), _agv_fleet())
 
 
 def register_all() -> None:

@@ -131,13 +131,15 @@ def crowded(
 
 
 @part
-def command_of(
-    command: Floats, b: int, speeds: Floats, w: int, radius: float, matrix: Floats
-) -> None:
-    """The twist that the wheels' speeds give."""
-    left, right = speeds[w, 0] / radius, speeds[w, 1] / radius
+def update_drive(
+    command: Floats, b: int, speeds: Floats, w: int, left: float, right: float, law: Floats,
+    matrix: Floats, interval: float,
+) -> None:  # fmt: skip
+    """One update of the drive: new wheel speeds, and the twist that they give."""
+    ramp(speeds, w, left, right, law[LAW_RAMP] * interval if law[LAW_RAMP] > 0.0 else -1.0)
+    one, other = speeds[w, 0] / law[LAW_RADIUS], speeds[w, 1] / law[LAW_RADIUS]
     for axis in range(3):
-        command[b, axis] = left * matrix[axis, 0] + right * matrix[axis, 1]
+        command[b, axis] = one * matrix[axis, 0] + other * matrix[axis, 1]
 
 
 @part
@@ -152,11 +154,7 @@ def glide(
     moving = False
     while i < steps:
         if not math.isnan(intervals[i]):
-            if law[LAW_RAMP] > 0.0:
-                ramp(speeds, w, left, right, law[LAW_RAMP] * intervals[i])
-            else:
-                ramp(speeds, w, left, right, -1.0)
-            command_of(command, b, speeds, w, law[LAW_RADIUS], matrix)
+            update_drive(command, b, speeds, w, left, right, law, matrix, intervals[i])
         settled = speeds[w, 0] == left and speeds[w, 1] == right
         j = i + 1
         while j < steps and (settled or math.isnan(intervals[j])):
@@ -167,9 +165,7 @@ def glide(
 
 
 @part
-def hop(
-    b: int, pose: Floats, goal: Floats, command: Floats, velocity: Floats, time: float
-) -> bool:
+def hop(b: int, pose: Floats, goal: Floats, command: Floats, velocity: Floats, time: float) -> bool:
     """Go as commanded for a time, with nothing in the way; whether that is anywhere."""
     vx, vy, turn = command[b, 0], command[b, 1], command[b, 2]
     velocity[b, 0], velocity[b, 1], velocity[b, 2] = vx, vy, turn
@@ -179,6 +175,16 @@ def hop(
     for c in range(6):
         pose[b, c] = goal[b, c]
     return True
+
+
+@part
+def last_of(moments: Floats) -> int:
+    """Index of the last that is a number; -1 if none is."""
+    latest = -1
+    for i in range(moments.shape[0]):
+        if not math.isnan(moments[i]):
+            latest = i
+    return latest
 
 
 @part
@@ -231,10 +237,7 @@ def drive(
     nbody = kinds.shape[0]
     steps = intervals.shape[0]
     robot = int(law[LAW_BODY])
-    latest = -1
-    for i in range(steps):
-        if not math.isnan(moments[i]):
-            latest = i
+    latest = last_of(moments)
     for w in range(first, last):
         base = w * nbody
         b = base + robot
@@ -257,18 +260,14 @@ def drive(
                 follow_paths(pose, base, paths, points, epochs, w, moments[i])
                 relink(base, base + nbody, nbody, grid, pose, head, follow, cell)
             if not math.isnan(intervals[i]):
-                most = law[LAW_RAMP] * intervals[i] if law[LAW_RAMP] > 0.0 else -1.0
-                ramp(speeds, w, left, right, most)
-                command_of(command, b, speeds, w, law[LAW_RADIUS], matrix)
+                update_drive(command, b, speeds, w, left, right, law, matrix, intervals[i])
             step = reach_of(speeds, w, left, right) * dt
-            if crowded(
-                pose, base, robot, step, drift, kinds, pieces, room, corner, law[LAW_REACH]
-            ):
+            if crowded(pose, base, robot, step, drift, kinds, pieces, room, corner, law[LAW_REACH]):
                 advance(base, base + nbody, 1, *own)
-            else:
-                if hop(b, pose, goal, command, velocity, dt):
-                    stalled[b] = False
-                relink(b, b + 1, nbody, grid, pose, head, follow, cell)
+                continue
+            if hop(b, pose, goal, command, velocity, dt):
+                stalled[b] = False
+            relink(b, b + 1, nbody, grid, pose, head, follow, cell)
 
 
 @kernel

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import Float32, Info, Verdict, Worlds
+from gazelle.envs.batched_task import Bool, Float32, Info, Verdict, Worlds
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.planar.swift import Swift
 from gazelle.envs.turtlebot3 import kernels_judge
@@ -34,7 +34,7 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         super().__init__(stage, nworld, continuous=continuous, settings=settings)
         size = self.observation_space.shape[0]
         self._rules = _row_of(self.rules)
-        self._observation = np.zeros((nworld, size), np.float32)
+        self._size = size
         self._distance, self._heading = np.zeros(nworld), np.zeros(nworld)
         self._nearest = np.zeros(nworld)
 
@@ -69,7 +69,7 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         if self._swift is None:
             return super()._look(worlds)
         cleaned = self._swift.measure(worlds)
-        observation = np.zeros((len(worlds), self._observation.shape[1]), np.float32)
+        observation = np.zeros((len(worlds), self._size), np.float32)
         self._observe(0, len(worlds), worlds, cleaned, observation)
         seen = self._sight(cleaned, len(worlds))
         self._set_start(worlds, seen.distance)
@@ -85,9 +85,10 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         reward = np.zeros(self.nworld)
         crashed, arrived = np.zeros((2, self.nworld), np.bool_)
         cleaned = swift.cleaned
+        observation = np.empty((self.nworld, self._size), np.float32)
 
         def judge(first: int, last: int) -> None:
-            self._observe(first, last, everywhere, cleaned, self._observation)
+            self._observe(first, last, everywhere, cleaned, observation)
             kernels_judge.judge(
                 first, last, self._distance, self._heading, self._nearest, angular,
                 ANGULAR_STEP, (ACTIONS - 1) / 2, self._start_distance, self._rules, reward,
@@ -95,16 +96,18 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
             )  # fmt: skip
 
         swift.step(linear, angular, judge)
-        return self._verdict(reward, crashed, arrived, everywhere)
+        return self._verdict(observation, reward, crashed, arrived)
 
-    def _verdict(self, reward: Floats, crashed: Any, arrived: Any, everywhere: Worlds) -> Verdict:
-        seen = self._sight(self._observation, self.nworld)
+    def _verdict(
+        self, observation: Float32, reward: Floats, crashed: Bool, arrived: Bool
+    ) -> Verdict:
+        seen, everywhere = self._sight(observation, self.nworld), np.arange(self.nworld)
         self._goals_reached += arrived
         if self.respawn and arrived.any():
             self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
         info = self._info(seen, everywhere, arrived=arrived, crashed=crashed & ~arrived)
-        return Verdict(self._observation, reward, terminated, info)
+        return Verdict(observation, reward, terminated, info)
 
     def _see_distance(self, worlds: Worlds) -> Floats:
         if self._swift is None:

@@ -90,7 +90,8 @@ def make_vec(num_envs, **options):
 def test_results_do_not_depend_on_threads_or_the_number_of_worlds():
     envs = [make_vec(300, threads=1), make_vec(300, threads=2), make_vec(3, threads=1)]
     first = [env.reset(seed=9)[0] for env in envs]
-    assert (first[0] == first[1]).all() and (first[0][:3] == first[2]).all()
+    assert (first[0] == first[1]).all()
+    assert (first[0][:3] == first[2]).all()
     generator = np.random.default_rng(3)
     for _ in range(60):
         actions = generator.integers(0, 5, 300)
@@ -140,10 +141,13 @@ def test_rewards_and_ends_are_those_of_the_physical_engine():
     (seen, pay, end), (seen_flat, pay_flat, end_flat) = made["mujoco"], made["planar"]
     # The one that goes straight: it reaches the goal ahead, and then the wall.
     assert abs(int(end[:, 2].argmax()) - int(end_flat[:, 2].argmax())) <= 1
-    assert end[:, 2].any() and end_flat[:, 2].any()
-    assert (pay[:, 2] == 200.0).any() and (pay_flat[:, 2] == 200.0).any()
+    assert end[:, 2].any()
+    assert end_flat[:, 2].any()
+    assert (pay[:, 2] == 200.0).any()
+    assert (pay_flat[:, 2] == 200.0).any()
     early = slice(0, 5)
     np.testing.assert_allclose(seen_flat[early, 2, 24:26], seen[early, 2, 24:26], atol=0.04)
     np.testing.assert_allclose(pay_flat[early, 2], pay[early, 2], atol=0.3)
     # Those that turn on the spot of a circle end nowhere in either.
-    assert not end[:, [0, 4]].any() and not end_flat[:, [0, 4]].any()
+    assert not end[:, [0, 4]].any()
+    assert not end_flat[:, [0, 4]].any()

@@ -1,0 +1,278 @@
+"""The fleet in many halls at once: each AGV of each hall is one learner."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
+from gazelle.envs.agv_fleet import hall
+from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
+from gazelle.envs.options import TaskOptions, TaskSettings, check_whole
+from gazelle.envs.polar import heading_to
+from gazelle.errors import TaskError
+from gazelle.streams import Stream
+
+Floats = NDArray[np.float64]
+
+PERIOD = 0.2
+SPEED, TURN = 1.0, 1.0
+REACH = 6.0
+ARRIVED = 0.5
+GOAL_REWARD, COLLISION_REWARD, STEP_REWARD, PROGRESS = 10.0, -10.0, -0.02, 1.0
+
+_STEPS = 4
+_TRIES = 24
+_FARTHEST = math.hypot(hall.LENGTH, hall.WIDTH)
+
+
+class FleetOptions(TaskOptions, total=False):
+    """What the fleet takes as well; see `FleetSettings`."""
+
+    agents: int
+    lidar_samples: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetSettings(TaskSettings):
+    """Options of the fleet, checked.
+
+    Attributes:
+        agents: AGVs in each hall.
+        lidar_samples: Ranges in the observation, 2 or more.
+    """
+
+    engine: str = "planar"
+    agents: int = 8
+    lidar_samples: int = 24
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_whole("agents", self.agents, 1)
+        check_whole("lidar_samples", self.lidar_samples, 2)
+        if self.engine != "planar":
+            raise TaskError(
+                f"AGVFleet runs in the plane, not with the engine '{self.engine}'",
+                hint='leave out engine, or set engine="planar"',
+            )
+        if self.time_step is not None:
+            raise TaskError(f"AGVFleet has a step of its own, {PERIOD / _STEPS:g} s")
+        if self.agents > len(hall.places()) // 4:
+            raise TaskError(f"the hall is too small for {self.agents} AGVs")
+
+
+class AGVFleetTask(BatchedTask):
+    """AGVs drive to goals among each other; see `AGVFleetEnv` for the data sheet.
+
+    Args:
+        nworld: AGVs in all halls together, a whole multiple of those in one.
+        settings: What the user asks for.
+
+    Raises:
+        TaskError: The number of AGVs does not fit.
+    """
+
+    def __init__(self, nworld: int, settings: FleetSettings) -> None:
+        super().__init__(nworld, settings.max_episode_steps)
+        self.agents = min(settings.agents, nworld)
+        if nworld % self.agents:
+            raise TaskError(
+                f"{nworld} AGVs do not fill halls of {self.agents}",
+                hint="num_envs counts AGVs; make it a multiple of agents",
+            )
+        self.halls = nworld // self.agents
+        self.control_period = PERIOD
+        self.observation_space = _observation_space(settings.lidar_samples)
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (2,), np.float32)
+        body = Body((Part.box(hall.AGV_LENGTH, hall.AGV_WIDTH),), drive=Drive("diff"))
+        self.fleet = Fleet(
+            [body] * self.agents,
+            hall.walls(),
+            nworld=self.halls,
+            time_step=PERIOD / _STEPS,
+            threads=settings.threads,
+        )
+        step = 2.0 * math.pi / settings.lidar_samples
+        self._scanner = Scanner(
+            self.fleet,
+            Fan(0.0, step, settings.lidar_samples, REACH),
+            [Mount(agent) for agent in range(self.agents)],
+        )
+        self._places = hall.places()
+        self._goal = np.zeros(nworld, np.intp)
+        self._distance = np.zeros(nworld)
+        self._reached = np.zeros(nworld, np.int64)
+        self._frozen = np.zeros(nworld, np.bool_)
+        self._seed(settings.seed or 0)
+
+    @property
+    def poses(self) -> Floats:
+        """x, y [m] and heading [rad] of all AGVs, hall by hall, shape (nworld, 3)."""
+        return self.fleet.pose.reshape(-1, 3)
+
+    @property
+    def goals(self) -> Floats:
+        """Where each has to go [m], shape (nworld, 2)."""
+        return self._places[self._goal]
+
+    def freeze(self, rows: Worlds) -> None:
+        """Let AGVs stand from now on, in the way of others, until they begin anew."""
+        self._frozen[rows] = True
+
+    def render(self, world: int) -> NDArray[np.uint8]:
+        """The hall of one AGV from above."""
+        first = world // self.agents * self.agents
+        rows = slice(first, first + self.agents)
+        return hall.picture(self.poses[rows], self.goals[rows])
+
+    def close(self) -> None:
+        """End the threads; a second call does nothing."""
+        self.fleet.close()
+
+    def _seed(self, seed: int) -> None:
+        self._number = seed
+        self._stream = Stream(seed, "agv_fleet", self.nworld)
+        self.fleet.reset()
+        self._frozen[:] = False
+
+    def _begin(self, worlds: Worlds) -> None:
+        """Put AGVs at places that are free, one hall knowing nothing of the others."""
+        self.fleet.command.reshape(-1, 3)[worlds] = 0.0
+        self.fleet.velocity.reshape(-1, 3)[worlds] = 0.0
+        self.fleet.stalled.reshape(-1)[worlds] = False
+        self._frozen[worlds], self._reached[worlds] = False, 0
+        where = self._free_places(worlds)
+        yaw = (self._stream.uniform(1, worlds)[:, 0] * 2.0 - 1.0) * math.pi
+        poses = self.poses.copy()
+        poses[worlds, :2], poses[worlds, 2] = self._places[where], yaw
+        shape = (self.halls, self.agents)
+        self.fleet.put(poses.reshape(*shape, 3), np.zeros(shape))
+        self._goal[worlds] = where
+        self._next_goals(worlds)
+
+    def _free_places(self, worlds: Worlds) -> Worlds:
+        """Places [index] away from all others in the hall; drawn again where they are not."""
+        at = self.poses[:, :2].copy()
+        at[worlds] = np.inf
+        chosen = np.zeros(self.nworld, np.intp)
+        pending = worlds
+        for attempt in range(_TRIES):
+            drawn = self._stream.uniform(1, pending)[:, 0]
+            chosen[pending] = (drawn * len(self._places)).astype(np.intp)
+            wanted = self._places[chosen[pending]]
+            halls = pending // self.agents
+            others = at.reshape(self.halls, self.agents, 2)[halls]
+            away = np.hypot(*np.moveaxis(others - wanted[:, None, :], 2, 0)).min(axis=1)
+            free = (away > hall.APART) | (attempt == _TRIES - 1)
+            # Of those that draw the same place in the same hall the first gets it.
+            key = halls * len(self._places) + chosen[pending]
+            key = np.where(free, key, -1 - np.arange(len(key)))
+            first = np.zeros(len(key), np.bool_)
+            first[np.unique(key, return_index=True)[1]] = True
+            done = free & first
+            at[pending[done]] = wanted[done]
+            pending = pending[~done]
+            if not len(pending):
+                break
+        return chosen[worlds]
+
+    def _next_goals(self, worlds: Worlds) -> None:
+        """Any other place, for these AGVs."""
+        count = len(self._places) - 1
+        drawn = (self._stream.uniform(1, worlds)[:, 0] * count).astype(np.intp)
+        last = self._goal[worlds]
+        self._goal[worlds] = np.where(drawn >= last, drawn + 1, drawn)
+        self._distance[worlds] = _distance(self.poses[worlds], self.goals[worlds])
+
+    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+        no = np.zeros(len(worlds), np.bool_)
+        return self.observe()[worlds], self._info(worlds, no, no)
+
+    def observe(self) -> Float32:
+        """What all AGVs see now, shape (nworld, size)."""
+        ranges = self._scanner.scan().reshape(self.nworld, -1)
+        poses, goals = self.poses, self.goals
+        velocity = self.fleet.velocity.reshape(-1, 3)
+        moving = ~self.fleet.stalled.reshape(-1)
+        columns = (
+            _distance(poses, goals),
+            heading_to(poses, poses[:, 2], goals),
+            velocity[:, 0] * moving,
+            velocity[:, 2] * moving,
+        )
+        return np.concatenate((ranges, np.stack(columns, axis=1)), axis=1, dtype=np.float32)
+
+    def _act(self, actions: ArrayLike) -> Verdict:
+        chosen = np.asarray(actions, np.float64)
+        if chosen.shape != (self.nworld, 2) or np.isnan(chosen).any():
+            raise TaskError(f"actions must be numbers of shape ({self.nworld}, 2)")
+        chosen = np.where(self._frozen[:, None], 0.0, np.clip(chosen, -1.0, 1.0))
+        command = self.fleet.command.reshape(-1, 3)
+        command[:, 0] = np.where(self._frozen, 0.0, (chosen[:, 0] + 1.0) * (SPEED / 2.0))
+        command[:, 2] = chosen[:, 1] * TURN
+        crashed = np.zeros(self.nworld, np.bool_)
+        for _ in range(_STEPS):
+            self.fleet.step()
+            crashed |= self.fleet.stalled.reshape(-1)
+        crashed &= ~self._frozen
+        distance = _distance(self.poses, self.goals)
+        arrived = distance < ARRIVED
+        reward = STEP_REWARD + PROGRESS * (self._distance - distance)
+        reward = np.where(arrived, reward + GOAL_REWARD, reward)
+        reward = np.where(crashed, COLLISION_REWARD, reward)
+        self._distance = distance
+        self._reached += arrived
+        everywhere = np.arange(self.nworld)
+        if arrived.any():
+            self._next_goals(everywhere[arrived])
+        return Verdict(self.observe(), reward, crashed, self._info(everywhere, arrived, crashed))
+
+    def _info(self, worlds: Worlds, arrived: Bool, crashed: Bool) -> Info:
+        return {
+            "is_success": arrived.copy(),
+            "is_collision": crashed.copy(),
+            "goal": self.goals[worlds],
+            "goals_reached": self._reached[worlds],
+        }
+
+    def _state(self) -> dict[str, Any]:
+        fleet = self.fleet
+        return {
+            "seed": np.array(self._number),
+            "draws": self._stream.counters.copy(),
+            "pose": fleet.pose.copy(),
+            "motion": np.stack((fleet.command, fleet.velocity)),
+            "stalled": fleet.stalled.copy(),
+            "goal": self._goal.copy(),
+            "distance": self._distance.copy(),
+            "reached": self._reached.copy(),
+            "frozen": self._frozen.copy(),
+        }
+
+    def _set_state(self, state: dict[str, Any]) -> None:
+        self._seed(int(state["seed"]))
+        self._stream.counters[:] = state["draws"]
+        self.fleet.put(state["pose"], np.zeros((self.halls, self.agents)))
+        self.fleet.command[:], self.fleet.velocity[:] = state["motion"]
+        self.fleet.stalled[:] = state["stalled"]
+        self._goal[:], self._distance[:] = state["goal"], state["distance"]
+        self._reached[:], self._frozen[:] = state["reached"], state["frozen"]
+
+
+def _observation_space(samples: int) -> gym.spaces.Box:
+    low = [0.0] * samples + [0.0, -math.pi, 0.0, -TURN]
+    high = [REACH] * samples + [_FARTHEST, math.pi, SPEED, TURN]
+    return gym.spaces.Box(np.array(low, np.float32), np.array(high, np.float32))
+
+
+def _distance(position: Floats, goal: Floats) -> Floats:
+    """Straight distances [m], shape (n,), by operations that round alike in any batch."""
+    x, y = goal[:, 0] - position[:, 0], goal[:, 1] - position[:, 1]
+    away: Floats = np.sqrt(x * x + y * y)
+    return away
