@@ -107,6 +107,11 @@ def set_header(message: Any, view: View, nanoseconds: int, frame: str | None = N
     message.header.frame_id = view.resolved(view.frame if frame is None else frame)
 
 
+def set_plain_header(message: Any, view: View, nanoseconds: int) -> None:
+    """The same for sensors whose plugins in Gazebo give the frame as it is written."""
+    message.header.stamp, message.header.frame_id = view.stamp(nanoseconds), view.frame
+
+
 def _odometry(message: Any, value: Odometry, view: View) -> None:
     set_header(message, view, value.stamp, value.frame)
     message.child_frame_id = view.resolved(value.child_frame)
@@ -150,8 +155,7 @@ def _scan(message: Any, value: LaserScan, view: View) -> None:
 
 
 def _imu(message: Any, value: ImuReading, view: View) -> None:
-    # Gazebo's plugins do not resolve this frame.
-    message.header.stamp, message.header.frame_id = view.stamp(value.stamp), view.frame
+    set_plain_header(message, view, value.stamp)
     set_quaternion(message.orientation, value.orientation[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
     set_point(message.linear_acceleration, value.linear_acceleration[view.world])

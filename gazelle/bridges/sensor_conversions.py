@@ -18,6 +18,7 @@ from gazelle.bridges.conversions import (
     point,
     quaternion,
     set_header,
+    set_plain_header,
     set_point,
 )
 from gazelle.ros.messages import load_message
@@ -89,7 +90,7 @@ def _three(variance: Any) -> list[float]:
 
 
 def _fix(message: Any, value: Fix, view: View) -> None:
-    set_header(message, view, value.stamp)
+    set_plain_header(message, view, value.stamp)
     message.status.status, message.status.service = value.status, value.service
     message.latitude = float(value.latitude[view.world])
     message.longitude = float(value.longitude[view.world])
@@ -99,12 +100,12 @@ def _fix(message: Any, value: Fix, view: View) -> None:
 
 
 def _vector(message: Any, value: VectorValue, view: View) -> None:
-    set_header(message, view, value.stamp)
+    set_plain_header(message, view, value.stamp)
     set_point(message.vector, value.values[view.world])
 
 
 def _magnetic(message: Any, value: MagneticValue, view: View) -> None:
-    set_header(message, view, value.stamp)
+    set_plain_header(message, view, value.stamp)
     set_point(message.magnetic_field, value.values[view.world])
 
 

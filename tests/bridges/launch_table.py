@@ -54,11 +54,15 @@ QUICK = [
     Expected(
         "kobuki_gazebo kobuki_empty_world.launch",
         models="ground_plane mobile_base",
-        topics="/joint_states /tf /tf_static",
-        frames="base_footprint>base_link base_link>caster_back_link base_link>caster_front_link "
-        "base_link>cliff_sensor_front_link base_link>cliff_sensor_left_link "
-        "base_link>cliff_sensor_right_link base_link>gyro_link",
-        missing=("there is no package 'nodelet'", "libgazebo_ros_kobuki.so"),
+        topics="/joint_states /mobile_base/commands/motor_power "
+        "/mobile_base/commands/reset_odometry /mobile_base/commands/velocity "
+        "/mobile_base/events/bumper /mobile_base/events/cliff /mobile_base/sensors/imu_data "
+        "/odom /tf /tf_static",
+        frames="odom>base_footprint base_footprint>base_link base_link>caster_back_link "
+        "base_link>caster_front_link base_link>cliff_sensor_front_link "
+        "base_link>cliff_sensor_left_link base_link>cliff_sensor_right_link base_link>gyro_link "
+        "base_link>wheel_left_link base_link>wheel_right_link",
+        missing=("there is no package 'nodelet'",),
         left_out=1,
     ),
 ]
@@ -89,6 +93,11 @@ SLOW = [
         "gazebo_ros shapes_world.launch",
         models="box cylinder ground_plane sphere",
         topics="",
+    ),
+    Expected(
+        "gazebo_ros elevator_world.launch",
+        models="elevator floors ground_plane",
+        topics="/elevator",
     ),
     Expected("gazebo_ros mud_world.launch", models="block ground_plane mud", topics=""),
     Expected(
@@ -123,7 +132,6 @@ REFUSED = {
         "there is no package 'fath_pivot_mount_description'",
         "there is no package 'twist_mux'",
     ),
-    "gazebo_ros elevator_world.launch": ("worlds/elevator_ros.world: there is no such world",),
     "gazebo_ros willowgarage_world.launch": ("willowgarage",),
     "gazebo_plugins test_single_pendulum.launch": ("there is no package 'gazebo'",),
     "gazebo_plugins balance.launch": ("there is no package 'gazebo_tests'",),

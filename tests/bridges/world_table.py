@@ -64,7 +64,7 @@ WORLDS = {
     "test/set_model_state_test/set_model_state_test_p2dx.world": (
         "ground_plane pioneer2dx",
         "",
-        "libDiffDrivePlugin.so",
+        "",
     ),
     "test/test_worlds/bumper_test.world": (
         "gplane simple_box reference_box",
@@ -79,7 +79,7 @@ WORLDS = {
     "test/test_worlds/gazebo_ros_block_laser.world": (
         "model_1 camera_model finger_model object1 chair1_model",
         "/test_block_laser",
-        "camera_model::link_1::sensor_camera libgazebo_ros.so libmove_model_test.so",
+        "camera_model::link_1::sensor_camera libmove_model_test.so",
     ),
     "test/test_worlds/gazebo_ros_block_laser_clipping.world": (
         "test_block_laser slope",
@@ -94,7 +94,7 @@ WORLDS = {
     "test/test_worlds/gazebo_ros_gpu_laser.world": (
         "model_1 model_2",
         "/laser_scan",
-        "libgazebo_ros_api_plugin.so",
+        "",
     ),
     "test/test_worlds/gazebo_ros_laser.world": (
         "model_1 model_2 model_3 model_1a",
