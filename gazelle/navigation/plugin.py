@@ -88,8 +88,14 @@ class GoToGoal(ModelPlugin):
             worlds: Which worlds; all if None.
 
         Raises:
-            SimulationError: A number of the goal is not finite.
+            SimulationError: A number of the goal is not finite, or there is nothing to drive with.
         """
+        if "cmd_vel" not in self._robot.inputs or "odom" not in self._robot.outputs:
+            raise SimulationError(
+                f"'{self._robot.name}' has no drive to go to goals with",
+                source=self._parameters.source,
+                hint="add a plugin with cmd_vel and odom, such as libgazebo_ros_diff_drive.so",
+            )
         numbers = (goal.x, goal.y) if goal.yaw is None else (goal.x, goal.y, goal.yaw)
         if not np.isfinite(numbers).all():
             raise SimulationError(f"the goal of '{self._robot.name}' is not finite: {goal}")

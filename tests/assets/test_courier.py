@@ -47,6 +47,17 @@ def test_it_stands_still_and_sees_nothing_of_itself():
         assert np.isinf(robot.sensors["laser"].read().ranges).all()
 
 
+def test_another_courier_sees_it():
+    with gazelle.Simulation("empty") as sim:
+        first = sim.spawn("courier", name="first")
+        second = sim.spawn("courier", name="second", namespace="/second")
+        second.set_pose((1.0, 0.0, 0.0))
+        sim.run(seconds=0.2)
+        ranges = first.sensors["laser"].read().ranges
+        assert 0.7 < ranges.min() < 0.8
+        assert ranges.argmin() == pytest.approx(135, abs=12)
+
+
 def test_it_goes_as_fast_as_it_is_told():
     with gazelle.Simulation("empty") as sim:
         robot = sim.spawn("courier")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -65,7 +67,7 @@ def test_goals_are_reached_without_a_touch(courier):
 def reachable(courier, count, seed):
     """Random places that it can come to: short rays at some heights tell what is in its way."""
     cell = 0.025
-    x, y = np.arange(-6.9, 6.9, cell), np.arange(-4.9, 4.9, cell)
+    x, y = np.arange(-7.1, 7.1, cell), np.arange(-5.1, 5.1, cell)
     at = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     taken = np.zeros(at.shape[:2], np.bool_)
     for height in (0.02, 0.085, 0.25):
@@ -157,7 +159,14 @@ def test_a_robot_without_a_laser_is_told():
         sim.spawn(without_sensors(blind))
 
 
-def without_sensors(model):
-    from dataclasses import replace
+def test_a_robot_without_a_drive_is_told():
+    model = gazelle.load("courier").models[0]
+    kept = tuple(plugin for plugin in model.plugins if "drive" not in plugin.name)
+    with gazelle.Simulation("empty") as sim:
+        robot = sim.spawn(replace(model, plugins=kept))
+        with pytest.raises(SimulationError, match="no drive"):
+            robot.inputs["goal"].send(GoalPose(1.0, 0.0))
 
+
+def without_sensors(model):
     return replace(model, links=tuple(replace(link, sensors=()) for link in model.links))
