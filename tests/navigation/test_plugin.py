@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import gazelle
+from gazelle.builders import cabinet
+from gazelle.description import Pose
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.navigation import GoalPose, GoToGoal
 from gazelle.navigation.grid import dilate
@@ -62,6 +64,17 @@ def test_goals_are_reached_without_a_touch(courier):
     assert ways[0].frame == "odom"
     assert np.hypot(*np.diff(longest[:, :2], axis=0).T).max() < 0.15
     assert not len(ways[-1].poses[0])
+
+
+def test_what_turns_up_in_its_way_is_driven_around():
+    with gazelle.Simulation("empty") as sim:
+        courier = Courier(sim)
+        courier.robot.inputs["goal"].send(GoalPose(3.2, 0.0))
+        sim.run(seconds=1.0)
+        sim.spawn(replace(cabinet("cabinet"), pose=Pose(1.8, 0.1)))
+        assert courier.go(3.2, 0.0, within=20.0)
+        assert courier.off(3.2, 0.0) < 0.12
+        assert courier.touched == set()
 
 
 def reachable(courier, count, seed):
