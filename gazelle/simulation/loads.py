@@ -139,7 +139,7 @@ class Loads:
         """Let a wrench act on a link until the same name gives another; for plugins.
 
         Args:
-            name: Whose wrench it is.
+            name: Whose wrench it is; with ``model::`` in it if it ends with that model.
             link: Scoped name.
             force: At the centre of mass, in the world frame [N], shape (nworld, 3).
             torque: In the world frame [N m], shape (nworld, 3).
@@ -267,12 +267,16 @@ class Loads:
 
     def forget(self, model: str) -> None:
         """Drop what acts on, or is given in a frame of, a model that is gone."""
-        inside = f"{model}::"
+        inside, now_ns = f"{model}::", self._clock.now_ns
         for wrench in [w for w in self._wrenches if w.frame.startswith(inside)]:
             self._wrenches.remove(wrench)
             self._push_links([wrench.target], self._clock.now_ns)
         self._wrenches = [w for w in self._wrenches if not w.target.startswith(inside)]
-        self._held = {key: w for key, w in self._held.items() if not key[1].startswith(inside)}
+        # What a plugin of the model holds of others ends too: its name has the model's in it.
+        gone = [key for key in self._held if key[1].startswith(inside) or f" {inside}" in key[0]]
+        for key in gone:
+            del self._held[key]
+        self._push_links({link for _, link in gone if not link.startswith(inside)}, now_ns)
         self._joints = {n: j for n, j in self._joints.items() if not n.startswith(inside)}
         self._schedule()
 

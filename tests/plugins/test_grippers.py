@@ -94,6 +94,17 @@ def test_what_is_held_goes_along_and_what_is_far_does_not():
         assert sim.robots["crumb"].pose.z < -0.5
 
 
+def test_a_cup_that_is_deleted_draws_no_more():
+    light = CRUMB.format(z=-0.03).replace("<inertial>", "<gravity>0</gravity><inertial>", 1)
+    with simulate(CUP, light, ground=False) as sim:
+        sim.robots["cup"].services["on"].call(None)
+        sim.step(2)
+        sim.delete("cup")
+        before = sim.robots["crumb"].twist.linear[2]
+        sim.run(seconds=0.1)
+        assert sim.robots["crumb"].twist.linear[2] == pytest.approx(before, abs=1e-6)
+
+
 HAND = """<model name="hand"><link name="palm"><pose>0 0 1 0 0 0</pose><inertial><mass>1</mass>
 </inertial></link><joint name="fix" type="fixed"><parent>world</parent><child>palm</child></joint>
 {fingers}{plugin}</model>"""
