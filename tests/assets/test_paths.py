@@ -17,8 +17,8 @@ def test_everything_named_is_a_file():
 
 def test_worlds_by_name():
     stages = {f"turtlebot3_stage_{number}" for number in (1, 2, 3, 4)}
-    gazebos = {"empty", "shapes", "rubble", "mud"}
-    indoors = {"furnished_room", "office", "turtlebot3_world"}
+    gazebos = {"empty", "shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
+    indoors = {"furnished_room", "office", "turtlebot3_world", "fleet"}
     assert stages | gazebos | indoors == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 

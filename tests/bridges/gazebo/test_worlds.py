@@ -43,3 +43,20 @@ def test_the_table_has_all_worlds(corpus):
     folder = corpus / FOLDER
     found = {str(file.relative_to(folder)) for file in folder.rglob("*.world")}
     assert found == {*WORLDS, *REFUSED}
+
+
+def test_the_bundled_world_of_range_finders_measures_its_wall_and_ball():
+    with gazelle.Simulation("gazebo_ros_range") as sim:
+        posts = [sim.robots[name].outputs for name in ("sonar_post", "infrared_post")]
+        outputs = [each for outputs in posts for each in outputs.values()]
+        assert [each.topic for each in outputs] == ["/sonar", "/sonar2"]
+        heard = [[], []]
+        for output, values in zip(outputs, heard, strict=True):
+            output.subscribe(values.append)
+        sim.run(seconds=1.0)
+        assert [len(values) for values in heard] == [
+            pytest.approx(10, abs=1),
+            pytest.approx(20, abs=1),
+        ]
+        assert heard[0][-1].distance[0] == pytest.approx(2.0, abs=0.03)
+        assert heard[1][-1].distance[0] == pytest.approx(0.5, abs=0.01)
