@@ -114,10 +114,16 @@ def formats_refuses(path):
     return False
 
 
-@quiet
-@pytest.mark.parametrize(
-    "path", sorted([*ASSETS.glob("worlds/*.world"), *ASSETS.glob("models/*/model.sdf")]), ids=str
+# Stage's worlds are read only: there is no writer for that language.
+BUNDLED = sorted(
+    path
+    for path in (*ASSETS.glob("worlds/*.world"), *ASSETS.glob("models/*/model.sdf"))
+    if "<sdf" in path.read_text(encoding="utf-8")
 )
+
+
+@quiet
+@pytest.mark.parametrize("path", BUNDLED, ids=str)
 def test_bundled_files_are_the_same(path):
     assert same_after_saving(path)
 
