@@ -11,8 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_noise, kernels_scan
+from gazelle.engines.planar import kernels_noise
+from gazelle.engines.planar.compiled import Function
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.kernels_front import MANY, scan_crowded
+from gazelle.engines.planar.kernels_scan import scan
+from gazelle.engines.planar.kernels_walk import FEW_BEAMS, scan_singly
 from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
@@ -147,6 +151,7 @@ class Scanner:
             )
             for _ in range(fleet.crew.size)
         ]
+        self._look = _look_of(fan, fleet)
         total = fleet.nworld * len(mounts)
         self._sensors = np.zeros((total, c.SENSOR))
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
@@ -173,9 +178,10 @@ class Scanner:
 
         def work(first: int, last: int, part: int) -> None:
             own = self.arguments(part)
-            kernels_scan.scan(
+            extra = (self._scratch[part].spans,) if self._look is scan_crowded else ()
+            self._look(
                 first, last, own[0], owners, *own[2:5], self.fleet.widest, *self._looks(),
-                *own[5:], ranges, self.names,
+                *own[5:], *extra, ranges, self.names,
             )  # fmt: skip
             if self.noise is not None:
                 constant, share = self.noise.constant, self.noise.share
@@ -231,7 +237,7 @@ class Scanner:
         own = self._scratch[part]
         return (
             self._sensors, self.owners, self._mounts, self._fan, self._outline,
-            own.beams, own.view, own.stamp, own.walls, own.others, own.spans,
+            own.beams, own.view, own.stamp, own.walls, own.others,
         )  # fmt: skip
 
 
@@ -243,6 +249,14 @@ def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:
     for mount in mounts:
         if not 0 <= mount.body < fleet.nbody:
             raise EngineError(f"there is no body {mount.body}; there are {fleet.nbody}")
+
+
+def _look_of(fan: Fan, fleet: Fleet) -> Function:
+    """The kernel that scans fastest; others need not be compiled."""
+    scene = fleet.scene
+    if scene.cells > 1 and fan.count <= FEW_BEAMS:
+        return scan_singly
+    return scan_crowded if scene.cells > 1 and len(scene.items) > MANY else scan
 
 
 def _outline(fan: Fan) -> Floats:

@@ -13,13 +13,23 @@ import math
 
 import numpy as np
 
-from gazelle.engines.planar.columns import REACH, S_COS, S_SIN, S_X, S_Y
-from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.columns import FAMILY, REACH, S_COS, S_SIN, S_X, S_Y, S_Z
+from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.kernels_fan import beams_in, cover
 from gazelle.engines.planar.kernels_find import draw_found, find_statics
 from gazelle.engines.planar.kernels_grid import place_in
+from gazelle.engines.planar.kernels_scan import (
+    aim,
+    cells_of,
+    clear,
+    draw_view,
+    put_view,
+    report,
+    rows_of,
+)
 from gazelle.engines.planar.tables import Cells, Floats, Indices
 
+MANY = 256  # statics in view from which it pays to find out which ones are hidden
 MARGIN = 1e-6  # by which cells are taken to be larger than they are [m]
 
 
@@ -90,12 +100,13 @@ def draw_cells(
 def draw_nearest_first(
     beams: Floats, fan: Floats, found: Floats, cells: Floats, spans: Indices, bottom: int,
     top: int, sensors: Floats, m: int, grid: Floats, statics: Floats, start: Cells,
-    items: Cells, stamp: Indices, height: float, x: float, y: float, cos: float, sin: float,
+    items: Cells, stamp: Indices,
 ) -> None:  # fmt: skip
-    """Draw all statics that can be seen in some rows, of each the cells in its span.
-
-    The world's frame is at (x, y, cos, sin) in the sensor's.
-    """
+    """Draw all statics that can be seen in some rows, of each the cells in its span."""
+    stamp[statics.shape[0]] += 1
+    c, s, height = sensors[m, S_COS], sensors[m, S_SIN], sensors[m, S_Z]
+    x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
+    y = s * sensors[m, S_X] - c * sensors[m, S_Y]
     column = place_in(sensors[m, S_X], grid[0], grid[2], grid[3])
     row = place_in(sensors[m, S_Y], grid[1], grid[2], grid[4])
     rings = int(max(grid[3], grid[4]))
@@ -119,13 +130,55 @@ def draw_nearest_first(
                 if number == cells.shape[1]:
                     n = draw_cells(
                         beams, fan, cells, number, found, n, statics, start, items, stamp,
-                        height, x, y, cos, sin,
+                        height, x, y, c, -s,
                     )  # fmt: skip
                     number = 0 * number
         if number > 0:
             n = draw_cells(
                 beams, fan, cells, number, found, n, statics, start, items, stamp, height, x, y,
-                cos, sin,
+                c, -s,
             )  # fmt: skip
         if n > 0:
             draw_found(beams, fan, found, n)
+
+
+@part
+def span_rows(
+    spans: Indices, view: Floats, grid: Floats, widest: float, start: Cells
+) -> tuple[int, int, int]:
+    """First and last row in view, and statics listed there; of each row the cells in view."""
+    bottom, top = rows_of(view, grid, widest)
+    listed = np.int64(0)
+    for r in range(bottom, top + 1):
+        left, right = cells_of(view, grid, widest, r)
+        spans[r, 0], spans[r, 1] = left, right
+        listed += np.int64(start[right + 1] - start[left])
+    return bottom, top, listed
+
+
+@kernel
+def scan_crowded(
+    first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
+    outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, spans: Indices, ranges: Floats,
+    names: Floats,
+) -> None:  # fmt: skip
+    """What ``kernels_scan.scan`` does, faster where many statics are in view."""
+    for m in range(first, last):
+        aim(sensors, m, owners, mounts, pose)
+        world = owners[m] // kinds.shape[0]
+        me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
+        clear(beams, 1.0 / fan[REACH])
+        put_view(view, outline, sensors, m)
+        bottom, top, listed = span_rows(spans, view, grid, widest, start)
+        if listed > MANY:
+            draw_nearest_first(
+                beams, fan, walls, others, spans, bottom, top, sensors, m, grid, statics, start,
+                items, stamp,
+            )  # fmt: skip
+        draw_view(
+            beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
+            kinds, looks, pose, head, follow, world, me, walls, others, listed > MANY,
+        )  # fmt: skip
+        report(beams, m, fan[REACH], ranges, names)

@@ -79,7 +79,7 @@ def rounds(
     corners: Floats, statics: Floats, grid: Floats, start: Cells, items: Cells, lanes: Floats, head: Cells,
     follow: Cells, cell: Cells, looks: Floats, sensors: Floats, owners: Indices, mounts: Floats,
     fan: Floats, outline: Floats, beams: Floats, view: Floats, stamp: Indices, walls: Floats,
-    others: Floats, spans: Indices, ranges: Floats, names: Floats,
+    others: Floats, ranges: Floats, names: Floats,
 ) -> None:  # fmt: skip
     """Let all bodies roam for ``count`` steps, scanning with all sensors after each."""
     total = pose.shape[0]
@@ -91,6 +91,6 @@ def rounds(
         )  # fmt: skip
         scan(
             0, owners.size, sensors, owners, mounts, fan, outline, widest, grid, statics, start,
-            items, lanes, kinds, looks, pose, head, follow, beams, view, stamp, walls, others, spans,
-            ranges, names,
+            items, lanes, kinds, looks, pose, head, follow, beams, view, stamp, walls, others, ranges,
+            names,
         )  # fmt: skip

@@ -8,6 +8,8 @@ number of bodies in the world.
 
 # kernels take their arguments in order
 
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
 from __future__ import annotations
 
 import math
@@ -31,12 +33,8 @@ from gazelle.engines.planar.columns import (
 from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.kernels_bodies import draw_bodies, find_body
 from gazelle.engines.planar.kernels_find import draw_found, draw_statics, find_lanes, find_statics
-from gazelle.engines.planar.kernels_front import draw_nearest_first
 from gazelle.engines.planar.kernels_grid import place_in, stretch
-from gazelle.engines.planar.kernels_walk import FEW_BEAMS, walk
 from gazelle.engines.planar.tables import Cells, Floats, Indices
-
-MANY = 256  # statics in view from which it pays to find out which ones are hidden
 
 
 @part
@@ -88,66 +86,34 @@ def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, in
 
 
 @part
-def span_rows(
-    spans: Indices, view: Floats, grid: Floats, widest: float, start: Cells
-) -> tuple[int, int, int]:
-    """First and last row in view, and statics listed there; of each row the cells in view."""
-    bottom, top = rows_of(view, grid, widest)
-    listed = np.int64(0)
-    for r in range(bottom, top + 1):
-        left, right = cells_of(view, grid, widest, r)
-        spans[r, 0], spans[r, 1] = left, right
-        listed += np.int64(start[right + 1] - start[left])
-    return bottom, top, listed
-
-
-@part
-def draw_all_statics(
-    beams: Floats, fan: Floats, found: Floats, spans: Indices, bottom: int, top: int,
-    statics: Floats, start: Cells, items: Cells, stamp: Indices, height: float, x: float,
-    y: float, cos: float, sin: float,
-) -> None:  # fmt: skip
-    """Draw the statics of some rows, hidden or not."""
-    n = np.int64(0)
-    for r in range(bottom, top + 1):
-        n = find_statics(
-            beams, fan, found, n, statics, items, int(start[spans[r, 0]]),
-            int(start[spans[r, 1] + 1]), stamp, height, x, y, cos, sin,
-        )  # fmt: skip
-    if n > 0:
-        draw_found(beams, fan, found, n)
-
-
-@part
 def draw_view(  # a call for each cell would cost more than what it does
     beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
     grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
-    walls: Floats, others: Floats, spans: Indices,
+    walls: Floats, others: Floats, drawn: bool,
 ) -> None:  # fmt: skip
-    """All that is in the cells in view, but for bodies of the family ``me``."""
+    """All that is in the cells in view, but for bodies of the family ``me``.
+
+    Statics may have been ``drawn`` before.
+    """
     stamp[statics.shape[0]] += 1
     c, s, height = sensors[m, S_COS], sensors[m, S_SIN], sensors[m, S_Z]
     x = -c * sensors[m, S_X] - s * sensors[m, S_Y]
     y = s * sensors[m, S_X] - c * sensors[m, S_Y]
-    bottom, top, listed = span_rows(spans, view, grid, widest, start)
     few = lanes.shape[1]
-    if few > 0:
+    if few > 0 and not drawn:
         find_lanes(walls, lanes, height, x, y, c, -s)
         draw_statics(beams, fan, walls, few)
-    elif listed > MANY:
-        draw_nearest_first(
-            beams, fan, walls, others, spans, bottom, top, sensors, m, grid, statics, start,
-            items, stamp, height, x, y, c, -s,
-        )  # fmt: skip
-    else:
-        draw_all_statics(
-            beams, fan, walls, spans, bottom, top, statics, start, items, stamp, height, x, y,
-            c, -s,
-        )  # fmt: skip
-    q = np.int64(0)
+    n, q = np.int64(0), np.int64(0)
+    bottom, top = rows_of(view, grid, widest)
     for r in range(bottom, top + 1):
-        for cell in range(spans[r, 0], spans[r, 1] + 1):
+        left, right = cells_of(view, grid, widest, r)
+        if few == 0 and not drawn:
+            n = find_statics(
+                beams, fan, walls, n, statics, items, int(start[left]), int(start[right + 1]),
+                stamp, height, x, y, c, -s,
+            )  # fmt: skip
+        for cell in range(left, right + 1):
             b = int(head[world, cell])
             while b >= 0:
                 k = b - world * kinds.shape[0]
@@ -157,6 +123,8 @@ def draw_view(  # a call for each cell would cost more than what it does
                         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
                         q = 0 * q
                 b = int(follow[b])
+    if n > 0:
+        draw_found(beams, fan, walls, n)
     if q > 0:
         draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
 
@@ -173,39 +141,44 @@ def aim(sensors: Floats, m: int, owners: Indices, mounts: Floats, pose: Floats) 
     sensors[m, S_Z] = pose[b, Z] + mounts[j, S_Z]
 
 
+@part
+def clear(beams: Floats, nothing: float) -> None:
+    """Forget what beams met."""
+    for k in range(np.uint64(beams.shape[1])):
+        beams[2, k] = nothing
+        beams[3, k] = 0.0
+
+
+@part
+def report(beams: Floats, m: int, reach: float, ranges: Floats, names: Floats) -> None:
+    """Write down what the beams of sensor m met."""
+    nothing = 1.0 / reach
+    for k in range(np.uint64(beams.shape[1])):
+        best = beams[2, k]
+        t = 1.0 / best
+        ranges[m, k] = t if best > nothing else reach
+    if names.shape[0] > 0:
+        for k in range(np.uint64(beams.shape[1])):
+            names[m, k] = beams[3, k]
+
+
 @kernel
 def scan(
     first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
     outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
-    view: Floats, stamp: Indices, walls: Floats, others: Floats, spans: Indices, ranges: Floats,
-    names: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats, names: Floats,
 ) -> None:  # fmt: skip
     """Scan with the sensors first to last; a beam that meets nothing gets the fan's reach."""
-    nothing = 1.0 / fan[REACH]
     for m in range(first, last):
         aim(sensors, m, owners, mounts, pose)
         world = owners[m] // kinds.shape[0]
         me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
-        for k in range(np.uint64(beams.shape[1])):
-            beams[2, k] = nothing
-            beams[3, k] = 0.0
-        if beams.shape[1] <= FEW_BEAMS and lanes.shape[1] == 0:
-            walk(
-                beams, fan, sensors, m, grid, widest, statics, start, items, kinds, looks, pose,
-                head, follow, world, me, others,
-            )  # fmt: skip
-        else:
-            if grid[3] * grid[4] > 1.0:
-                put_view(view, outline, sensors, m)
-            draw_view(
-                beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
-                kinds, looks, pose, head, follow, world, me, walls, others, spans,
-            )  # fmt: skip
-        for k in range(np.uint64(beams.shape[1])):
-            best = beams[2, k]
-            t = 1.0 / best
-            ranges[m, k] = t if best > nothing else fan[REACH]
-        if names.shape[0] > 0:
-            for k in range(np.uint64(beams.shape[1])):
-                names[m, k] = beams[3, k]
+        clear(beams, 1.0 / fan[REACH])
+        if grid[3] * grid[4] > 1.0:
+            put_view(view, outline, sensors, m)
+        draw_view(
+            beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
+            kinds, looks, pose, head, follow, world, me, walls, others, False,
+        )  # fmt: skip
+        report(beams, m, fan[REACH], ranges, names)

@@ -1,5 +1,7 @@
 """Follow single beams through the grid, cell by cell, until they meet something."""
 
+# ruff: noqa: ARG001  # the arguments are those of all scanning kernels
+
 from __future__ import annotations
 
 import math
@@ -27,11 +29,12 @@ from gazelle.engines.planar.columns import (
     Y1,
     Z,
 )
-from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.kernels_bodies import draw_looks, find_body
 from gazelle.engines.planar.kernels_fan import draw_circle, draw_segment
-from gazelle.engines.planar.kernels_grid import place_in, stretch
-from gazelle.engines.planar.tables import Cells, Floats
+from gazelle.engines.planar.kernels_grid import place_in
+from gazelle.engines.planar.kernels_scan import aim, clear, report
+from gazelle.engines.planar.tables import Cells, Floats, Indices
 
 FEW_BEAMS = 8  # of a fan that are followed one by one
 MARGIN = 1e-6  # by which the grid is taken to be larger than it is [m]
@@ -115,14 +118,15 @@ def meet_bodies(
     x1, y1 = x + dx / beams[2, k], y + dy / beams[2, k]
     first = place_in(min(y, y1) - widest, grid[1], side, grid[4])
     last = place_in(max(y, y1) + widest, grid[1], side, grid[4])
+    across = dx / dy if abs(dy) > MARGIN else 0.0
     for row in range(first, last + 1):
-        low = grid[1] + row * side - widest if row > 0 else -math.inf
-        high = grid[1] + (row + 1) * side + widest if row < grid[4] - 1 else math.inf
         left, right = min(x, x1), max(x, x1)
-        if first < last:
-            left, right = stretch(low, high, y, y1, x, x1)
-        if right < left:
-            continue
+        if first < last and abs(dy) > MARGIN:
+            low, high = grid[1] + row * side - widest, grid[1] + (row + 1) * side + widest
+            low = min(low, y, y1) if row == 0 else low
+            high = max(high, y, y1) if row == grid[4] - 1 else high
+            enter, leave = x + (low - y) * across, x + (high - y) * across
+            left, right = max(left, min(enter, leave)), min(right, max(enter, leave))
         begin = row * int(grid[3]) + place_in(left - widest, grid[0], side, grid[3])
         end = row * int(grid[3]) + place_in(right + widest, grid[0], side, grid[3])
         for cell in range(begin, end + 1):
@@ -154,18 +158,26 @@ def meet_body(
     )  # fmt: skip
 
 
-@part
-def walk(
-    beams: Floats, fan: Floats, sensors: Floats, m: int, grid: Floats, widest: float,
-    statics: Floats, start: Cells, items: Cells, kinds: Floats, looks: Floats, pose: Floats,
-    head: Cells, follow: Cells, world: int, me: float, others: Floats,
+@kernel
+def scan_singly(
+    first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
+    outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats,
+    names: Floats,
 ) -> None:  # fmt: skip
-    """All that the beams of a fan with few of them meet."""
-    c, s = sensors[m, S_COS], sensors[m, S_SIN]
-    for k in range(beams.shape[1]):
-        dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
-        follow_beam(beams, k, fan, sensors, m, dx, dy, grid, statics, start, items)
-        meet_bodies(
-            beams, k, fan, sensors, m, dx, dy, grid, widest, kinds, looks, pose, head, follow,
-            world, me, others,
-        )  # fmt: skip
+    """What ``kernels_scan.scan`` does, faster for fans with few beams in a grid."""
+    for m in range(first, last):
+        aim(sensors, m, owners, mounts, pose)
+        world = owners[m] // kinds.shape[0]
+        me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
+        clear(beams, 1.0 / fan[REACH])
+        c, s = sensors[m, S_COS], sensors[m, S_SIN]
+        for k in range(beams.shape[1]):
+            dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
+            follow_beam(beams, k, fan, sensors, m, dx, dy, grid, statics, start, items)
+            meet_bodies(
+                beams, k, fan, sensors, m, dx, dy, grid, widest, kinds, looks, pose, head,
+                follow, world, me, others,
+            )  # fmt: skip
+        report(beams, m, fan[REACH], ranges, names)
