@@ -27,6 +27,7 @@ from gazelle.engines.planar.columns import (
     Z,
 )
 from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.kernels_bump import statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import go
 from gazelle.engines.planar.kernels_step import advance
@@ -101,8 +102,8 @@ def follow_paths(
 def crowded(
     pose: Floats, base: int, robot: int, travel: float, drift: Floats, kinds: Floats,
     pieces: Floats, room: Floats, corner: Floats, reach: float,
-) -> bool:  # fmt: skip
-    """Whether a robot that goes ``travel`` [m] at most might meet something.
+) -> int:  # fmt: skip
+    """What a robot that goes ``travel`` [m] at most might meet: 0 nothing, 1 statics, 2 bodies.
 
     ``room`` holds a lower bound of the distance to the nearest static in each cell of a map,
     ``drift`` how far each body may go meanwhile.
@@ -111,10 +112,8 @@ def crowded(
     x, y = pose[b, X], pose[b, Y]
     column = math.floor((x - corner[0]) * corner[2])
     row = math.floor((y - corner[1]) * corner[2])
-    if column < 0 or row < 0 or column >= room.shape[1] or row >= room.shape[0]:
-        return True
-    if room[int(row), int(column)] <= reach + travel:
-        return True
+    outside = column < 0 or row < 0 or column >= room.shape[1] or row >= room.shape[0]
+    wall = outside or room[int(row), int(column)] <= reach + travel
     for k in range(kinds.shape[0]):
         if k == robot:
             continue
@@ -126,8 +125,8 @@ def crowded(
             dy = pose[other, Y] + s * cx + c * cy - y
             near = reach + travel + drift[k] + pieces[p, BOUND]
             if dx * dx + dy * dy <= near * near:
-                return True
-    return False
+                return 2
+    return 1 if wall else 0
 
 
 @part
@@ -159,22 +158,31 @@ def glide(
         j = i + 1
         while j < steps and (settled or math.isnan(intervals[j])):
             j += 1
-        moving = hop(b, pose, goal, command, velocity, dt * (j - i))
+        moving = wanted(b, pose, goal, command, velocity, dt * (j - i))
+        if moving:
+            arrive(b, pose, goal)
         i = j
     return moving
 
 
 @part
-def hop(b: int, pose: Floats, goal: Floats, command: Floats, velocity: Floats, time: float) -> bool:
-    """Go as commanded for a time, with nothing in the way; whether that is anywhere."""
+def wanted(
+    b: int, pose: Floats, goal: Floats, command: Floats, velocity: Floats, time: float
+) -> bool:
+    """Where a body gets as commanded in a time, with nothing in the way; whether that is anywhere."""
     vx, vy, turn = command[b, 0], command[b, 1], command[b, 2]
     velocity[b, 0], velocity[b, 1], velocity[b, 2] = vx, vy, turn
     if vx == 0.0 and vy == 0.0 and turn == 0.0:
         return False
     go(pose, goal, b, vx, vy, turn, time, False)
+    return True
+
+
+@part
+def arrive(b: int, pose: Floats, goal: Floats) -> None:
+    """Let a body be where it wanted to be."""
     for c in range(6):
         pose[b, c] = goal[b, c]
-    return True
 
 
 @part
@@ -195,12 +203,13 @@ def reach_of(speeds: Floats, w: int, left: float, right: float) -> float:
 
 
 @kernel
-def drive(
+def drive(  # noqa: C901  # the cases of one loop
     first: int, last: int, linear: Floats, angular: Floats, law: Floats, matrix: Floats,
     intervals: Floats, moments: Floats, speeds: Floats, epochs: Floats, paths: Floats,
     points: Floats, drift: Floats, room: Floats, corner: Floats, dt: float, command: Floats,
     velocity: Floats, pose: Floats, goal: Floats, stalled: Table, kinds: Floats, pieces: Floats,
-    grid: Floats, head: Table, follow: Table, cell: Table, own: Table,
+    corners: Floats, grid: Floats, head: Table, follow: Table, cell: Table, statics: Floats,
+    cells: Floats, start: Table, items: Table, lanes: Floats, own: Table,
 ) -> None:  # fmt: skip
     """Make a control step in the worlds first to last.
 
@@ -228,10 +237,16 @@ def drive(
         stalled: See there.
         kinds: See there.
         pieces: See there.
+        corners: See there.
         grid: See there.
         head: See there.
         follow: See there.
         cell: See there.
+        statics: See there.
+        cells: A finer grid over the statics, as ``kernels_grid`` has it.
+        start: First item of each of its cells.
+        items: Indices of statics, cell by cell.
+        lanes: Nothing, as there is that grid.
         own: ``Fleet.arguments``.
     """
     nbody = kinds.shape[0]
@@ -244,9 +259,10 @@ def drive(
         left = linear[w] - angular[w] * law[LAW_HALF]
         right = linear[w] + angular[w] * law[LAW_HALF]
         travel = reach_of(speeds, w, left, right) * dt * steps
-        if not crowded(
+        near = crowded(
             pose, base, robot, travel, drift, kinds, pieces, room, corner, law[LAW_REACH]
-        ):
+        )
+        if near == 0:
             if glide(
                 w, b, left, right, law, matrix, dt, intervals, speeds, pose, goal, command, velocity
             ):
@@ -262,11 +278,20 @@ def drive(
             if not math.isnan(intervals[i]):
                 update_drive(command, b, speeds, w, left, right, law, matrix, intervals[i])
             step = reach_of(speeds, w, left, right) * dt
-            if crowded(pose, base, robot, step, drift, kinds, pieces, room, corner, law[LAW_REACH]):
+            near = crowded(
+                pose, base, robot, step, drift, kinds, pieces, room, corner, law[LAW_REACH]
+            )
+            if near == 2:
                 advance(base, base + nbody, 1, *own)
                 continue
-            if hop(b, pose, goal, command, velocity, dt):
+            if wanted(b, pose, goal, command, velocity, dt):
                 stalled[b] = False
+                if near == 1:
+                    stalled[b] = statics_meet(
+                        b, robot, kinds, pieces, corners, goal, statics, cells, start, items, lanes
+                    )
+                if not stalled[b]:
+                    arrive(b, pose, goal)
             relink(b, b + 1, nbody, grid, pose, head, follow, cell)
 
 

@@ -7,9 +7,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.engines.planar import Fleet, PlanarEngine
 from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.kernels_grid import list_statics
 from gazelle.engines.planar.rays import Caster
 from gazelle.envs.planar.kernels_drive import measure_room
 from gazelle.envs.planar.tables import (
@@ -38,6 +40,8 @@ from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot, Simulation
 from gazelle.simulation.stepping import ScheduledPlugin
 
+_CELL = 0.3  # side of the cells that statics are listed in [m]
+_MOST_CELLS = 500  # along a side
 _MAP = 480  # cells along the longer side of the map of distances
 _SAME = 1e-12
 
@@ -87,12 +91,18 @@ class Statics:
         discs: Discs it sees: middle and radius, shape (m, 3).
         room: Map of lower bounds of the distance to anything static [m].
         corner: Of the map: x, y [m], cells a metre.
+        cells: A fine grid over them, as ``kernels_grid`` has it.
+        start: First item of each of its cells.
+        items: Indices of statics, cell by cell.
     """
 
     faces: Floats
     discs: Floats
     room: Floats
     corner: Floats
+    cells: Floats
+    start: NDArray[np.int32]
+    items: NDArray[np.int32]
 
 
 def drive_of(simulation: Simulation, robot: Robot) -> Drive | None:
@@ -188,7 +198,25 @@ def statics_of(fleet: Fleet, height: float) -> Statics:
     columns, lines = np.maximum(np.ceil((high - low) * per_metre).astype(int), 1)
     room = np.zeros((lines, columns), np.float32)
     measure_room(room, corner, ends[~disc].copy(), ends[disc][:, :3].copy())
-    return Statics(faces, ends[level & disc][:, :3].copy(), room, corner)
+    cells, start, items = _grid_over(rows, low, high)
+    return Statics(faces, ends[level & disc][:, :3].copy(), room, corner, cells, start, items)
+
+
+def _grid_over(
+    rows: Floats, low: Floats, high: Floats
+) -> tuple[Floats, NDArray[np.int32], NDArray[np.int32]]:
+    """Which statics are in which cell of a grid that is finer than the engine's."""
+    side = max(_CELL, float((high - low).max()) / _MOST_CELLS)
+    columns, lines = np.ceil((high - low) / side)
+    cells = np.array([*low, side, columns, lines])
+    start = np.zeros(int(columns * lines) + 1, np.int32)
+    list_statics(rows, cells, start, np.zeros(0, np.int32))
+    start[1:] = np.cumsum(start[:-1].copy())
+    start[0] = 0
+    items = np.zeros(int(start[-1]), np.int32)
+    if len(items):
+        list_statics(rows, cells, start[:-1].copy(), items)
+    return cells, start, items
 
 
 def _extent(

@@ -26,7 +26,7 @@ from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot
 
 _SHARE = 128  # worlds that are worth a thread
-_BLOCK = 65
+_NOTHING = np.zeros((0, 0))
 
 
 class Swift:
@@ -122,8 +122,8 @@ class Swift:
                 first, last, linear, angular, drive.law, drive.matrix, intervals, moments,
                 self._speeds, self._epochs, paths.table, paths.points, paths.drift,
                 statics.room, statics.corner, fleet.time_step, fleet._command, fleet._velocity,
-                fleet.rows, fleet._goal, fleet._stalled, fleet.kinds, fleet.pieces, grid, head,
-                follow, cell, own,
+                fleet.rows, fleet._goal, fleet._stalled, fleet.kinds, fleet.pieces, fleet.corners, grid, head, follow, cell,
+                fleet.scene.table.rows, statics.cells, statics.start, statics.items, _NOTHING, own,
             )  # fmt: skip
             self._measure(first, last, part, self._everywhere)
             then(first, last)
