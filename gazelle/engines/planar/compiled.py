@@ -37,6 +37,18 @@ def part(function: Function) -> Function:
     return cast("Function", made)
 
 
+def inner(function: Function) -> Function:
+    """Compile a function into the loop that calls it, where handing over arrays would cost most."""
+    made = numba.njit(
+        nogil=True,
+        error_model="numpy",
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        forceinline=True,
+    )(function)
+    return cast("Function", made)
+
+
 def _follow_all_sources(made: Any) -> None:
     """Let the cache of one kernel also depend on the kernels that it calls.
 

@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import FAMILY, REACH, S_COS, S_SIN, S_X, S_Y, S_Z
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import inner, kernel, part
 from gazelle.engines.planar.kernels_fan import beams_in, cover
 from gazelle.engines.planar.kernels_find import draw_found, find_statics
 from gazelle.engines.planar.kernels_grid import place_in
@@ -27,22 +27,24 @@ from gazelle.engines.planar.kernels_scan import (
     report,
     rows_of,
 )
+from gazelle.engines.planar.kernels_walk import follow_beam
 from gazelle.engines.planar.tables import Cells, Floats, Indices
 
+LONELY = 5.0  # times rings: beams of which the rest are followed one by one
 MANY = 256  # statics in view from which it pays to find out which ones are hidden
 MARGIN = 1e-6  # by which cells are taken to be larger than they are [m]
 
 
-@part
-def any_beyond(beams: Floats, lo: int, hi: int, inverse: float) -> bool:
-    """Whether any of beams lo to hi has met nothing nearer than one over ``inverse``."""
+@inner
+def beyond(beams: Floats, lo: int, hi: int, inverse: float) -> int:
+    """How many of beams lo to hi have met nothing nearer than one over ``inverse``."""
     open_ones = np.int64(0)
     for k in range(np.uint64(lo), np.uint64(hi)):
         open_ones += np.int64(1) if beams[2, k] < inverse else np.int64(0)
-    return bool(open_ones > 0)
+    return int(open_ones)
 
 
-@part
+@inner
 def note_cell(
     cells: Floats, n: int, reach: float, grid: Floats, start: Cells, column: int, row: int,
     sensors: Floats, m: int,
@@ -67,13 +69,13 @@ def note_cell(
     return n + 1
 
 
-@part
+@inner
 def can_be_seen(beams: Floats, fan: Floats, cells: Floats, i: int) -> bool:
     """Whether a beam may get to the i-th cell."""
     count = beams.shape[1]
     for turn in range(2):
         lo, hi = beams_in(fan, count, cells[5, i], cells[6, i], -turn)
-        if lo < hi and any_beyond(beams, lo, hi, cells[8, i]):
+        if lo < hi and beyond(beams, lo, hi, cells[8, i]) > 0:
             return True
     return False
 
@@ -97,6 +99,17 @@ def draw_cells(
 
 
 @part
+def follow_rest(
+    beams: Floats, fan: Floats, sensors: Floats, m: int, grid: Floats, statics: Floats,
+    start: Cells, items: Cells, near: float,
+) -> None:  # fmt: skip
+    """Follow the beams that have met nothing up to a distance."""
+    for k in range(beams.shape[1]):
+        if beams[2, k] * near < 1.0:
+            follow_beam(beams, k, fan, sensors, m, grid, statics, start, items, near)
+
+
+@part
 def draw_nearest_first(
     beams: Floats, fan: Floats, found: Floats, cells: Floats, spans: Indices, bottom: int,
     top: int, sensors: Floats, m: int, grid: Floats, statics: Floats, start: Cells,
@@ -114,8 +127,11 @@ def draw_nearest_first(
         near = (ring - 1) * grid[2] - MARGIN
         if near >= fan[REACH]:
             return
-        if near > 0.0 and not any_beyond(beams, 0, beams.shape[1], 1.0 / near):
-            return
+        if near > 0.0:
+            left = beyond(beams, 0, beams.shape[1], 1.0 / near)
+            if left < LONELY * ring:
+                follow_rest(beams, fan, sensors, m, grid, statics, start, items, near)
+                return
         n, number = np.int64(0), np.int64(0)
         for r in range(max(row - ring, bottom), min(row + ring, top) + 1):
             base = r * int(grid[3])
@@ -133,11 +149,10 @@ def draw_nearest_first(
                         height, x, y, c, -s,
                     )  # fmt: skip
                     number = 0 * number
-        if number > 0:
-            n = draw_cells(
-                beams, fan, cells, number, found, n, statics, start, items, stamp, height, x, y,
-                c, -s,
-            )  # fmt: skip
+        n = draw_cells(
+            beams, fan, cells, number, found, n, statics, start, items, stamp, height, x, y,
+            c, -s,
+        )  # fmt: skip
         if n > 0:
             draw_found(beams, fan, found, n)
 
@@ -153,7 +168,7 @@ def span_rows(
         left, right = cells_of(view, grid, widest, r)
         spans[r, 0], spans[r, 1] = left, right
         listed += np.int64(start[right + 1] - start[left])
-    return bottom, top, listed
+    return bottom, top, int(listed)
 
 
 @kernel

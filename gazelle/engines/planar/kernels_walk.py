@@ -29,7 +29,7 @@ from gazelle.engines.planar.columns import (
     Y1,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import inner, kernel, part
 from gazelle.engines.planar.kernels_bodies import draw_looks, find_body
 from gazelle.engines.planar.kernels_fan import draw_circle, draw_segment
 from gazelle.engines.planar.kernels_grid import place_in
@@ -40,7 +40,7 @@ FEW_BEAMS = 8  # of a fan that are followed one by one
 MARGIN = 1e-6  # by which the grid is taken to be larger than it is [m]
 
 
-@part
+@inner
 def meet_static(
     beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, statics: Floats, p: int
 ) -> None:
@@ -78,15 +78,17 @@ def enters(place: float, way: float, low: float, high: float) -> tuple[float, fl
 
 @part
 def follow_beam(
-    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, dx: float, dy: float,
-    grid: Floats, statics: Floats, start: Cells, items: Cells,
+    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, grid: Floats, statics: Floats,
+    start: Cells, items: Cells, begin: float,
 ) -> None:  # fmt: skip
-    """Meet the statics along beam k, whose direction in the world is (dx, dy)."""
+    """Meet the statics along beam k; those nearer than ``begin`` may be left out."""
+    c, s = sensors[m, S_COS], sensors[m, S_SIN]
+    dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
     x, y, side = sensors[m, S_X], sensors[m, S_Y], grid[2]
     columns, rows = int(grid[3]), int(grid[4])
     in_x, out_x = enters(x, dx, grid[0] - MARGIN, grid[0] + columns * side + MARGIN)
     in_y, out_y = enters(y, dy, grid[1] - MARGIN, grid[1] + rows * side + MARGIN)
-    t = max(in_x, in_y, 0.0)
+    t = max(in_x, in_y, begin)
     if t > min(out_x, out_y, fan[REACH]):
         return
     column = place_in(x + t * dx, grid[0], side, grid[3])
@@ -107,7 +109,7 @@ def follow_beam(
             row += 2 * to_y - 1
 
 
-@part
+@inner
 def meet_bodies(
     beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, dx: float, dy: float,
     grid: Floats, widest: float, kinds: Floats, looks: Floats, pose: Floats, head: Cells,
@@ -138,7 +140,7 @@ def meet_bodies(
                 b = int(follow[b])
 
 
-@part
+@inner
 def meet_body(
     beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, kinds: Floats, looks: Floats,
     pose: Floats, kind: int, b: int, others: Floats,
@@ -175,7 +177,7 @@ def scan_singly(
         c, s = sensors[m, S_COS], sensors[m, S_SIN]
         for k in range(beams.shape[1]):
             dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
-            follow_beam(beams, k, fan, sensors, m, dx, dy, grid, statics, start, items)
+            follow_beam(beams, k, fan, sensors, m, grid, statics, start, items, 0.0)
             meet_bodies(
                 beams, k, fan, sensors, m, dx, dy, grid, widest, kinds, looks, pose, head,
                 follow, world, me, others,

@@ -182,3 +182,34 @@ def test_a_fan_that_cannot_be_is_refused():
         Scanner(fleet, Fan(0.0, 0.1, 100, 3.0), [Mount(0)])
     with pytest.raises(EngineError, match="no body 3"):
         Scanner(fleet, FANS[0], [Mount(3)])
+
+
+def test_a_crowd_of_statics_hides_none_that_can_be_seen():
+    rng = np.random.default_rng(5)
+    lines = rng.uniform(-12.0, 12.0, (700, 2))
+    ends = lines + rng.uniform(-0.8, 0.8, lines.shape)
+    statics = [Part((tuple(a), tuple(b)), closed=False) for a, b in zip(lines, ends, strict=True)]
+    poses = [(0.0, 0.0, 0.3), (-11.9, 3.0, 0.0), (14.0, -2.0, 3.0), (5.0, 13.5, -1.6)]
+    fleet = Fleet([Body((), pose) for pose in poses], statics)
+    mounts = [Mount(i) for i in range(len(poses))]
+    whole = Scanner(fleet, Fan(-math.pi, 2 * math.pi / 500, 500, 30.0), mounts).scan()[0].copy()
+    reach = np.stack((lines, ends), axis=1)
+    union = shapely.union_all([shapely.LineString(each) for each in reach])
+    for (x, y, yaw), ranges in zip(poses, whole, strict=True):
+        for k in range(0, 500, 9):
+            true = nearest(union, [], x, y, yaw - math.pi + 2 * math.pi / 500 * k, 30.0)
+            assert ranges[k] == pytest.approx(true, abs=1e-9)
+
+
+def test_single_beams_measure_what_fans_do():
+    rng = np.random.default_rng(6)
+    statics = [Part.box(*rng.uniform(0.1, 0.6, 2), *rng.uniform(-9.0, 9.0, 2)) for _ in range(80)]
+    bodies = [
+        Body((Part.circle(0.1, 0.0, 0.3),), tuple(rng.uniform(-9.0, 9.0, 3))) for _ in range(60)
+    ]
+    fleet = Fleet(bodies, statics)
+    mounts = [Mount(i, yaw=yaw) for i in range(60) for yaw in (0.0, 0.25 * math.pi, 2.0)]
+    many = Scanner(fleet, Fan(0.0, 0.01, 60, 7.0), mounts, named=True)
+    few = Scanner(fleet, Fan(0.0, 0.01, 5, 7.0), mounts, named=True)
+    assert few.scan()[0] == pytest.approx(many.scan()[0, :, :5], abs=1e-9)
+    assert (few.bodies() == many.bodies()[..., :5]).all()
