@@ -18,6 +18,9 @@ def compile_ahead() -> None:
             scanner = Scanner(fleet, Fan.spread(1.0, 9, 2.0), [Mount(0)], noise=noise)
             Roaming(fleet, scanner).run(1)
         fleet.close()
+    crowd = Fleet([Body(disc)], [Part.circle(1.0 + i, 0.0, 0.3) for i in range(300)])
+    for count in (1, 60):  # fans of few beams and scans among many statics have their own
+        Scanner(crowd, Fan.spread(1.0, count, 2.0), [Mount(0)]).scan()
 
 
 if __name__ == "__main__":

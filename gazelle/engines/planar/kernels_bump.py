@@ -42,7 +42,7 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.compiled import inner, part
 from gazelle.engines.planar.kernels_grid import place_in
 from gazelle.engines.planar.tables import Cells, Floats, Marks
 
@@ -152,7 +152,7 @@ def static_meets(
     return False
 
 
-@part
+@inner
 def any_near(lanes: Floats, x: float, y: float, radius: float) -> bool:
     """Whether any of few static primitives is within a radius of a point."""
     near = np.int64(0)
@@ -166,7 +166,7 @@ def any_near(lanes: Floats, x: float, y: float, radius: float) -> bool:
     return bool(near > 0)
 
 
-@part
+@inner
 def statics_meet(
     b: int, k: int, kinds: Floats, pieces: Floats, corners: Floats, goal: Floats,
     statics: Floats, grid: Floats, start: Cells, items: Cells, lanes: Floats,

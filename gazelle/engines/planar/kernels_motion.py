@@ -26,11 +26,11 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import part
+from gazelle.engines.planar.compiled import inner, part
 from gazelle.engines.planar.tables import Flags, Floats, Marks
 
 
-@part
+@inner
 def toward(now: float, wanted: float, drives: Floats, k: int, axis: int, dt: float) -> float:
     """The velocity along an axis after a step, within the bounds of a drive."""
     wanted = min(max(wanted, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis])
@@ -57,7 +57,7 @@ def turned(angle: float) -> tuple[float, float, float, float]:
     return angle * sine, 1.0 - q * versed, sine, angle * versed
 
 
-@part
+@inner
 def go(
     pose: Floats, goal: Floats, b: int, vx: float, vy: float, turn: float, dt: float, euler: bool
 ) -> None:
@@ -83,7 +83,7 @@ def go(
     goal[b, YAW], goal[b, COS], goal[b, SIN] = yaw, c * unit, s * unit
 
 
-@part
+@inner
 def propose(
     first: int, last: int, drives: Floats, command: Floats, velocity: Floats, pose: Floats,
     goal: Floats, state: Marks, dt: float, euler: bool,
@@ -130,7 +130,7 @@ def propose(
     return math.sqrt(longest) * dt
 
 
-@part
+@inner
 def commit(first: int, last: int, pose: Floats, goal: Floats, state: Marks, stalled: Flags) -> int:
     """Let the bodies first to last be where they may go; remember who could not."""
     moved = 0
