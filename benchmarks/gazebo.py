@@ -103,7 +103,8 @@ def first_scan(runs: int) -> float:
 def world() -> Iterator[gazelle.Simulation]:
     """The world with its robot."""
     with gazelle.Simulation("turtlebot3_world") as sim:
-        sim.spawn("turtlebot3_burger", name="burger", namespace="/")
+        place = gazelle.Pose(x=-2.0, y=-0.5)  # between the pillars, where the launch file puts it
+        sim.spawn("turtlebot3_burger", name="burger", pose=place, namespace="/")
         sim.run(seconds=1.0)
         yield sim
 
