@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.description.pose import quaternion_from_rpy
 from gazelle.ros import load_message
 
 Vector = tuple[float, float, float]
@@ -61,19 +62,6 @@ def twist_message(linear: Vector, angular: Vector) -> Any:
     twist.linear.x, twist.linear.y, twist.linear.z = linear
     twist.angular.x, twist.angular.y, twist.angular.z = angular
     return twist
-
-
-def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """The turn about fixed x, then y, then z, as (x, y, z, w)."""
-    (cr, sr), (cp, sp), (cy, sy) = (
-        (math.cos(half), math.sin(half)) for half in (roll / 2.0, pitch / 2.0, yaw / 2.0)
-    )
-    return (
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
 
 
 def _triple(message: Any) -> Vector:

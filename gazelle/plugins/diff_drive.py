@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
 from gazelle.plugins.frames import transform
-from gazelle.rotations import conjugate, from_yaw, rotate
+from gazelle.plugins.odometry import POSE_VARIANCE, as_transforms, true_odometry
+from gazelle.rotations import from_yaw
 from gazelle.simulation import (
     JointStates,
     ModelPlugin,
     Odometry,
     Output,
     Robot,
-    Transform,
     Transforms,
     TwistInput,
     absolute,
@@ -32,7 +32,6 @@ Worlds = NDArray[np.intp]
 
 # The ramp acts only while both wheels are farther than this from their target [m/s].
 _RAMP_DEADBAND = 0.01
-_POSE_VARIANCE = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
 
 
 class DiffDrive(ModelPlugin):
@@ -142,21 +141,9 @@ class DiffDrive(ModelPlugin):
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
 
     def _measure(self) -> Odometry:
-        return self._from_wheels() if self._from_encoders else self._from_world()
-
-    def _from_world(self) -> Odometry:
-        place, motion = self._robot.placement(), self._robot.motion()
-        back = conjugate(place.quaternion)
-        return Odometry(
-            self._robot.simulation.clock.now_ns,
-            self._frame,
-            self._base,
-            place.position,
-            place.quaternion,
-            rotate(back, motion.linear),
-            rotate(back, motion.angular),
-            _POSE_VARIANCE,
-        )
+        if self._from_encoders:
+            return self._from_wheels()
+        return true_odometry(self._robot, self._frame, self._base)
 
     def _from_wheels(self) -> Odometry:
         zero = np.zeros(len(self._encoder_pose))
@@ -171,13 +158,11 @@ class DiffDrive(ModelPlugin):
             from_yaw(yaw),
             np.stack((speed, zero, zero), axis=1),
             np.stack((zero, zero, turning), axis=1),
-            _POSE_VARIANCE,
+            POSE_VARIANCE,
         )
 
     def _odometry_frame(self) -> Transforms:
-        odometry = self._measure()
-        place = Transform(self._frame, self._base, odometry.position, odometry.quaternion)
-        return Transforms(odometry.stamp, (place,))
+        return as_transforms(self._measure())
 
     def _wheel_frames(self) -> Transforms:
         robot = self._robot

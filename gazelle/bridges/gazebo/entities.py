@@ -112,16 +112,11 @@ class Entities:
             return REST
         robot = self.model(name)
         if robot is not None:
-            return self.model_state(robot)
+            return self.state(robot)
         link = self.link(name)
-        return None if link is None else self.link_state(link)
+        return None if link is None else self.state(link)
 
-    def model_state(self, robot: Robot) -> State:
-        """Pose of the model frame, velocity of its canonical link."""
-        place, motion = robot.placement(self.worlds), robot.motion(self.worlds)
-        return State(place.position[0], place.quaternion[0], motion.linear[0], motion.angular[0])
-
-    def link_state(self, link: LinkHandle) -> State:
-        """Pose and velocity of a link."""
-        place, motion = link.placement(self.worlds), link.motion(self.worlds)
+    def state(self, entity: Robot | LinkHandle) -> State:
+        """Pose and velocity of a link, or of a model's frame and its canonical link."""
+        place, motion = entity.placement(self.worlds), entity.motion(self.worlds)
         return State(place.position[0], place.quaternion[0], motion.linear[0], motion.angular[0])

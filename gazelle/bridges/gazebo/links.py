@@ -73,7 +73,7 @@ class LinkServices:
                 "GetLinkState: reference reference_frame not found, did you forget to scope the "
                 "link by model name?"
             )
-        seen = self._entities.link_state(link).seen_from(frame)
+        seen = self._entities.state(link).seen_from(frame)
         response = self._context.response("GetLinkState")
         state = response.link_state
         state.link_name = request.link_name
@@ -137,7 +137,7 @@ class LinkServices:
         torque = rotate(frame.quaternion, np.array(point(request.wrench.torque)))
         lever = rotate(frame.quaternion, np.array(point(request.reference_point)))
         if not is_world(request.reference_frame):
-            lever = lever + frame.position - self._entities.link_state(link).position
+            lever = lever + frame.position - self._entities.state(link).position
         torque = torque + cross(lever, force)
         return force, torque
 

@@ -127,7 +127,7 @@ class ModelServices:
                 "GetModelState: reference relative_entity_name not found, did you forget to scope "
                 "the body by model name?"
             )
-        seen = self._entities.model_state(robot).seen_from(frame)
+        seen = self._entities.state(robot).seen_from(frame)
         response = self._context.response("GetModelState")
         self._calls[request.model_name] += 1
         response.header.seq = self._calls[request.model_name]
