@@ -12,17 +12,19 @@ import numpy as np
 from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401  they teach kinds
 from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
-from gazelle.errors import SimulationWarning
+from gazelle.bridges.reconfigure import ReconfigureServer
+from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
 from gazelle.ros.tf.naming import FramePrefixes
-from gazelle.simulation import Input, Output, Ports, Service, TwistInput
+from gazelle.simulation import Input, Output, Ports, Service, Setting, TwistInput
 
 
 class Binding:
     """The ports of one owner as topics and services, until it is closed.
 
     A topic that nobody listens to costs nothing: its port is listened to only while there are
-    subscribers.
+    subscribers. Settings are looked up on the parameter server before all else; tunings become
+    dynamic_reconfigure servers.
 
     Args:
         graph: Where.
@@ -37,11 +39,16 @@ class Binding:
         self._worlds = np.array([graph.world])
         self._closing: list[Callable[[], None]] = []
         self._prefixes, self._namespace = FramePrefixes(graph.node), namespace
+        for setting in ports.settings.values():
+            self._look_up(setting)
         self._outputs = [self._publish(output) for output in ports.outputs.values()]
         for port in ports.inputs.values():
             self._subscribe(port)
         for service in ports.services.values():
             self._serve(service)
+        for tuning in ports.tunings.values():
+            server = ReconfigureServer(graph.node, tuning, graph.simulation)
+            self._closing.append(server.close)
 
     def refresh(self) -> None:
         """Publish what is true now to all who listen."""
@@ -52,6 +59,15 @@ class Binding:
         """Take the topics and services off the graph."""
         while self._closing:
             self._closing.pop()()
+
+    def _look_up(self, setting: Setting[Any]) -> None:
+        value = self._node.get_param(setting.name, None)
+        if value is None:
+            return
+        try:
+            setting.send(value)
+        except SimulationError as error:
+            warnings.warn(SimulationWarning(f"parameter: {error}"), stacklevel=2)
 
     def _publish(self, output: Output[Any]) -> Output[Any]:
         encoder = encoder_of(output.kind)

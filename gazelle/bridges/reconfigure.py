@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from gazelle.ros import Node, load_message, load_service
+from gazelle.simulation import Simulation, Tuning
 
 _LISTS = {bool: "bools", int: "ints", str: "strs", float: "doubles"}
 _MESSAGES = {
@@ -20,55 +19,18 @@ _WORDS = {bool: "bool", int: "int", str: "str", float: "double"}
 Values = dict[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """A parameter that can be changed while its owner runs.
-
-    Attributes:
-        name: Its name.
-        default: Its type is that of the parameter: bool, int, str or float.
-        least: Smallest value.
-        most: Largest value.
-        description: For people.
-    """
-
-    name: str
-    default: Any
-    least: Any
-    most: Any
-    description: str
-
-    def clamp(self, value: Any) -> Any:
-        """The allowed value that is nearest."""
-        kind = type(self.default)
-        if kind in (bool, str):
-            return kind(value)
-        return kind(min(max(value, self.least), self.most))
-
-
 class ReconfigureServer:
-    """Offers parameters under a namespace.
+    """Offers a tuning, and keeps what holds on the parameter server.
 
     Args:
         node: Serves and publishes.
-        namespace: Where ``set_parameters`` and its topics are.
-        parameters: What can be changed.
-        change: Called with all values; returns those that hold then.
-        values: Those that hold now.
+        tuning: What can be changed.
+        simulation: Whose it is; changes are made between two steps.
     """
 
-    def __init__(
-        self,
-        node: Node,
-        namespace: str,
-        parameters: Sequence[Parameter],
-        change: Callable[[Values], Values],
-        values: Values,
-    ) -> None:
-        self._parameters = {parameter.name: parameter for parameter in parameters}
-        self._change = change
-        self._values = dict(values)
-        self._node, self._namespace = node, namespace
+    def __init__(self, node: Node, tuning: Tuning, simulation: Simulation) -> None:
+        self._tuning, self._requests = tuning, simulation.requests
+        self._node, namespace = node, tuning.topic
         self._descriptions = node.advertise(
             f"{namespace}/parameter_descriptions", _message("ConfigDescription"), latch=True
         )
@@ -81,7 +43,7 @@ class ReconfigureServer:
             self._set,
         )
         self._descriptions.publish(self._describe())
-        self._updates.publish(_config(self._values))
+        self._tell(self._requests.call(lambda: tuning.values))
 
     def close(self) -> None:
         """Take it off the graph."""
@@ -90,21 +52,27 @@ class ReconfigureServer:
         self._updates.close()
 
     def _set(self, request: Any) -> Any:
-        wanted = dict(self._values)
-        for kind in _LISTS.values():
-            for each in getattr(request.config, kind):
-                if each.name in self._parameters:
-                    wanted[each.name] = self._parameters[each.name].clamp(each.value)
-        self._values = self._change(wanted)
-        config = _config(self._values)
+        """Change what is known; other names are passed over, as they are by the original."""
+        wanted = {
+            each.name: each.value
+            for kind in _LISTS.values()
+            for each in getattr(request.config, kind)
+            if each.name in self._tuning.tunables
+        }
+        return {"config": self._tell(self._requests.call(lambda: self._tuning.send(**wanted)))}
+
+    def _tell(self, values: Values) -> Any:
+        config = _config(values)
         self._updates.publish(config)
-        return {"config": config}
+        for name, value in values.items():
+            self._node.set_param(f"{self._tuning.topic}/{name}", value)
+        return config
 
     def _describe(self) -> Any:
         description = _message("ConfigDescription")()
         group = _message("Group")(name="Default", type="", parent=0, id=0)
         describe = _message("ParamDescription")
-        for parameter in self._parameters.values():
+        for parameter in self._tuning.tunables.values():
             group.parameters.append(
                 describe(
                     name=parameter.name,
@@ -115,7 +83,7 @@ class ReconfigureServer:
                 )
             )
         description.groups.append(group)
-        parameters = self._parameters.values()
+        parameters = self._tuning.tunables.values()
         description.max = _config({each.name: each.most for each in parameters})
         description.min = _config({each.name: each.least for each in parameters})
         description.dflt = _config({each.name: each.default for each in parameters})

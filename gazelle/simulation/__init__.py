@@ -12,6 +12,7 @@ from gazelle.simulation.registry import register
 from gazelle.simulation.replay import Replay
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.sensors import SensorOutput, SensorUnit
+from gazelle.simulation.settings import Setting, Tunable, Tuning
 from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.topics import absolute, namespace_of
 from gazelle.simulation.values import JointStates, Odometry, Transform, Transforms, WrenchValue
@@ -37,10 +38,13 @@ __all__ = [
     "SensorPlugin",
     "SensorUnit",
     "Service",
+    "Setting",
     "Simulation",
     "SystemPlugin",
     "Transform",
     "Transforms",
+    "Tunable",
+    "Tuning",
     "TwistInput",
     "WorldParameters",
     "WorldPlugin",

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.errors import SimulationError
+from gazelle.simulation.settings import Setting, Tuning
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -218,9 +219,13 @@ class Ports:
         inputs: Ports that take commands.
         outputs: Ports that publish.
         services: Ports that answer.
+        settings: Values that are found around it.
+        tunings: Values that can be changed while it runs.
     """
 
     def __init__(self) -> None:
         self.inputs: dict[str, Any] = {}
         self.outputs: dict[str, Output[Any]] = {}
         self.services: dict[str, Service[Any, Any]] = {}
+        self.settings: dict[str, Setting[Any]] = {}
+        self.tunings: dict[str, Tuning] = {}

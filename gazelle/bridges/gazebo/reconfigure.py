@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.world import WorldServices
-from gazelle.bridges.reconfigure import Parameter, ReconfigureServer
+from gazelle.bridges.reconfigure import ReconfigureServer
+from gazelle.simulation import Tunable, Tuning
 
 _PHYSICS = (
-    Parameter("time_step", 0.001, 0.0, 10.0, "Time between two steps of the physics [s]"),
-    Parameter("max_update_rate", 60.0, 0.0, 1000.0, "Steps a second of real time to aim at"),
-    Parameter("gravity_x", 0.0, -100.0, 100.0, "Gravity along x [m/s^2]"),
-    Parameter("gravity_y", 0.0, -100.0, 100.0, "Gravity along y [m/s^2]"),
-    Parameter("gravity_z", -9.8, -100.0, 100.0, "Gravity along z [m/s^2]"),
-    Parameter("auto_disable_bodies", False, False, True, "Let bodies at rest sleep"),
-    Parameter("sor_pgs_precon_iters", 0, 0, 10000, "Preconditioning iterations"),
-    Parameter("sor_pgs_iters", 20, 0, 10000, "Iterations of the solver"),
-    Parameter("sor_pgs_w", 1.3, 0.0, 5.0, "Over-relaxation"),
-    Parameter("sor_pgs_rms_error_tol", -1.0, -1.0, 10000.0, "Error to stop at; not used"),
-    Parameter("cfm", 0.0, 0.0, 10.0, "Constraint force mixing"),
-    Parameter("erp", 0.2, 0.0, 10.0, "Share of an error reduced in a step"),
-    Parameter("contact_surface_layer", 0.001, 0.0, 10.0, "Depth left uncorrected [m]"),
-    Parameter("contact_max_correcting_vel", 100.0, 0.0, 1e7, "Fastest correction [m/s]"),
-    Parameter("max_contacts", 100, 0, 10_000_000, "Contacts between two shapes"),
+    Tunable("time_step", 0.001, 0.0, 10.0, "Time between two steps of the physics [s]"),
+    Tunable("max_update_rate", 60.0, 0.0, 1000.0, "Steps a second of real time to aim at"),
+    Tunable("gravity_x", 0.0, -100.0, 100.0, "Gravity along x [m/s^2]"),
+    Tunable("gravity_y", 0.0, -100.0, 100.0, "Gravity along y [m/s^2]"),
+    Tunable("gravity_z", -9.8, -100.0, 100.0, "Gravity along z [m/s^2]"),
+    Tunable("auto_disable_bodies", False, False, True, "Let bodies at rest sleep"),
+    Tunable("sor_pgs_precon_iters", 0, 0, 10000, "Preconditioning iterations"),
+    Tunable("sor_pgs_iters", 20, 0, 10000, "Iterations of the solver"),
+    Tunable("sor_pgs_w", 1.3, 0.0, 5.0, "Over-relaxation"),
+    Tunable("sor_pgs_rms_error_tol", -1.0, -1.0, 10000.0, "Error to stop at; not used"),
+    Tunable("cfm", 0.0, 0.0, 10.0, "Constraint force mixing"),
+    Tunable("erp", 0.2, 0.0, 10.0, "Share of an error reduced in a step"),
+    Tunable("contact_surface_layer", 0.001, 0.0, 10.0, "Depth left uncorrected [m]"),
+    Tunable("contact_max_correcting_vel", 100.0, 0.0, 1e7, "Fastest correction [m/s]"),
+    Tunable("max_contacts", 100, 0, 10_000_000, "Contacts between two shapes"),
 )
 _NAMES = {
     "time_step": "time_step",
@@ -46,10 +48,8 @@ class PhysicsReconfigure:
     def __init__(self, context: Context, world: WorldServices) -> None:
         self._world = world
         self._physics = context.simulation.physics
-        self._requests = context.simulation.requests
-        self._server = ReconfigureServer(
-            context.node, context.node.name, _PHYSICS, self._change, self._requests.call(self._now)
-        )
+        tuning = Tuning(context.node.name, _PHYSICS, self._change, self._now)
+        self._server = ReconfigureServer(context.node, tuning, context.simulation)
 
     def close(self) -> None:
         """Take it off the graph."""
@@ -63,12 +63,7 @@ class PhysicsReconfigure:
         )
         return {**values, **gravity, "sor_pgs_rms_error_tol": -1.0}
 
-    def _change(self, wanted: dict[str, Any]) -> dict[str, Any]:
+    def _change(self, wanted: Mapping[str, Any]) -> None:
         values = {ours: wanted[theirs] for theirs, ours in _NAMES.items()}
         gravity = (wanted["gravity_x"], wanted["gravity_y"], wanted["gravity_z"])
-
-        def work() -> dict[str, Any]:
-            self._world.change_physics(gravity=gravity, **values)
-            return self._now()
-
-        return self._requests.call(work)
+        self._world.change_physics(gravity=gravity, **values)

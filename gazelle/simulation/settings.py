@@ -1,0 +1,122 @@
+"""What is set from around a plugin instead of in its file.
+
+A setting is found once, when its owner joins a graph: a parameter of ROS. A tuning can be
+changed at any time: what ROS calls dynamic_reconfigure. Both hold in all worlds, and a reset
+leaves them as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from gazelle.errors import SimulationError, did_you_mean
+
+T = TypeVar("T")
+
+
+class Setting(Generic[T]):
+    """A value that somebody around may know; its default holds until then.
+
+    Args:
+        name: Full name.
+        default: Its type is that of all values; whole numbers will do for a float.
+        receive: Called with each value that is given. Ports are put on a graph after that,
+            and may get other topics here.
+
+    Attributes:
+        value: What holds now.
+    """
+
+    def __init__(self, name: str, default: T, receive: Callable[[T], None] | None = None) -> None:
+        self.name = name
+        self.value = default
+        self._kind = type(default)
+        self._receive = receive
+
+    def send(self, value: Any) -> None:
+        """Give another value.
+
+        Raises:
+            SimulationError: It is of another type.
+        """
+        whole = isinstance(value, int) and not isinstance(value, bool)
+        if self._kind is float and whole:
+            value = float(value)
+        if not isinstance(value, self._kind) or (self._kind is int and not whole):
+            raise SimulationError(
+                f"'{self.name}' must be of type {self._kind.__name__}, not {value!r}"
+            )
+        self.value = value
+        if self._receive is not None:
+            self._receive(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Tunable:
+    """A number, flag or text that can be changed while its owner runs.
+
+    Attributes:
+        name: Its name.
+        default: Its type is that of all values: bool, int, str or float.
+        least: Smallest value.
+        most: Largest value.
+        description: For people.
+    """
+
+    name: str
+    default: Any
+    least: Any
+    most: Any
+    description: str
+
+    def clamp(self, value: Any) -> Any:
+        """The allowed value that is nearest."""
+        kind = type(self.default)
+        if kind in (bool, str):
+            return kind(value)
+        return kind(min(max(value, self.least), self.most))
+
+
+class Tuning:
+    """Values that are changed together while the simulation runs.
+
+    Args:
+        topic: Namespace that they are offered in.
+        tunables: What can be changed.
+        change: Called with the values that are to hold, all of them.
+        values: Tells those that hold, in the same order.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        tunables: Sequence[Tunable],
+        change: Callable[[Mapping[str, Any]], None],
+        values: Callable[[], Mapping[str, Any]],
+    ) -> None:
+        self.topic = topic
+        self.tunables = {each.name: each for each in tunables}
+        self._change = change
+        self._values = values
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """What holds now."""
+        return dict(self._values())
+
+    def send(self, **wanted: Any) -> dict[str, Any]:
+        """Change some values, each to the nearest that is allowed; returns what holds then.
+
+        Raises:
+            SimulationError: There is no such value.
+        """
+        for name in wanted:
+            if name not in self.tunables:
+                raise SimulationError(
+                    f"'{self.topic}' has no '{name}'", hint=did_you_mean(name, self.tunables)
+                )
+        clamped = {name: self.tunables[name].clamp(value) for name, value in wanted.items()}
+        self._change({**self._values(), **clamped})
+        return self.values

@@ -1,0 +1,67 @@
+"""Parameters that plugins find on the parameter server, and those they let others change."""
+
+import pytest
+from door_client import Client
+
+import gazelle
+from gazelle.bridges import serve_ros
+from gazelle.errors import SimulationWarning
+from gazelle.ros import Master, load_message
+from gazelle.simulation import Setting, Tunable, Tuning, WorldPlugin
+
+
+class Tuned(WorldPlugin):
+    """A plugin with a setting of each kind that matters, and a tuning."""
+
+    def load(self, simulation, parameters):
+        del parameters
+        self.held = {"speed": 1.0, "on": True}
+        ports = simulation.ports
+        ports.settings["gains"] = Setting("/r/gains", {})
+        ports.settings["rate"] = Setting("/r/rate", 5.0)
+        ports.tunings["drive"] = Tuning(
+            "/r/drive",
+            (Tunable("speed", 1.0, 0.0, 2.0, "how fast"), Tunable("on", True, False, True, "")),
+            self.held.update,
+            lambda: self.held,
+        )
+
+
+@pytest.fixture
+def graph():
+    with Master(port=0, rosout=False) as master, gazelle.Simulation("empty") as sim:
+        Tuned().load(sim, None)
+        client = Client(master.uri)
+        yield master, sim, client
+        client.node.close()
+
+
+def test_settings_are_looked_up_when_a_graph_is_joined(graph):
+    master, sim, client = graph
+    client.node.set_param("/r/gains/p", 3.0)
+    with serve_ros(sim, master.uri):
+        assert sim.ports.settings["gains"].value == {"p": 3.0}
+        assert sim.ports.settings["rate"].value == 5.0
+
+
+def test_a_parameter_of_another_type_is_left_with_a_warning(graph):
+    master, sim, client = graph
+    client.node.set_param("/r/rate", "quick")
+    with pytest.warns(SimulationWarning, match="/r/rate"), serve_ros(sim, master.uri):
+        assert sim.ports.settings["rate"].value == 5.0
+
+
+def test_tunings_are_changed_by_dynamic_reconfigure_and_stand_on_the_parameter_server(graph):
+    master, sim, client = graph
+    double = load_message("dynamic_reconfigure/DoubleParameter")
+    with serve_ros(sim, master.uri):
+        assert client.node.get_param("/r/drive") == {"speed": 1.0, "on": True}
+        config = load_message("dynamic_reconfigure/Config")()
+        config.doubles = [double("speed", 9.0), double("nonsense", 1.0)]
+        kind = "dynamic_reconfigure/Reconfigure"
+        answer = client.call("/r/drive/set_parameters", kind, config=config).config
+        assert [(each.name, each.value) for each in answer.doubles] == [("speed", 2.0)]
+        assert [(each.name, each.value) for each in answer.bools] == [("on", True)]
+        assert sim.ports.tunings["drive"].values["speed"] == 2.0
+        assert client.node.get_param("/r/drive/speed") == 2.0
+    assert "/r/drive/set_parameters" not in dict(client.node.master.system_state()[2])
