@@ -23,6 +23,7 @@ from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, check
+from gazelle.engines.mujoco.process import settle
 from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
@@ -32,14 +33,6 @@ _NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
 
 # Parameters that need terms which MuJoCo leaves out where they vanish.
 _OFF_AXIS = frozenset({"link_centre", "link_inertia"})
-
-
-def _quiet() -> None:
-    """Keep MuJoCo from writing a log file into the working directory: faults are raised."""
-    config = mujoco.MjLogConfig.get()
-    config.logto_file = False
-    config.logto_console = False
-    config.set()
 
 
 class MujocoEngine(ForcedSteps):
@@ -63,7 +56,7 @@ class MujocoEngine(ForcedSteps):
         time_step: float | None = None,
         threads: int | None = None,
     ) -> None:
-        _quiet()
+        settle()
         step = world.profile.max_step_size if time_step is None else time_step
         if nworld < 1:
             raise EngineError(f"nworld must be at least 1, not {nworld}")

@@ -1,0 +1,41 @@
+"""What MuJoCo does to the process that it runs in, and is told not to."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import sys
+
+import mujoco
+
+
+@functools.cache
+def settle() -> None:
+    """Let MuJoCo write no log files and not time itself; once in a process.
+
+    It would write a log file into the working directory, while faults are raised here. And
+    its Python module reads the clock at every stage of every step, for ``MjData.timer``,
+    which is a tenth of the time of a step of a small robot. Who wants those times says
+    ``mujoco.set_mjcb_time(None)`` after the first simulation was made, or sets a function
+    before; then it is left alone.
+    """
+    config = mujoco.MjLogConfig.get()
+    config.logto_file = False
+    config.logto_console = False
+    config.set()
+    if mujoco.get_mjcb_time() is None:
+        _stop_timing()
+
+
+def _stop_timing() -> None:
+    """Take away the clock, which the Python module has no function for.
+
+    ``mjcb_time`` is a public variable of MuJoCo's C library; a null pointer means no timing.
+    Where the library does not let it be found, MuJoCo goes on timing itself.
+    """
+    try:
+        library = ctypes.CDLL(sys.modules[mujoco.set_mjcb_time.__module__].__file__)
+        clock = ctypes.c_void_p.in_dll(library, "mjcb_time")
+    except (OSError, ValueError):
+        return
+    clock.value = None
