@@ -73,7 +73,7 @@ class Binding:
         encoder = encoder_of(output.kind)
         message_class = load_message(encoder.message)
         # Several robots share /tf; other topics are in the namespace of their plugin.
-        place = output.topic.rpartition("/")[0] or self._namespace
+        place = output.namespace or output.topic.rpartition("/")[0] or self._namespace
         prefix = self._prefixes.of(place)
         view = View(output.frame, self._graph.world, self._graph.stamp, prefix)
         ending: list[Callable[[], None]] = []

@@ -81,11 +81,11 @@ class DiffDrive(ModelPlugin):
         if parameters.get("publishTf", True):
             published.append(robot.outputs["odom"])
             if parameters.get("publishOdomTF", True):
-                robot.outputs["odom_tf"] = Output("/tf", Transforms, self._odometry_frame)
+                robot.outputs["odom_tf"] = Output("/tf", Transforms, self._odometry_frame, namespace=namespace)
                 published.append(robot.outputs["odom_tf"])
         if parameters.get("publishWheelTF", False):
             self._wheel_links = tuple(robot.joint_description(n).child for n in self._names)
-            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames)
+            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames, namespace=namespace)
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             robot.outputs["joint_states"] = Output(

@@ -62,7 +62,7 @@ class ForceBasedMove(ModelPlugin):
         self._published = [Output(odometry, Odometry, self._measure)]
         robot.outputs["odom"] = self._published[0]
         if parameters.get("publishOdometryTf", True):
-            frames = robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames)
+            frames = robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
             self._frames_output: Output[Transforms] | None = frames
         else:
             self._frames_output = None

@@ -21,6 +21,7 @@ from gazelle.simulation import (
     Odometry,
     Output,
     Robot,
+    Setting,
     Transforms,
     TwistInput,
     absolute,
@@ -31,7 +32,7 @@ from gazelle.simulation.values import MotorPower, SixNumbers, Trigger
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
-# The original reads it from the parameter server, where it stands as this.
+# Of the base's own topics, unless the parameter base_prefix has another.
 _PREFIX = "mobile_base"
 _VARIANCE: SixNumbers = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
 
@@ -71,32 +72,45 @@ class Kobuki(ModelPlugin):
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
         namespace = namespace_of(robot, parameters)
-        base = absolute(namespace, _PREFIX)
         nworld = robot.simulation.nworld
-        self._command = robot.inputs["cmd_vel"] = TwistInput(nworld, f"{base}/commands/velocity")
-        robot.inputs["motor_power"] = Input(
-            f"{base}/commands/motor_power", MotorPower, self._switch
-        )
+        self._command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
+        robot.inputs["motor_power"] = Input("", MotorPower, self._switch)
         robot.inputs["reset_odometry"] = Input(
-            f"{base}/commands/reset_odometry",
-            Trigger,
-            lambda _, worlds: self._reckoning.reset(worlds, self._angles()),
+            "", Trigger, lambda _, worlds: self._reckoning.reset(worlds, self._angles())
         )
         opened: dict[str, Output[Any]] = {
             "joint_states": Output(
                 absolute(namespace, "joint_states"), JointStates, self._read_wheels
             ),
             "odom": Output(absolute(namespace, "odom"), Odometry, self._measure),
-            "imu_data": Output(
-                f"{base}/sensors/imu_data", ImuReading, self._feel, frame="gyro_link"
-            ),
+            "imu_data": Output("", ImuReading, self._feel, frame="gyro_link"),
         }
         if parameters.get("publish_tf", False):
-            opened["odom_tf"] = Output("/tf", Transforms, lambda: as_transforms(self._measure()))
+            opened["odom_tf"] = Output(
+                "/tf", Transforms, lambda: as_transforms(self._measure()), namespace=namespace
+            )
         robot.outputs.update(opened)
         self._published = tuple(opened.values())
-        self._cliffs.open(robot, f"{base}/events/cliff")
-        self._bumpers.open(robot, f"{base}/events/bumper")
+        self._cliffs.open(robot)
+        self._bumpers.open(robot)
+        self._namespace = namespace
+        self._name_topics(_PREFIX)
+        robot.settings["base_prefix"] = Setting(
+            absolute(namespace, "base_prefix"), _PREFIX, self._name_topics
+        )
+
+    def _name_topics(self, prefix: str) -> None:
+        """Put the base's own topics below a prefix."""
+        base = absolute(self._namespace, prefix).rstrip("/")
+        inputs, outputs = self._robot.inputs, self._robot.outputs
+        inputs["cmd_vel"].topic = f"{base}/commands/velocity"
+        inputs["motor_power"].topic = f"{base}/commands/motor_power"
+        inputs["reset_odometry"].topic = f"{base}/commands/reset_odometry"
+        outputs["imu_data"].topic = f"{base}/sensors/imu_data"
+        for name, output in outputs.items():
+            kind, _, _ = name.partition("_")
+            if kind in ("cliff", "bumper"):
+                output.topic = f"{base}/events/{kind}"
 
     def _switch(self, power: MotorPower, worlds: Worlds | None) -> None:
         self._power[slice(None) if worlds is None else worlds] = power.on

@@ -46,10 +46,10 @@ class Cliffs:
         self._distances: Floats = np.zeros((robot.simulation.nworld, 3))
         self._outputs: list[Output[CliffValue]] = []
 
-    def open(self, robot: Robot, topic: str) -> None:
-        """Offer what changes."""
+    def open(self, robot: Robot) -> None:
+        """Offer what changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
-            made = Output(topic, CliffValue, self._value_of(place), queue_size=10)
+            made = Output("", CliffValue, self._value_of(place), queue_size=10)
             robot.outputs[f"cliff_{name}"] = made
             self._outputs.append(made)
 
@@ -100,10 +100,10 @@ class Bumpers:
         self.pressed = np.zeros((robot.simulation.nworld, 3), np.bool_)
         self._outputs: list[Output[BumperValue]] = []
 
-    def open(self, robot: Robot, topic: str) -> None:
-        """Offer what changes."""
+    def open(self, robot: Robot) -> None:
+        """Offer what changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
-            made = Output(topic, BumperValue, self._value_of(place), queue_size=10)
+            made = Output("", BumperValue, self._value_of(place), queue_size=10)
             robot.outputs[f"bumper_{name}"] = made
             self._outputs.append(made)
 

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.simulation import ModelPlugin, Robot
+from gazelle.plugins.pid import Gains, Pid
+from gazelle.simulation import ModelPlugin, Robot, Setting, absolute, namespace_of
+
+Worlds = NDArray[np.intp]
 
 # Time in which a motor makes up for most of what it lacks [s].
 _HASTE = 0.1
+# The effort of a motor that is not to be felt; an engine wants some [N or N m].
+_NONE = 1e-12
 
 
 class MimicJoint(ModelPlugin):
     """Puts a joint at a multiple of another's position, plus an offset, at every step.
 
-    With ``hasPID`` a motor of at most ``maxEffort`` goes there instead; the original's gains
-    stand on the parameter server, which a motor that holds needs not.
+    With ``hasPID`` it is brought there with at most ``maxEffort``: by a PID controller if there
+    are gains in the parameter ``gazebo_ros_control/pid_gains/JOINT``, else by a motor.
     """
 
     update_rate = 0.0
@@ -29,14 +38,26 @@ class MimicJoint(ModelPlugin):
         self._multiplier = parameters.get("multiplier", 1.0)
         self._offset = parameters.get("offset", 0.0)
         self._spared = parameters.get("sensitiveness", 0.0)
-        effort = parameters.get("maxEffort", 1.0)
-        if effort <= 0.0:
+        self._effort = parameters.get("maxEffort", 1.0)
+        if self._effort <= 0.0:
             raise SimulationError("maxEffort must be positive", source=parameters.source)
+        self._nworld = robot.simulation.nworld
+        self._physics = robot.simulation.physics
+        self._pid: Pid | None = None
         tag = parameters.find("hasPID")
         # An empty tag says yes.
-        self._by_motor = tag is not None and (not tag.text or tag.value(bool))
-        if self._by_motor:
-            self._mimic.add_motor(effort)
+        self._pushed = tag is not None and (not tag.text or tag.value(bool))
+        if self._pushed:
+            self._mimic.add_motor(self._effort)
+            name = f"gazebo_ros_control/pid_gains/{parameters.require('mimicJoint', str)}"
+            full = absolute(namespace_of(robot, parameters), name)
+            robot.settings[name] = Setting(full, {}, self._take_gains)
+
+    def _take_gains(self, given: Mapping[str, Any]) -> None:
+        """Push by PID from now on."""
+        gains = Gains.of_ros_control(given, self._effort)
+        self._pid = Pid(gains, self._nworld)
+        self._mimic.set_properties(motor_effort=_NONE)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
         """Follow."""
@@ -46,7 +67,11 @@ class MimicJoint(ModelPlugin):
         wanted = self._joint.positions()[:, :1] * self._multiplier + self._offset
         target = np.clip(wanted, lower, upper)
         lack = target - self._mimic.positions()[:, :1]
-        if self._by_motor:
+        if self._pid is not None:
+            efforts = self._pid.update(-lack[:, 0], self._physics.time_step)
+            self._mimic.effort = np.where(np.abs(lack[:, 0]) >= self._spared, efforts, 0.0)
+            return
+        if self._pushed:
             pace = self._joint.velocities()[:, :1] * self._multiplier
             self._mimic.drive((pace + lack / _HASTE)[:, 0])
             return
@@ -55,3 +80,17 @@ class MimicJoint(ModelPlugin):
             pace = self._joint.velocities()[:, :1] * self._multiplier
             self._engine.set_joint_position(name, target[chosen], chosen)
             self._engine.set_joint_velocity(name, pace[chosen], chosen)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget sums."""
+        if self._pid is not None:
+            self._pid.reset(worlds)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """The sums."""
+        return {} if self._pid is None else self._pid.state()
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        if self._pid is not None:
+            self._pid.restore(state)

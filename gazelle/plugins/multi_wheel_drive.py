@@ -32,7 +32,7 @@ class MultiWheelDrive(WheeledDrive):
         if parameters.get("publishOdometryMsg", True):
             self.publish(robot, "odom", Output(topic, Odometry, self._measure))
         if parameters.get("publishOdometryTf", True):
-            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames))
+            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames, namespace=namespace))
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
         """Names of the joints, and their sides."""

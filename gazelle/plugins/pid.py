@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Parameters
+from gazelle.errors import SimulationError
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -48,6 +50,25 @@ class Gains:
             return cls(most=0.0, least=0.0)
         tags = ("p", "i", "d", "i_max", "i_min", "cmd_max", "cmd_min")
         return cls(*(parameters.get(tag, 0.0) for tag in tags))
+
+    @classmethod
+    def of_ros_control(cls, given: Mapping[str, Any], most: float) -> Gains:
+        """From the parameters of ros_control's PID: without ``i_clamp`` there are no sums.
+
+        Args:
+            given: ``p``, ``i``, ``d``, ``i_clamp``, ``i_clamp_max`` and ``i_clamp_min``.
+            most: Largest output either way.
+
+        Raises:
+            SimulationError: One is no number.
+        """
+        try:
+            p, i, d, clamp = (float(given.get(name, 0.0)) for name in ("p", "i", "d", "i_clamp"))
+            highest = float(given.get("i_clamp_max", abs(clamp)))
+            lowest = float(given.get("i_clamp_min", -abs(clamp)))
+        except (TypeError, ValueError):
+            raise SimulationError(f"gains must be numbers, not {dict(given)}") from None
+        return cls(p, i, d, i_max=highest, i_min=lowest, most=most, least=-most)
 
 
 class Pid:

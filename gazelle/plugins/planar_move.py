@@ -48,7 +48,7 @@ class PlanarMove(ModelPlugin):
         self._schedule = Schedule(rate) if rate > 0.0 else None
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
         robot.outputs["odom"] = Output(odometry, Odometry, self._measure)
-        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames)
+        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
 
     def on_update(self, time: float) -> None:
         """Move, and publish when it is time to."""

@@ -46,7 +46,7 @@ class SkidSteerDrive(WheeledDrive):
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         self.publish(robot, "odom", Output(topic, Odometry, self._measure))
         if parameters.get("broadcastTF", False):
-            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames))
+            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames, namespace=namespace))
 
     def _measure(self) -> Odometry:
         return true_odometry(self._robot, self._frame, self._base, self._variance, self._variance)

@@ -91,10 +91,10 @@ class TricycleDrive(ModelPlugin):
         self._base = parameters.get("robotBaseFrame", "base_link")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         robot.outputs["odom"] = Output(topic, Odometry, self._measure)
-        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames)
+        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
         published: list[Output[Any]] = [robot.outputs["odom"], robot.outputs["odom_tf"]]
         if parameters.get("publishWheelTF", False):
-            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames)
+            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames, namespace=namespace)
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             states = absolute(namespace, "joint_states")

@@ -162,6 +162,7 @@ class Output(Generic[T]):
         frame: Frame of the values, for kinds that carry none themselves.
         queue_size: Of the topic.
         latch: Whether who comes late gets the last value.
+        namespace: Whose frames they are, for topics that many share; else the topic tells.
     """
 
     def __init__(
@@ -173,10 +174,12 @@ class Output(Generic[T]):
         frame: str = "",
         queue_size: int = 1,
         latch: bool = False,
+        namespace: str = "",
     ) -> None:
         self.topic = topic
         self.kind = kind
         self.frame = frame
+        self.namespace = namespace
         self.queue_size = queue_size
         self.latch = latch
         self._produce = produce

@@ -153,6 +153,39 @@ def test_a_joint_follows_by_a_motor_when_it_has_gains():
         assert joints["jb"].position == pytest.approx(0.1 - joints["ja"].position, abs=0.01)
 
 
+def test_a_joint_follows_by_pid_once_it_is_told_the_gains():
+    tags = plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", **MIMIC, hasPID="true")
+    with simulate(FINGERS.format(plugin=tags), ground=False, nworld=2) as sim:
+        robot = sim.robots["hand"]
+        setting = robot.settings["gazebo_ros_control/pid_gains/jb"]
+        assert setting.name == "/gazebo_ros_control/pid_gains/jb"
+        with pytest.raises(SimulationError, match="numbers"):
+            setting.send({"p": "much"})
+        setting.send({"p": 2.0, "i": 5.0, "d": 0.0})
+        robot.joints["ja"].position = np.array([-0.2, -0.1])
+        sim.step()
+        # Without i_clamp there are no sums: one step of an effort of p times what lacks.
+        pushed = robot.joints["jb"].velocities()[:, 0]
+        assert pushed / [0.3, 0.2] == pytest.approx(0.002 / 0.01, rel=0.2)
+        sim.run(seconds=0.2)
+        state = sim.snapshot()
+        sim.run(seconds=0.2)
+        expected = robot.joints["jb"].positions()
+        sim.restore(state)
+        sim.run(seconds=0.2)
+        assert robot.joints["jb"].positions() == pytest.approx(expected)
+
+
+def test_a_joint_within_its_sensitiveness_is_left_alone():
+    tags = {**MIMIC, "hasPID": "1", "sensitiveness": "0.5"}
+    tags = plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", **tags)
+    with simulate(FINGERS.format(plugin=tags), ground=False) as sim:
+        robot = sim.robots["hand"]
+        robot.settings["gazebo_ros_control/pid_gains/jb"].send({"p": 2.0})
+        sim.run(seconds=0.2)
+        assert robot.joints["jb"].position == pytest.approx(0.0, abs=1e-6)
+
+
 def test_a_joint_does_not_follow_beyond_its_stops():
     tags = plugin("libmimic_joint_plugin.so", **MIMIC)
     with simulate(FINGERS.format(plugin=tags), ground=False) as sim:

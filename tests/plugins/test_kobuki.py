@@ -104,3 +104,22 @@ def test_what_it_lacks_is_named():
         simulate(kobuki(wheel_separation=""))
     with pytest.raises(SimulationError, match="bumper_name"):
         simulate(kobuki(bumper_name="imu"))
+
+
+def test_a_parameter_puts_the_bases_own_topics_elsewhere():
+    with simulate(kobuki()) as sim:
+        robot = sim.robots["base"]
+        assert robot.settings["base_prefix"].name == "/base_prefix"
+        robot.settings["base_prefix"].send("base")
+        topics = {port.topic for port in (*robot.inputs.values(), *robot.outputs.values())}
+    assert topics == {
+        "/base/commands/velocity",
+        "/base/commands/motor_power",
+        "/base/commands/reset_odometry",
+        "/base/sensors/imu_data",
+        "/base/events/cliff",
+        "/base/events/bumper",
+        "/joint_states",
+        "/odom",
+        "/tf",
+    }

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import struct
-import threading
-import time
-from types import SimpleNamespace
 
 import pytest
-from door_client import Client
 from kobuki_model import kobuki
 from models import block, plugin
+from plugin_graph import first, running, send, wait
 
-import gazelle
-from gazelle import formats
-from gazelle.bridges import serve_ros
-from gazelle.ros import Master, load_message
+from gazelle.ros import load_message
 
 RAYS = """<sensor name="eye" type="ray"><pose>0.2 0 0 0 0 0</pose><update_rate>50</update_rate>
 <ray><scan><horizontal><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle>
@@ -39,48 +32,6 @@ LIFT = """<model name="lift"><link name="car"><inertial><mass>500</mass></inerti
 <limit><lower>0</lower><upper>1</upper></limit></axis></joint>
 <plugin name="p" filename="libgazebo_ros_elevator.so"><lift_joint>lift::up</lift_joint>
 <door_joint>lift::side</door_joint></plugin></model>"""
-
-
-@contextlib.contextmanager
-def running(*models):
-    """A simulation of some models on a graph, run in the background."""
-    text = f'<sdf version="1.6"><world name="w">{"".join(models)}</world></sdf>'
-    with (
-        Master(port=0, rosout=False) as master,
-        gazelle.Simulation(formats.load_string(text)) as sim,
-        serve_ros(sim, master.uri) as door,
-    ):
-        client = Client(master.uri)
-        thread = threading.Thread(target=door.run)
-        thread.start()
-        try:
-            yield SimpleNamespace(sim=sim, client=client)
-        finally:
-            client.node.close()
-            door.stop()
-            thread.join()
-
-
-def wait(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.01)
-    assert condition()
-
-
-def first(graph, topic, kind):
-    heard = graph.client.listen(topic, kind)
-    wait(lambda: heard)
-    return heard[-1]
-
-
-def send(graph, topic, kind, **fields):
-    """Publish until somebody is there to hear."""
-    message = load_message(kind)(**fields)
-    publisher = graph.client.node.advertise(topic, type(message))
-    wait(lambda: publisher.num_connections)
-    publisher.publish(message)
-    return publisher
 
 
 def cube(filename, **tags):

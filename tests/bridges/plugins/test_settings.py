@@ -2,6 +2,9 @@
 
 import pytest
 from door_client import Client
+from kobuki_model import kobuki
+from models import GROUND, base, plugin
+from plugin_graph import first, running
 
 import gazelle
 from gazelle.bridges import serve_ros
@@ -65,3 +68,30 @@ def test_tunings_are_changed_by_dynamic_reconfigure_and_stand_on_the_parameter_s
         assert sim.ports.tunings["drive"].values["speed"] == 2.0
         assert client.node.get_param("/r/drive/speed") == 2.0
     assert "/r/drive/set_parameters" not in dict(client.node.master.system_state()[2])
+
+
+def test_a_kobukis_base_topics_are_where_its_parameter_says():
+    with running(kobuki(), GROUND, parameters={"/base_prefix": "base"}) as graph:
+        assert first(graph, "/base/sensors/imu_data", "sensor_msgs/Imu")
+        topics = dict(graph.client.node.master.topic_types())
+        assert "/base/commands/velocity" in topics
+        assert not any(name.startswith("/mobile_base") for name in topics)
+
+
+def test_the_gains_of_a_mimic_joint_come_from_the_parameter_server():
+    tags = plugin("libmimic_joint_plugin.so", joint="joint0", mimicJoint="joint1", hasPID="1")
+    gains = {"/gazebo_ros_control/pid_gains/joint1": {"p": 4.0, "d": 0.1}}
+    with running(base(tags), GROUND, parameters=gains) as graph:
+        setting = graph.sim.robots["base"].settings["gazebo_ros_control/pid_gains/joint1"]
+        assert setting.value == {"p": 4.0, "d": 0.1}
+
+
+def test_frames_on_tf_get_the_prefix_of_their_plugins_own_namespace():
+    tags = plugin("libgazebo_ros_planar_move.so", robotNamespace="r1")
+    with running(base(tags), GROUND, parameters={"/r1/tf_prefix": "one"}) as graph:
+        assert first(graph, "/r1/odom", "nav_msgs/Odometry").header.frame_id == "one/odom"
+        transform = first(graph, "/tf", "tf2_msgs/TFMessage").transforms[0]
+        assert (transform.header.frame_id, transform.child_frame_id) == (
+            "one/odom",
+            "one/base_footprint",
+        )
