@@ -8,10 +8,23 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from gazelle.description.source import Source
+
+class Source(Protocol):
+    """A place in a file: of a description, of a launch file."""
+
+    @property
+    def file(self) -> str | None:
+        """Path or name of the file; None when made by code."""
+
+    @property
+    def line(self) -> int | None:
+        """Line in that file, counted from 1."""
+
+    @property
+    def element(self) -> str | None:
+        """The element, such as ``link[@name='base']/inertial/mass``."""
 
 
 class Error(Exception):

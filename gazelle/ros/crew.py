@@ -128,12 +128,7 @@ class Crew(ABC):
             if not self._depose():
                 return
             heir = self._take_idle()
-            if heir is not None:
-                heir.lead = True
-        if heir is not None:
-            heir.wake.release()
-        else:
-            self._spawn_leader()
+        self._crown(heir)
 
     def _ring(self) -> None:
         """Wake the leader if it sleeps."""
@@ -300,12 +295,15 @@ class Crew(ABC):
             self._busy.add(seat)
             seat.started = time.monotonic()
             heir = self._take_idle()
-            if heir is not None:
-                heir.lead = True
-        if heir is not None:
-            heir.wake.release()
-        else:
+        self._crown(heir)
+
+    def _crown(self, heir: Seat | None) -> None:
+        """Let an idle thread lead, or a new one."""
+        if heir is None:
             self._spawn_leader()
+        else:
+            heir.lead = True
+            heir.wake.release()
 
     def _should_step_down(self) -> bool:
         """True if waiting tasks would wait too long for the threads that are busy now."""

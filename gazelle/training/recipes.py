@@ -139,6 +139,19 @@ RECIPES: dict[str, Recipe] = {
 }
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 
+
+def _continuous(algo: str) -> Recipe:
+    return Recipe(
+        algo=algo,
+        num_envs=16,
+        steps=200_000,
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate_decay=False,
+        settings=OffPolicySettings(gradient_steps=4),
+    )
+
+
 _OFF_POLICY: dict[str, Recipe] = {
     "dqn": Recipe(
         algo="dqn",
@@ -148,33 +161,7 @@ _OFF_POLICY: dict[str, Recipe] = {
         learning_rate_decay=False,
         settings=OffPolicySettings(gradient_steps=4, tau=1.0),
     ),
-    "sac": Recipe(
-        algo="sac",
-        num_envs=16,
-        steps=200_000,
-        net_arch=(128, 128),
-        activation="relu",
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4),
-    ),
-    "td3": Recipe(
-        algo="td3",
-        num_envs=16,
-        steps=200_000,
-        net_arch=(128, 128),
-        activation="relu",
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4),
-    ),
-    "ddpg": Recipe(
-        algo="ddpg",
-        num_envs=16,
-        steps=200_000,
-        net_arch=(128, 128),
-        activation="relu",
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4),
-    ),
+    **{algo: _continuous(algo) for algo in ("sac", "td3", "ddpg")},
 }
 
 

@@ -159,9 +159,7 @@ class _Loader:
             if other is not node:
                 raise LaunchError(
                     f"two nodes are called '{node.full_name}'",
-                    file=node.place.file,
-                    line=node.place.line,
-                    element=node.place.element,
+                    source=node.place,
                     hint=f"the other is in {other.place.file}:{other.place.line}; "
                     "names must differ, as a node ends when another of its name starts",
                 )

@@ -38,21 +38,16 @@ def check(plan: LaunchPlan) -> None:
     for node in plan.nodes:
         if not node.machine:
             continue
-        place = {
-            "file": node.place.file,
-            "line": node.place.line,
-            "element": node.place.element,
-        }
         machine = plan.machines.get(node.machine)
         if machine is None:
             raise LaunchError(
                 f"there is no machine '{node.machine}'",
                 hint=did_you_mean(node.machine, plan.machines),
-                **place,  # type: ignore[arg-type]
+                source=node.place,
             )
         if not is_local(machine.address):
             raise LaunchError(
                 f"the machine '{machine.name}' is {machine.address}, not this one",
                 hint="start the launch file there; nodes are started on this machine only",
-                **place,  # type: ignore[arg-type]
+                source=node.place,
             )

@@ -91,12 +91,9 @@ class NodeProcess:
                 start_new_session=True,
             )
         except OSError as error:
-            place = self.plan.place
             raise LaunchError(
                 f"'{self.how.arguments[0]}' cannot be started: {error.strerror}",
-                file=place.file,
-                line=place.line,
-                element=place.element,
+                source=self.plan.place,
             ) from None
         finally:
             if log is not None:

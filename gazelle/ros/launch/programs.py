@@ -55,14 +55,7 @@ def find_program(node: NodePlan, packages: Packages) -> Program | Skipped:
     try:
         return program_of(node.package, node.type, packages)
     except Error as error:
-        place = node.place
-        raise LaunchError(
-            error.message,
-            file=place.file,
-            line=place.line,
-            element=place.element,
-            hint=error.hint,
-        ) from None
+        raise LaunchError(error.message, source=node.place, hint=error.hint) from None
 
 
 def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped:
@@ -129,13 +122,7 @@ def _split(text: str, node: NodePlan) -> list[str]:
     try:
         return shlex.split(text)
     except ValueError as error:
-        place = node.place
-        raise LaunchError(
-            f"'{text}' is not well quoted: {error}",
-            file=place.file,
-            line=place.line,
-            element=place.element,
-        ) from None
+        raise LaunchError(f"'{text}' is not well quoted: {error}", source=node.place) from None
 
 
 def node_environment(
@@ -168,14 +155,7 @@ def parameter_value(
         output = _output(parameter.value.text, packages, environment)
         return convert(output, parameter.value.kind)
     except LaunchError as error:
-        place = parameter.place
-        raise LaunchError(
-            error.message,
-            file=place.file,
-            line=place.line,
-            element=place.element,
-            hint=error.hint,
-        ) from None
+        raise LaunchError(error.message, source=parameter.place, hint=error.hint) from None
 
 
 def command_line(words: Sequence[str], packages: Packages) -> list[str]:

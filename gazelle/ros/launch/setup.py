@@ -56,5 +56,4 @@ def _act(action: Action, master: MasterProxy) -> None:
 
 
 def _error(what: Parameter | Action, message: str) -> LaunchError:
-    place = what.place
-    return LaunchError(message, file=place.file, line=place.line, element=place.element)
+    return LaunchError(message, source=what.place)
