@@ -1,0 +1,125 @@
+"""What plugins are told to do, and what they answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A force and a torque to act with, in one world or in many.
+
+    Attributes:
+        force: In the world frame [N], shape (3,) or (n, 3).
+        torque: In the world frame [N m], shape (3,) or (n, 3).
+    """
+
+    force: ArrayLike
+    torque: ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
+class LinkPair:
+    """Two links of any models, to be joined or parted.
+
+    Attributes:
+        model_1: Name of a model.
+        link_1: Name of a link of it.
+        model_2: Name of the other model.
+        link_2: Name of a link of that.
+    """
+
+    model_1: str
+    link_1: str
+    model_2: str
+    link_2: str
+
+
+@dataclass(frozen=True, slots=True)
+class JointPath:
+    """Where joints have to be, and when.
+
+    Attributes:
+        names: Plain joint names.
+        times: Since the start [s], rising, shape (k,).
+        positions: [m or rad], shape (k, joints).
+        start_ns: Simulated time of the start; at once if that is past.
+    """
+
+    names: tuple[str, ...]
+    times: Floats
+    positions: Floats
+    start_ns: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PathRequest:
+    """A joint path, and a place for the model before it.
+
+    Attributes:
+        path: Of the joints.
+        position: Of the model [m], shape (3,); None to leave it.
+        quaternion: (x, y, z, w), shape (4,); None to leave it.
+    """
+
+    path: JointPath
+    position: ArrayLike | None = None
+    quaternion: ArrayLike | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """Whether something could be done.
+
+    Attributes:
+        success: Whether.
+        text: Why not, or what was done.
+    """
+
+    success: bool
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """That something shall happen; it says no more."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotorPower:
+    """Whether motors shall have power."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Bias:
+    """What a sensor shall be wrong by from now on.
+
+    Attributes:
+        values: Three numbers, in the sensor's unit.
+    """
+
+    values: ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
+class GeoReference:
+    """Where on Earth the world's origin is to be.
+
+    Attributes:
+        latitude: [deg].
+        longitude: [deg].
+        altitude: [m].
+        heading: [rad].
+    """
+
+    latitude: float
+    longitude: float
+    altitude: float
+    heading: float

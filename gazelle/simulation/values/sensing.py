@@ -1,0 +1,176 @@
+"""What sensors of plugins tell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines import Contacts
+from gazelle.sensors import ImuReading
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """Contacts, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        contacts: One for each world.
+    """
+
+    stamp: int
+    contacts: tuple[Contacts, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RangeValue:
+    """One distance, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        distance: [m], shape (nworld,).
+        least: Shortest that is measured [m].
+        most: Longest that is measured [m].
+        field_of_view: Angle of the cone [rad].
+        ultrasound: Whether by sound; else by infrared light.
+    """
+
+    stamp: int
+    distance: Floats
+    least: float
+    most: float
+    field_of_view: float
+    ultrasound: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Flags:
+    """Yes or no, in every world.
+
+    Attributes:
+        values: Shape (nworld,).
+    """
+
+    values: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class LaserPoints:
+    """Where the rays of a lidar ended, in its own frame, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        points: [m], shape (nworld, rays, 3).
+        intensities: Of the returns, shape (rays,).
+        rings: Row of each ray, from the lowest, shape (rays,).
+        kept: Which are worth telling, shape (nworld, rays).
+    """
+
+    stamp: int
+    points: Floats
+    intensities: Floats
+    rings: NDArray[np.intp]
+    kept: NDArray[np.bool_]
+
+
+class ChannelPoints(LaserPoints):
+    """The same, for those who want each property in a channel of its own."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class UnsureImu:
+    """An IMU's reading and how sure each of its parts is.
+
+    Attributes:
+        reading: Of all worlds.
+        orientation_variance: [rad²], three numbers.
+        rate_variance: [rad²/s²], three numbers.
+        acceleration_variance: [m²/s⁴], three numbers.
+    """
+
+    reading: ImuReading
+    orientation_variance: Floats
+    rate_variance: Floats
+    acceleration_variance: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Where a receiver is on Earth, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        latitude: [deg], shape (nworld,).
+        longitude: [deg], shape (nworld,).
+        altitude: [m], shape (nworld,).
+        variance: Of east, north and up [m²], three numbers.
+        status: As ``sensor_msgs/NavSatStatus`` counts.
+        service: As ``sensor_msgs/NavSatStatus`` counts.
+    """
+
+    stamp: int
+    latitude: Floats
+    longitude: Floats
+    altitude: Floats
+    variance: Floats
+    status: int = 0
+    service: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class VectorValue:
+    """A vector, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        values: Shape (nworld, 3).
+    """
+
+    stamp: int
+    values: Floats
+
+
+class MagneticValue(VectorValue):
+    """A magnetic field [T]."""
+
+    __slots__ = ()
+
+
+class PointValue(VectorValue):
+    """A place [m]."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class CliffValue:
+    """What a sensor that looks at the floor sees.
+
+    Attributes:
+        place: 0 left, 1 in the middle, 2 right.
+        deep: Whether the floor is farther than it should be, shape (nworld,).
+        reading: Of the sensor's converter, shape (nworld,).
+    """
+
+    place: int
+    deep: NDArray[np.bool_]
+    reading: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class BumperValue:
+    """Whether a bumper is pressed.
+
+    Attributes:
+        place: 0 left, 1 in the middle, 2 right.
+        pressed: Shape (nworld,).
+    """
+
+    place: int
+    pressed: NDArray[np.bool_]
