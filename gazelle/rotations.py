@@ -63,8 +63,11 @@ def multiply(a: Floats, b: Floats) -> Floats:
 
 def conjugate(q: Floats) -> Floats:
     """Inverse rotations of unit quaternions (x, y, z, w), shape (..., 4)."""
-    turned: Floats = q * np.array([-1.0, -1.0, -1.0, 1.0])
+    turned: Floats = q * _BACK
     return turned
+
+
+_BACK = np.array([-1.0, -1.0, -1.0, 1.0])
 
 
 def cross(a: Floats, b: Floats) -> Floats:

@@ -9,6 +9,7 @@ whose output passes BigCrush.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 
 import numpy as np
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)
+_BY_30, _BY_27, _BY_31, _BY_11 = (np.uint64(bits) for bits in (30, 27, 31, 11))
 _TWO_TO_MINUS_53 = 2.0**-53
 
 Uint64 = NDArray[np.uint64]
@@ -61,13 +63,14 @@ class Stream:
         """Uniform numbers in [0, 1), shape (n, size), n the number of worlds asked for."""
         chosen = slice(None) if worlds is None else worlds
         start = self._counters[chosen]
-        with np.errstate(over="ignore"):
-            steps: Uint64 = np.add(
-                start[:, None], np.arange(1, size + 1), dtype=np.uint64, casting="unsafe"
-            )
-            bits = _mix(self._keys[chosen][:, None] + steps * _GOLDEN)
+        # key + (start + i) GOLDEN, with what does not change from draw to draw kept.
+        origin = self._keys[chosen] + start * _GOLDEN
+        bits = _mix(origin[:, None] + _ladder(size))
         self._counters[chosen] = start + np.uint64(size)
-        return (bits >> np.uint64(11)).astype(np.float64) * _TWO_TO_MINUS_53
+        bits >>= _BY_11
+        drawn = bits.astype(np.float64)
+        drawn *= _TWO_TO_MINUS_53
+        return drawn
 
     def normal(self, size: int, worlds: NDArray[np.intp] | None = None) -> Float64:
         """Standard normal numbers, shape (n, size), by Box and Muller's transform (1958)."""
@@ -75,8 +78,9 @@ class Stream:
         uniform = self.uniform(2 * pairs, worlds)
         radius = np.sqrt(-2.0 * np.log1p(-uniform[:, :pairs]))
         angle = 2.0 * np.pi * uniform[:, pairs:]
-        both = np.concatenate((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
-        return both[:, :size]
+        np.multiply(radius, np.cos(angle), out=uniform[:, :pairs])
+        np.multiply(radius, np.sin(angle), out=uniform[:, pairs:])
+        return uniform[:, :size]
 
     def integers(
         self, high: int, size: int, worlds: NDArray[np.intp] | None = None
@@ -88,14 +92,22 @@ class Stream:
 def _keys_of(seed: int, name: str, nworld: int) -> Uint64:
     digest = hashlib.blake2b(f"{seed}:{name}".encode(), digest_size=8).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
-    with np.errstate(over="ignore"):
-        keys: Uint64 = _mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest))
-        return _mix(keys)
+    return _mix(_mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest)))
+
+
+@functools.lru_cache(maxsize=16)
+def _ladder(size: int) -> Uint64:
+    """The first multiples of the golden constant, modulo 2^64; read-only."""
+    steps = np.arange(1, size + 1, dtype=np.uint64) * _GOLDEN
+    steps.flags.writeable = False
+    return steps
 
 
 def _mix(z: Uint64) -> Uint64:
-    """SplitMix64's output function."""
-    z = (z ^ (z >> np.uint64(30))) * _MIX_1
-    z = (z ^ (z >> np.uint64(27))) * _MIX_2
-    mixed: Uint64 = z ^ (z >> np.uint64(31))
-    return mixed
+    """SplitMix64's output function, in place."""
+    z ^= z >> _BY_30
+    z *= _MIX_1
+    z ^= z >> _BY_27
+    z *= _MIX_2
+    z ^= z >> _BY_31
+    return z
