@@ -18,7 +18,15 @@ from gazelle.bridges.conversions import (
     point,
     quaternion,
 )
-from gazelle.simulation.values import Flags, JointPath, LinkPair, Outcome, PathRequest, Push
+from gazelle.simulation.values import (
+    Flags,
+    JointPath,
+    LinkPair,
+    Number,
+    Outcome,
+    PathRequest,
+    Push,
+)
 
 
 def _push(message: Any) -> Push:
@@ -64,6 +72,7 @@ add_decoder(JointPath, Decoder("trajectory_msgs/JointTrajectory", _path))
 add_service(
     PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
 )
+add_decoder(Number, Decoder("std_msgs/Float32", lambda message: Number(message.data)))
 add_decoder(Push, Decoder("geometry_msgs/Wrench", _push))
 add_service(
     LinkPair,

@@ -40,15 +40,6 @@ class RosControl(ModelPlugin):
         _warn(robot.name, "ros_control's controllers are not run yet; its joints move freely")
 
 
-class Harness(ModelPlugin):
-    """A harness that holds a model up: not there yet; the model hangs on nothing."""
-
-    def load(self, robot: Any, parameters: Any) -> None:
-        """Say so."""
-        del parameters
-        _warn(robot.name, "harnesses are not simulated yet; the model hangs on nothing")
-
-
 class Walker(ModelPlugin):
     """An actor that finds its way: not there yet; it stands, or follows its script."""
 

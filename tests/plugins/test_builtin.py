@@ -164,9 +164,9 @@ def test_gazebos_own_drives_take_sizes_from_the_model(tags):
         assert robot.joints["joint1"].velocity == pytest.approx(2.0, rel=0.15)
 
 
-@pytest.mark.parametrize("filename", ["libHarnessPlugin.so", "libgazebo_ros_harness.so"])
+@pytest.mark.parametrize("filename", ["libgazebo_ros_projector.so"])
 def test_what_is_not_there_yet_says_so(filename):
-    with pytest.warns(SimulationWarning, match="harness"):
+    with pytest.warns(SimulationWarning, match="pictures"):
         simulate(block(plugin=plugin(filename)))
 
 

@@ -6,6 +6,7 @@ from gazelle.simulation.values.commands import (
     JointPath,
     LinkPair,
     MotorPower,
+    Number,
     Outcome,
     PathRequest,
     Push,
@@ -13,6 +14,7 @@ from gazelle.simulation.values.commands import (
 )
 from gazelle.simulation.values.motion import (
     NO_VARIANCE,
+    Floats,
     JointStates,
     Odometry,
     SixNumbers,
@@ -21,6 +23,7 @@ from gazelle.simulation.values.motion import (
     WrenchValue,
 )
 from gazelle.simulation.values.sensing import (
+    AltimeterValue,
     BumperValue,
     ChannelPoints,
     CliffValue,
@@ -30,6 +33,7 @@ from gazelle.simulation.values.sensing import (
     MagneticValue,
     PointValue,
     RangeValue,
+    SonarValue,
     Touches,
     UnsureImu,
     VectorValue,
@@ -37,12 +41,14 @@ from gazelle.simulation.values.sensing import (
 
 __all__ = [
     "NO_VARIANCE",
+    "AltimeterValue",
     "Bias",
     "BumperValue",
     "ChannelPoints",
     "CliffValue",
     "Fix",
     "Flags",
+    "Floats",
     "GeoReference",
     "JointPath",
     "JointStates",
@@ -50,6 +56,7 @@ __all__ = [
     "LinkPair",
     "MagneticValue",
     "MotorPower",
+    "Number",
     "Odometry",
     "Outcome",
     "PathRequest",
@@ -57,6 +64,7 @@ __all__ = [
     "Push",
     "RangeValue",
     "SixNumbers",
+    "SonarValue",
     "Touches",
     "Transform",
     "Transforms",

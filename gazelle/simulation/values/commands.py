@@ -98,6 +98,13 @@ class MotorPower:
 
 
 @dataclass(frozen=True, slots=True)
+class Number:
+    """A number of little precision: what ROS sends as a Float32."""
+
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
 class Bias:
     """What a sensor shall be wrong by from now on.
 
