@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ from gazelle.ros.messages import load_message
 from gazelle.rotations import yaw_of
 from gazelle.sensors import ImuReading
 from gazelle.simulation.values import (
+    AltimeterValue,
     Bias,
     BumperValue,
     ChannelPoints,
@@ -35,6 +37,8 @@ from gazelle.simulation.values import (
     MagneticValue,
     MotorPower,
     PointValue,
+    RangeValue,
+    SonarValue,
     Transform,
     Transforms,
     Trigger,
@@ -110,14 +114,27 @@ def _magnetic(message: Any, value: MagneticValue, view: View) -> None:
 
 
 def _place(message: Any, value: PointValue, view: View) -> None:
-    set_header(message, view, value.stamp)
+    set_plain_header(message, view, value.stamp)
     set_point(message.point, value.values[view.world])
+
+
+def _altimeter(message: Any, value: AltimeterValue, view: View) -> None:
+    set_plain_header(message, view, value.stamp)
+    message.altitude = float(value.altitude[view.world])
+    message.pressure = float(value.pressure[view.world])
+    message.qnh = value.sea_level
+
+
+def _sonar(message: Any, value: SonarValue, view: View) -> None:
+    encoder_of(RangeValue).fill(message, value, view)
+    set_plain_header(message, view, value.stamp)
 
 
 def _reference(request: Any) -> GeoReference:
     position = request.geo_pose.position
     turn = np.asarray(quaternion(request.geo_pose.orientation))
-    heading = float(yaw_of(turn[None])[0])
+    # A yaw counts from east to north, a heading from north to east.
+    heading = math.pi / 2.0 - float(yaw_of(turn[None])[0])
     return GeoReference(position.latitude, position.longitude, position.altitude, heading)
 
 
@@ -128,6 +145,8 @@ add_encoder(Fix, Encoder("sensor_msgs/NavSatFix", _fix))
 add_encoder(VectorValue, Encoder("geometry_msgs/Vector3Stamped", _vector))
 add_encoder(MagneticValue, Encoder("sensor_msgs/MagneticField", _magnetic))
 add_encoder(PointValue, Encoder("geometry_msgs/PointStamped", _place))
+add_encoder(AltimeterValue, Encoder("hector_uav_msgs/Altimeter", _altimeter))
+add_encoder(SonarValue, Encoder("sensor_msgs/Range", _sonar))
 add_service(
     Bias,
     None,

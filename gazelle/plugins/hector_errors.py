@@ -1,24 +1,41 @@
 """How Hector's sensors err: offset, drift, noise and scale.
 
-Drift is a first-order Gauss-Markov process: at every measurement it shrinks by
-``exp(-interval * frequency)`` and takes up ``interval * N(0, sqrt(2 * frequency) * drift)``.
+Drift is a first-order Gauss-Markov process: it begins at ``N(0, drift)``, and at every measurement
+it shrinks by ``exp(-interval * frequency)`` and takes up
+``interval * N(0, sqrt(2 * frequency) * drift)``.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
+from gazelle.simulation import Tunable, Tuning
 from gazelle.streams import Stream
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
-_TAGS = {"offset": 0.0, "drift": 0.0, "driftFrequency": 1.0 / 3600.0, "gaussianNoise": 0.0}
+_TAGS = {
+    "offset": 0.0,
+    "drift": 0.0,
+    "driftFrequency": 1.0 / 3600.0,
+    "gaussianNoise": 0.0,
+    "scaleError": 1.0,
+}
+# Those of hector_gazebo_plugins' SensorModel.cfg.
+_TUNABLES = (
+    Tunable("gaussian_noise", 0.0, 0.0, 10.0, "Standard deviation of the noise"),
+    Tunable("offset", 0.0, -10.0, 10.0, "What is always added"),
+    Tunable("drift", 0.0, 0.0, 10.0, "Standard deviation of the drift"),
+    Tunable("drift_frequency", 0.0, 0.0, 1.0, "Reciprocal of the drift's time constant [Hz]"),
+    Tunable("scale_error", 1.0, 0.0, 2.0, "What true values are multiplied by"),
+)
 
 
 class SensorErrors:
@@ -37,13 +54,17 @@ class SensorErrors:
         self, parameters: Parameters, prefix: str, axes: int, seed: int, name: str, nworld: int
     ) -> None:
         self._axes = axes
-        numbers = {tag: _numbers(parameters, prefix, tag, axes, _TAGS[tag]) for tag in _TAGS}
-        self.offset, self.spread = numbers["offset"], numbers["gaussianNoise"]
-        self._drift, self._frequency = numbers["drift"], numbers["driftFrequency"]
-        self._scale = _numbers(parameters, prefix, "scaleError", axes, 1.0)
+        # Noise, offset, drift, its frequency and scale, in the order of the tunables.
+        tags = ("gaussianNoise", "offset", "drift", "driftFrequency", "scaleError")
+        self._numbers: Floats = np.array(
+            [_numbers(parameters, prefix, tag, axes, _TAGS[tag]) for tag in tags]
+        )
+        rows: list[Floats] = list(self._numbers)
+        self.spread, self.offset, self._drift, self._frequency, self._scale = rows
         self._stream = Stream(seed, name, nworld)
         self._drifted: Floats = np.zeros((nworld, axes))
         self._noise: Floats = np.zeros((nworld, axes))
+        self._begin(None)
 
     @property
     def variance(self) -> Floats:
@@ -76,16 +97,42 @@ class SensorErrors:
         """Be wrong by this much from now on, and drift on."""
         self._drifted[slice(None) if worlds is None else worlds] = values
 
+    @property
+    def drifted(self) -> Floats:
+        """The share of drift in the error, shape (nworld, axes)."""
+        return self._drifted
+
+    def tuning(self, topic: str) -> Tuning:
+        """Lets others change the numbers; all axes get the same, and tell their mean."""
+        return Tuning(topic, _TUNABLES, self._tune, self._tuned)
+
+    def _tune(self, values: Mapping[str, float]) -> None:
+        known = self._tuned()
+        for row, (name, value) in zip(self._numbers, values.items(), strict=True):
+            # What nobody changed stays as it is on each axis.
+            if value != known[name]:
+                row[:] = value
+
+    def _tuned(self) -> dict[str, float]:
+        means = self._numbers.mean(axis=1).tolist()
+        return {each.name: mean for each, mean in zip(_TUNABLES, means, strict=True)}
+
+    def _begin(self, worlds: Worlds | None) -> None:
+        if self._drift.any():
+            self.set_drift(self._drift * self._stream.normal(self._axes, worlds), worlds)
+        else:
+            self.set_drift(0.0, worlds)
+        self._noise[slice(None) if worlds is None else worlds] = 0.0
+
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
         """Use the random numbers of another seed."""
         self._stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drift; with all worlds, the random numbers start over too."""
+        """Let drift begin anew; with all worlds, the random numbers start over too."""
         if worlds is None:
             self._stream.rewind()
-        self.set_drift(0.0, worlds)
-        self._noise[slice(None) if worlds is None else worlds] = 0.0
+        self._begin(worlds)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes."""
@@ -94,12 +141,14 @@ class SensorErrors:
             "counters": self._stream.counters.copy(),
             "drifted": self._drifted.copy(),
             "noise": self._noise.copy(),
+            "numbers": self._numbers.copy(),
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
         self._drifted[:], self._noise[:] = state["drifted"], state["noise"]
+        self._numbers[:] = state["numbers"]
 
 
 class Interval:

@@ -73,6 +73,9 @@ class HectorImu(Noisy, Publishing):
             robot.services[service.strip("/")] = Service(
                 absolute(namespace, service), Bias, None, _setter(errors)
             )
+        for name, errors in (("accel", self._accel), ("rate", self._rate), ("yaw", self._yaw)):
+            tuned = f"{topic}/{name}"
+            robot.tunings[tuned.strip("/")] = errors.tuning(absolute(namespace, tuned))
 
     def _calibrate(self, _request: None, worlds: Worlds | None) -> None:
         self._rate.set_drift(0.0, worlds)

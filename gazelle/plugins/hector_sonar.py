@@ -11,7 +11,7 @@ from gazelle.plugins.hector_imu import rate_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel
 from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
-from gazelle.simulation.values import RangeValue
+from gazelle.simulation.values import SonarValue
 
 
 class HectorSonar(Noisy, SensorPlugin):
@@ -43,17 +43,20 @@ class HectorSonar(Noisy, SensorPlugin):
         robot.outputs[topic.strip("/")] = SensorOutput(
             sensor,
             absolute(namespace_of(robot, parameters), topic),
-            RangeValue,
+            SonarValue,
             frame=parameters.get("frameId", "/sonar_link"),
             read=self._read,
         )
+        robot.tunings[topic.strip("/")] = self._error.tuning(
+            absolute(namespace_of(robot, parameters), topic)
+        )
 
-    def _read(self) -> RangeValue:
+    def _read(self) -> SonarValue:
         nearest = np.minimum(self._sensor.current().min(axis=1), self._most)
         interval = self._interval.since(self._clock.now)
         wrong = self._error.apply(nearest[:, None], interval)[:, 0]
         distance = np.where(nearest < self._most, wrong, nearest)
-        return RangeValue(
+        return SonarValue(
             self._clock.now_ns,
             np.clip(distance, self._least, self._most),
             self._least,

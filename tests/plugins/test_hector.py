@@ -55,23 +55,55 @@ def test_an_imus_bias_is_set_and_calibrated_away():
         assert robot.outputs["imu"].last.reading.linear_acceleration[:, 1] == pytest.approx(0.0)
 
 
-def test_drift_grows_and_a_snapshot_keeps_it():
-    with cube(IMU, nworld=100, rateDrift="0.5", rateDriftFrequency="1.0", updateRate="50") as sim:
+def test_drift_begins_somewhere_and_a_snapshot_keeps_it():
+    with cube(IMU, nworld=400, rateDrift="0.5", rateDriftFrequency="1.0", updateRate="50") as sim:
         output = sim.robots["cube"].outputs["imu"]
         heard = []
         output.subscribe(heard.append)
+        sim.step()
+        first = heard[0].reading.angular_velocity
+        assert first.std() == pytest.approx(0.5, rel=0.1)
         sim.run(seconds=2.0)
         assert len(heard) == pytest.approx(100, abs=1)
         rates = heard[-1].reading.angular_velocity
-        # Stationary: interval sqrt(2 f) drift / sqrt(1 - exp(-2 f interval)).
-        spread = 0.02 * math.sqrt(2.0) * 0.5 / math.sqrt(1.0 - math.exp(-0.04))
-        assert rates.std() == pytest.approx(spread, rel=0.25)
+        # Taken up: interval sqrt(2 f) drift / sqrt(1 - exp(-2 f interval)); left of the beginning:
+        # drift exp(-f time).
+        taken = 0.02 * math.sqrt(2.0) * 0.5 / math.sqrt(1.0 - math.exp(-0.04))
+        left = 0.5 * math.exp(-2.0)
+        assert rates.std() == pytest.approx(math.hypot(taken, left), rel=0.1)
         state = sim.snapshot()
         sim.run(seconds=0.1)
         expected = heard[-1].reading.angular_velocity
         sim.restore(state)
         sim.run(seconds=0.1)
         assert heard[-1].reading.angular_velocity == pytest.approx(expected)
+        sim.reset()
+        sim.step()
+        assert heard[-1].reading.angular_velocity == pytest.approx(first)
+
+
+def test_the_errors_of_an_imu_can_be_tuned():
+    with cube(IMU, nworld=2, rateOffset="0.1 0.2 0.3", accelGaussianNoise="0.5") as sim:
+        robot = sim.robots["cube"]
+        assert {name: each.topic for name, each in robot.tunings.items()} == {
+            f"imu/{part}": f"/imu/{part}" for part in ("accel", "rate", "yaw")
+        }
+        rate = robot.tunings["imu/rate"]
+        assert rate.values["offset"] == pytest.approx(0.2)
+        assert rate.values["drift_frequency"] == pytest.approx(1.0 / 3600.0)
+        state = sim.snapshot()
+        rate.send(scale_error=0.5)
+        robot.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        sim.step()
+        rates = robot.outputs["imu"].last.reading.angular_velocity
+        # The axes keep what nobody changed.
+        assert rates[1] == pytest.approx([0.1, 0.2, 0.8], abs=1e-6)
+        assert rate.send(offset=-50.0)["offset"] == -10.0
+        assert robot.outputs["imu"].last.acceleration_variance == pytest.approx([0.25] * 3)
+        robot.tunings["imu/accel"].send(gaussian_noise=0.0)
+        assert robot.outputs["imu"].last.acceleration_variance == pytest.approx([0.0] * 3)
+        sim.restore(state)
+        assert rate.values["offset"] == pytest.approx(0.2)
 
 
 GPS = "libhector_gazebo_ros_gps.so"
@@ -105,6 +137,42 @@ def test_a_gps_is_given_another_reference():
         fix = robot.outputs["fix"].last
         assert fix.latitude == pytest.approx([49.9, 10.0])
         assert fix.longitude == pytest.approx([8.9, 20.0])
+
+
+def test_the_drift_of_a_gps_velocity_moves_its_position():
+    with cube(GPS, velocityDrift="0.3", updateRate="100") as sim:
+        robot = sim.robots["cube"]
+        heard, speeds = [], []
+        robot.outputs["fix"].subscribe(heard.append)
+        robot.outputs["fix_velocity"].subscribe(speeds.append)
+        sim.run(seconds=1.0)
+        north = (heard[-1].latitude - heard[0].latitude)[0] * 111230.0
+        # The velocity hardly drifts in a second, so that it adds up to itself.
+        assert abs(speeds[0].values[0, 0]) > 1e-3
+        assert north == pytest.approx(speeds[0].values[0, 0], rel=0.15)
+
+
+def test_a_gps_says_of_itself_what_it_is_tuned_to():
+    with cube(GPS, status="1", service="3") as sim:
+        robot = sim.robots["cube"]
+        status = robot.tunings["fix/status"]
+        assert status.topic == "/fix/status"
+        assert {name for name, on in status.values.items() if on} == {
+            "STATUS_FIX",
+            "STATUS_SBAS_FIX",
+            "SERVICE_GPS",
+            "SERVICE_GLONASS",
+        }
+        state = sim.snapshot()
+        status.send(STATUS_GBAS_FIX=True, SERVICE_GALILEO=True)
+        assert (robot.outputs["fix"].last.status, robot.outputs["fix"].last.service) == (3, 11)
+        status.send(STATUS_FIX=False)
+        assert robot.outputs["fix"].last.status == -1
+        sim.restore(state)
+        assert robot.outputs["fix"].last.status == 1
+        robot.tunings["fix/position"].send(offset=2.0)
+        assert robot.outputs["fix"].last.altitude[0] == pytest.approx(2.5)
+        assert {"fix/position", "fix/velocity"} < set(robot.tunings)
 
 
 def test_a_gps_publishes_four_times_a_second():
@@ -146,6 +214,34 @@ def test_a_barometer_tells_height():
         output = robot.outputs["pressure_height"]
         assert output.last.values[:, 2] == pytest.approx([1.5, 2.5])
         assert output.frame == "baro"
+
+
+def test_a_barometer_tells_altitude_and_pressure():
+    tags = {"elevation": "100", "qnh": "1000", "altimeterTopicName": "height/air"}
+    with cube("libhector_gazebo_ros_baro.so", nworld=2, gaussianNoise="0.1", **tags) as sim:
+        robot = sim.robots["cube"]
+        robot.set_pose([[0.0, 0.0, 0.0], [0.0, 0.0, 1000.0]])
+        output = robot.outputs["height/air"]
+        assert (output.topic, output.queue_size) == ("/height/air", 10)
+        value = output.last
+        assert value.altitude == pytest.approx([100.0, 1100.0], abs=1.0)
+        # The standard atmosphere: 988.2 hPa and 876.0 hPa for 1000 hPa at the sea.
+        assert value.pressure == pytest.approx([988.2, 876.0], abs=0.3)
+        assert value.sea_level == 1000.0
+        both = {}
+        robot.outputs["pressure_height"].subscribe(lambda v: both.update(height=v))
+        output.subscribe(lambda v: both.update(altitude=v))
+        sim.step()
+        # Both are made of one measurement.
+        assert both["altitude"].altitude - 100.0 == pytest.approx(both["height"].values[:, 2])
+
+
+def test_magnetometers_are_tuned_beside_their_topic():
+    with cube(MAGNETIC) as sim:
+        robot = sim.robots["cube"]
+        robot.tunings["magnetic"].send(offset=0.25)
+        assert robot.tunings["magnetic"].topic == "/magnetic"
+        assert robot.outputs["magnetic"].last.values[0, 1] == pytest.approx(0.25)
 
 
 def test_errors_have_one_number_or_one_an_axis():

@@ -47,6 +47,12 @@ class RangeValue:
     ultrasound: bool
 
 
+class SonarValue(RangeValue):
+    """The same, of a sensor whose frame is taken as it is written."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Flags:
     """Yes or no, in every world.
@@ -146,6 +152,23 @@ class PointValue(VectorValue):
     """A place [m]."""
 
     __slots__ = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AltimeterValue:
+    """What a barometer makes of the air's pressure, in every world.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        altitude: Above the sea [m], shape (nworld,).
+        pressure: Of the air [hPa], shape (nworld,).
+        sea_level: The pressure there [hPa].
+    """
+
+    stamp: int
+    altitude: Floats
+    pressure: Floats
+    sea_level: float
 
 
 @dataclass(frozen=True, slots=True)
