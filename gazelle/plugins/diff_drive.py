@@ -6,15 +6,17 @@ Tags, defaults and rules are those of gazebo_ros_pkgs 2.9 (Noetic).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
+from gazelle.plugins.dead_reckoning import DeadReckoning
 from gazelle.plugins.frames import transform
-from gazelle.plugins.odometry import POSE_VARIANCE, as_transforms, true_odometry
-from gazelle.rotations import from_yaw
+from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
+from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
     JointStates,
     ModelPlugin,
@@ -65,9 +67,7 @@ class DiffDrive(ModelPlugin):
         nworld = robot.simulation.nworld
         self._speeds = np.zeros((nworld, 2))
         self._settled = -1  # the command whose speeds the motors already have
-        self._encoder_pose = np.zeros((nworld, 3))
-        self._encoder_twist = np.zeros((nworld, 2))
-        self._last_angles = self._angles()
+        self._reckoning = DeadReckoning(self._separation, self._radius, self._angles())
         self._last_time = robot.simulation.time
         self._open_ports(robot, parameters, nworld)
 
@@ -76,16 +76,17 @@ class DiffDrive(ModelPlugin):
         command = absolute(namespace, parameters.get("commandTopic", "cmd_vel"))
         self._command = robot.inputs["cmd_vel"] = TwistInput(nworld, command)
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        robot.outputs["odom"] = Output(topic, Odometry, self._measure)
-        published = []
-        if parameters.get("publishTf", True):
-            published.append(robot.outputs["odom"])
-            if parameters.get("publishOdomTF", True):
-                robot.outputs["odom_tf"] = Output("/tf", Transforms, self._odometry_frame, namespace=namespace)
-                published.append(robot.outputs["odom_tf"])
+        published: list[Published] = []
+        sent = parameters.get("publishTf", True)
+        framed = sent and parameters.get("publishOdomTF", True)
+        odometry = OdometryOutputs(robot, topic, self._measure, namespace, framed=framed)
+        if sent:
+            published.append(odometry)
         if parameters.get("publishWheelTF", False):
             self._wheel_links = tuple(robot.joint_description(n).child for n in self._names)
-            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames, namespace=namespace)
+            robot.outputs["wheel_tf"] = Output(
+                "/tf", Transforms, self._wheel_frames, namespace=namespace
+            )
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             robot.outputs["joint_states"] = Output(
@@ -99,7 +100,7 @@ class DiffDrive(ModelPlugin):
         interval = time - self._last_time
         self._last_time = time
         if self._from_encoders:
-            self._integrate_encoders(interval)
+            self._reckoning.advance(self._angles(), interval)
         self._drive(interval)
         for output in self._published:
             output.publish()
@@ -122,21 +123,6 @@ class DiffDrive(ModelPlugin):
         for column, wheel in enumerate(self._wheels):
             wheel.drive(self._speeds[:, column] / self._radius)
 
-    def _integrate_encoders(self, interval: float) -> None:
-        """Dead reckoning with the heading at the middle of the interval."""
-        angles = self._angles()
-        left, right = (self._radius * (angles - self._last_angles)).T
-        self._last_angles = angles
-        if interval <= 0.0:
-            return
-        along, turned = (left + right) / 2.0, (right - left) / self._separation
-        middle = self._encoder_pose[:, 2] + turned / 2.0
-        self._encoder_pose[:, 0] += along * np.cos(middle)
-        self._encoder_pose[:, 1] += along * np.sin(middle)
-        self._encoder_pose[:, 2] += turned
-        self._encoder_twist[:, 0] = along / interval
-        self._encoder_twist[:, 1] = turned / interval
-
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
 
@@ -146,23 +132,10 @@ class DiffDrive(ModelPlugin):
         return true_odometry(self._robot, self._frame, self._base)
 
     def _from_wheels(self) -> Odometry:
-        zero = np.zeros(len(self._encoder_pose))
-        x, y, yaw = self._encoder_pose.T
+        now = self._robot.simulation.clock.now_ns
+        found = self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
         # The original reports the length of the velocity, so it is never negative.
-        speed, turning = np.abs(self._encoder_twist[:, 0]), self._encoder_twist[:, 1]
-        return Odometry(
-            self._robot.simulation.clock.now_ns,
-            self._frame,
-            self._base,
-            np.stack((x, y, zero), axis=1),
-            from_yaw(yaw),
-            np.stack((speed, zero, zero), axis=1),
-            np.stack((zero, zero, turning), axis=1),
-            POSE_VARIANCE,
-        )
-
-    def _odometry_frame(self) -> Transforms:
-        return as_transforms(self._measure())
+        return replace(found, linear=np.abs(found.linear))
 
     def _wheel_frames(self) -> Transforms:
         robot = self._robot
@@ -183,29 +156,21 @@ class DiffDrive(ModelPlugin):
         rows = slice(None) if worlds is None else worlds
         self._speeds[rows] = 0.0
         self._settled = -1
-        self._encoder_pose[rows] = 0.0
-        self._encoder_twist[rows] = 0.0
-        self._last_angles[rows] = self._angles()[rows]
+        self._reckoning.reset(worlds, self._angles())
         if worlds is None:
             self._last_time = self._robot.simulation.time
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Wheel speeds, odometry and time of the last update."""
-        return {
-            "speeds": self._speeds.copy(),
-            "encoder_pose": self._encoder_pose.copy(),
-            "encoder_twist": self._encoder_twist.copy(),
-            "last_angles": self._last_angles.copy(),
-            "last_time": np.array(self._last_time),
-        }
+        rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
+        last_time = np.array(self._last_time)
+        return {"speeds": self._speeds.copy(), **rolled, "last_time": last_time}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._speeds[:] = state["speeds"]
         self._settled = -1
-        self._encoder_pose[:] = state["encoder_pose"]
-        self._encoder_twist[:] = state["encoder_twist"]
-        self._last_angles[:] = state["last_angles"]
+        self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
         self._last_time = float(state["last_time"])
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from gazelle.rotations import conjugate, rotate
-from gazelle.simulation import Odometry, Robot, Transform, Transforms
+from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
 from gazelle.simulation.values import SixNumbers
 
 POSE_VARIANCE: SixNumbers = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
@@ -31,6 +33,50 @@ def true_odometry(
         pose_variance,
         twist_variance,
     )
+
+
+class OdometryOutputs:
+    """A robot's odometry and the frame of tf that says the same, computed once for both.
+
+    Args:
+        robot: Gets the outputs ``odom`` and ``odom_tf``.
+        topic: Of the odometry.
+        measure: The odometry now.
+        namespace: Whose frame it is.
+        framed: Whether there is ``odom_tf``.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        topic: str,
+        measure: Callable[[], Odometry],
+        namespace: str,
+        *,
+        framed: bool = True,
+    ) -> None:
+        self._measure = measure
+        self._odom = robot.outputs["odom"] = Output(topic, Odometry, measure)
+        self._frame: Output[Transforms] | None = None
+        if framed:
+            self._frame = robot.outputs["odom_tf"] = Output(
+                "/tf", Transforms, lambda: as_transforms(measure()), namespace=namespace
+            )
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens to either."""
+        return self._odom.wanted or (self._frame is not None and self._frame.wanted)
+
+    def publish(self) -> None:
+        """Compute the odometry and hand it to all who listen, if anybody does."""
+        if not self.wanted:
+            return
+        odometry = self._measure()
+        if self._odom.wanted:
+            self._odom.hand(odometry)
+        if self._frame is not None and self._frame.wanted:
+            self._frame.hand(as_transforms(odometry))
 
 
 def as_transforms(odometry: Odometry) -> Transforms:

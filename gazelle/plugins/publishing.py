@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
 
-from gazelle.simulation import ModelPlugin, Output
+from gazelle.simulation import ModelPlugin
+
+
+class Published(Protocol):
+    """What is published at every update: an output, or several that go together."""
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+
+    def publish(self) -> None:
+        """Hand a new value to all who listen."""
 
 
 class Publishing(ModelPlugin):
     """Publishes its outputs at its rate, and needs no updates while nobody listens."""
 
     def __init__(self) -> None:
-        self._published: list[Output[Any]] = []
+        self._published: list[Published] = []
 
     @property
     def active(self) -> bool:

@@ -206,9 +206,13 @@ class Output(Generic[T]):
     def publish(self) -> None:
         """Compute the value and hand it to all who listen, if anybody does."""
         if self._listeners:
-            self._last = self._produce()
-            for listener in tuple(self._listeners):
-                listener(self._last)
+            self.hand(self._produce())
+
+    def hand(self, value: T) -> None:
+        """Publish a value that was computed already."""
+        self._last = value
+        for listener in tuple(self._listeners):
+            listener(value)
 
     def forget(self) -> None:
         """Let ``last`` be what is true now: after a reset what was published is not."""

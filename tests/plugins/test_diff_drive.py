@@ -86,3 +86,21 @@ def test_a_command_that_is_not_finite_is_refused():
     _, robot = drive()
     with pytest.raises(SimulationError, match="not finite"):
         robot.inputs["cmd_vel"].send(linear=np.nan)
+
+
+def test_the_topic_and_the_frame_are_one_computation_and_say_the_same():
+    _, robot = drive(updateRate=100)
+    computed, heard, framed = [], [], []
+    true_placement = robot.placement
+    robot.placement = lambda *args: computed.append(1) or true_placement(*args)
+    robot.outputs["odom"].subscribe(heard.append)
+    end = robot.outputs["odom_tf"].subscribe(framed.append)
+    robot.simulation.run(0.1)
+    assert len(heard) == len(framed) == len(computed) == 10
+    for odometry, frames in zip(heard, framed, strict=True):
+        assert frames.stamp == odometry.stamp
+        np.testing.assert_array_equal(frames.transforms[0].position, odometry.position)
+    assert robot.outputs["odom_tf"].last is framed[-1]
+    end()
+    robot.set_pose((1.0, 0.0, 0.0))
+    assert robot.outputs["odom_tf"].last.transforms[0].position[0, 0] == 1.0

@@ -95,8 +95,8 @@ class StateAccess(ABC):
         rows = rows_of(worlds)
         if slot.free is not None:
             v = self._state.qvel[rows, slot.free.velocity]
-            turned = rotate(self.link_placement(link, worlds).quaternion, v[:, 3:])
-            return Motion(v[:, :3].copy(), turned)
+            q = self._state.qpos[rows, slot.free.position][:, 3:]
+            return Motion(v[:, :3].copy(), rotate(xyzw_from_wxyz(q), v[:, 3:]))
         if slot.root is not None:
             return still_motion(self._nworld if worlds is None else len(worlds))
         self._refresh()
@@ -233,16 +233,12 @@ class StateAccess(ABC):
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
         slots = self._now().joint(joint)
-        return np.concatenate(
-            [self._state.qpos[rows_of(worlds), s.position] for s in slots], axis=1
-        )
+        return _read(self._state.qpos, [s.position for s in slots], worlds)
 
     def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Velocity [m/s or rad/s], shape (n, axes)."""
         slots = self._now().joint(joint)
-        return np.concatenate(
-            [self._state.qvel[rows_of(worlds), s.velocity] for s in slots], axis=1
-        )
+        return _read(self._state.qvel, [s.velocity for s in slots], worlds)
 
     def set_joint_position(
         self, joint: str, position: ArrayLike, worlds: Worlds | None = None
@@ -323,6 +319,14 @@ class StateAccess(ABC):
 def rows_of(worlds: Worlds | None) -> slice | Worlds:
     """An index for these worlds, all if None."""
     return slice(None) if worlds is None else worlds
+
+
+def _read(array: Floats, columns: list[slice], worlds: Worlds | None) -> Floats:
+    """A copy of some columns, side by side."""
+    rows = rows_of(worlds)
+    if len(columns) == 1:
+        return array[rows, columns[0]].copy()
+    return np.concatenate([array[rows, each] for each in columns], axis=1)
 
 
 def unit(q: Floats) -> Floats:
