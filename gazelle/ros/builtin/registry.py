@@ -65,6 +65,7 @@ _OWN = {
             for name in ("hztest", "paramtest", "publishtest", "advertisetest")
         }),
         BuiltinPackage("rostopic", {"rostopic": "gazelle.ros.builtin.commands:topic"}),
+        BuiltinPackage("rospack", {"rospack": "gazelle.ros.builtin.rospack:main"}),
         BuiltinPackage("rosservice", {"rosservice": "gazelle.ros.builtin.commands:service"}),
         BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),
         BuiltinPackage("tf", {

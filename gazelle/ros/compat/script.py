@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from gazelle.errors import RosError, did_you_mean
+from gazelle.ros.builtin.on_path import offer
 from gazelle.ros.compat.finder import install
 from gazelle.ros.compat.python2 import advice_text, explain
 
@@ -56,6 +57,7 @@ def run_script(
     sys.argv = [path, *arguments]
     sys.path.insert(0, str(file.resolve().parent))
     install()
+    offer()
     with _simulated_sleep() if sim_sleep else contextlib.nullcontext():
         return _execute(source, file, main, debug=debug)
 

@@ -1,0 +1,132 @@
+"""ROS's commands as programs, for scripts that call ``rosservice`` or ``roslaunch`` by name.
+
+They are small files in a folder of the user's cache, which `offer` puts in front of ``PATH``; the
+folder's ``python`` is the one that runs now, and whatever it runs may ``import rospy``.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import sys
+import tempfile
+from collections.abc import Mapping, MutableMapping
+from pathlib import Path
+
+_COMMANDS = {
+    "rosbag": ("bag",),
+    "roscore": ("master",),
+    "roslaunch": ("launch",),
+    "rosmaster": ("master", "--no-rosout"),
+    "rosmsg": ("msg",),
+    "rosnode": ("node",),
+    "rosparam": ("param",),
+    "rosrun": ("exec",),
+    "rosservice": ("service",),
+    "rossrv": ("srv",),
+    "rostest": ("launch", "--test"),
+    "rostopic": ("topic",),
+}
+_NODES = {
+    "gazebo": ("gazebo_ros", "gazebo"),
+    "gz": ("gazebo_ros", "gz"),
+    "gzclient": ("gazebo_ros", "gzclient"),
+    "gzserver": ("gazebo_ros", "gzserver"),
+    "rospack": ("rospack", "rospack"),
+    "xacro": ("xacro", "xacro"),
+}
+_PYTHONS = ("python", "python3")
+_SITE = "site"
+
+# Both a shell's program and Python's, because scripts also run "python $(which roscore)".
+_PROGRAM = """#!/bin/sh
+'''exec' {python} "$0" "$@" #'''
+import runpy
+import sys
+
+sys.argv[1:1] = {words!r}
+runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
+"""
+_PYTHON = """#!/bin/sh
+exec {python} "$@"
+"""
+_CUSTOMIZE = """import contextlib
+
+with contextlib.suppress(ImportError):
+    import gazelle.ros
+
+    gazelle.ros.install()
+"""
+
+
+def offer(environment: MutableMapping[str, str] | None = None) -> Path | None:
+    """Let what is started with an environment find ROS's commands, and Python find its modules.
+
+    An installed ROS comes after them. Where there is no place to write, nothing is changed.
+
+    Args:
+        environment: By default this process's.
+
+    Returns:
+        The folder; None where there is none: on Windows, too.
+    """
+    env = os.environ if environment is None else environment
+    folder = _made(_files()) if os.name == "posix" else None
+    if folder is not None:
+        _put_first(env, "PATH", folder)
+        _put_first(env, "PYTHONPATH", folder / _SITE)
+    return folder
+
+
+def _put_first(env: MutableMapping[str, str], name: str, folder: Path) -> None:
+    rest = [each for each in env.get(name, "").split(os.pathsep) if each != str(folder)]
+    env[name] = os.pathsep.join([str(folder), *filter(None, rest)])
+
+
+def _files() -> dict[str, str]:
+    """From the name of each file to what is in it."""
+    python = _quoted(sys.executable)
+    files = {name: _PYTHON.format(python=python) for name in _PYTHONS}
+    for name, words in _COMMANDS.items():
+        files[name] = _program("gazelle.cli.main", words)
+    for name, words in _NODES.items():
+        files[name] = _program("gazelle.ros.builtin.start", words)
+    return files | {f"{_SITE}/sitecustomize.py": _CUSTOMIZE}
+
+
+def _program(module: str, words: tuple[str, ...]) -> str:
+    return _PROGRAM.format(python=_quoted(sys.executable), words=list(words), module=module)
+
+
+def _quoted(path: str) -> str:
+    """A path as one word of the shell; double quotes, as single ones are Python's here."""
+    for special in '\\"$`':
+        path = path.replace(special, f"\\{special}")
+    return f'"{path}"'
+
+
+def _made(files: Mapping[str, str]) -> Path | None:
+    """A folder with these files, named after what is in them; None if it cannot be written."""
+    key = hashlib.sha256(repr(sorted(files.items())).encode()).hexdigest()[:16]
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle" / "programs"
+    folder = base / key
+    if folder.is_dir():
+        return folder
+    try:
+        base.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=base) as fresh:
+            _write(files, Path(fresh) / key)
+            with contextlib.suppress(FileExistsError):
+                (Path(fresh) / key).rename(folder)
+    except OSError:
+        return folder if folder.is_dir() else None
+    return folder
+
+
+def _write(files: Mapping[str, str], folder: Path) -> None:
+    for name, text in files.items():
+        file = folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        file.chmod(0o755)
