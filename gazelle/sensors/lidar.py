@@ -85,8 +85,11 @@ class LidarModel:
         distance = hits.distance + lidar.range_min
         measured = self._noise.apply(distance, interval, worlds)
         if lidar.range_resolution > 0.0:
-            measured = np.round(measured / lidar.range_resolution) * lidar.range_resolution
-        measured = np.clip(measured, lidar.range_min, lidar.range_max)
+            measured = measured / lidar.range_resolution
+            np.rint(measured, out=measured)
+            measured *= lidar.range_resolution
+        measured = np.maximum(measured, lidar.range_min)
+        np.minimum(measured, lidar.range_max, out=measured)
         measured[distance >= lidar.range_max] = np.inf
         measured[hits.from_inside] = -np.inf
         return measured

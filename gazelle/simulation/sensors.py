@@ -57,9 +57,6 @@ class SensorUnit:
 
         The first call measures at once and wakes the sensor.
         """
-        self._awake = True
-        if self._values is None:
-            self.update(self.robot.simulation.clock.now_ns)
         return self.reading(self.latest()[world])
 
     def latest(self) -> Floats:
@@ -72,9 +69,8 @@ class SensorUnit:
         if not self.awake:
             return self.measure()
         if self._values is None:
-            self.update(self.robot.simulation.clock.now_ns)
-        values = self._values
-        return values if values is not None else self.measure()
+            return self.update(self.robot.simulation.clock.now_ns)
+        return self._values
 
     def reading(self, values: Floats) -> Any:
         """Values by name."""
@@ -85,13 +81,14 @@ class SensorUnit:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def update(self, now_ns: int) -> None:
-        """Measure in turn."""
-        self._values = self.measure()
+    def update(self, now_ns: int) -> Floats:
+        """Measure in turn; returns what ``latest`` will until the next time."""
+        values = self._values = self.measure()
         self._stamp = now_ns
         self.schedule.done(now_ns)
         for listener in tuple(self._listeners):
             listener(self)
+        return values
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
         """Use the random numbers of another seed, from their start."""

@@ -34,7 +34,8 @@ def nearest(
         start, along, geomgroup=_GROUPS, bodyexclude=excluded or -1, ids=worlds, normal=True
     )
     from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
-    return Hits(np.where(distance < 0.0, np.inf, distance), from_inside), geom
+    distance[distance < 0.0] = np.inf
+    return Hits(distance, from_inside), geom
 
 
 def behind(
