@@ -30,7 +30,7 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import part, whole
 from gazelle.engines.planar.kernels_bodies import draw_bodies, find_body
 from gazelle.engines.planar.kernels_find import draw_found, draw_statics, find_lanes, find_statics
 from gazelle.engines.planar.kernels_grid import place_in, stretch
@@ -162,7 +162,7 @@ def report(beams: Floats, m: int, reach: float, ranges: Floats, names: Floats) -
             names[m, k] = beams[3, k]
 
 
-@kernel
+@whole
 def scan(
     first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
     outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
-from gazelle.engines.planar.compiled import kernel
+from gazelle.engines.planar.compiled import kernel, whole
 from gazelle.engines.planar.kernels_bump import obstructed, statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import commit, propose
@@ -66,7 +66,7 @@ def settle(
         relink(first, last, nbody, grid, pose, head, follow, cell)
 
 
-@kernel
+@whole
 def advance(
     first: int, last: int, count: int, widest: float, drives: Floats, command: Floats,
     velocity: Floats, pose: Floats, goal: Floats, state: Marks, stalled: Flags, dt: float,

@@ -1,0 +1,12 @@
+"""Machine code from the small part of Python that the planar engine's kernels are written in.
+
+A kernel's source is turned into LLVM's intermediate language, function by function, with the
+types of the arguments it is first called with; LLVM makes machine code of it, which is kept in
+a cache. The language: numbers, truth values and arrays as NumPy has them, loops over ranges,
+conditions, calls of other such functions and of what ``calls`` lists. Arrays are contiguous, and
+indices are neither negative nor checked, as in C.
+"""
+
+from gazelle.engines.planar.native.function import Native
+
+__all__ = ["Native"]

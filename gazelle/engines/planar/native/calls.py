@@ -1,0 +1,133 @@
+"""What kernels may call besides each other: conversions and functions of numbers."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from gazelle.engines.planar.native.code import Code, constant, rebuilt, words
+from gazelle.engines.planar.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
+from gazelle.engines.planar.native.operators import compared
+from gazelle.errors import EngineError
+
+_OWN: Final[dict[Any, str]] = {
+    math.sqrt: "sqrt", math.sin: "sin", math.cos: "cos", math.log: "log", math.floor: "floor",
+    math.ceil: "ceil", np.rint: "rint",
+}  # fmt: skip
+_MOST: Final = 4096  # elements of an array that a kernel makes
+_OTHERS: Final[dict[Any, str]] = {math.atan2: "atan2", math.hypot: "hypot"}
+
+
+def each(first: int, last: int) -> range:
+    """Indices of rounds of a loop that may be done in any order, or many at once."""
+    return range(first, last)
+
+
+def call(code: Code, function: Any, values: list[Value]) -> Value:
+    """What a function gives.
+
+    Floors and ceilings are real numbers here: ``int`` makes whole ones of them.
+    """
+    if function in _OWN:
+        return _own(code, f"llvm.{_OWN[function]}.f64", values)
+    if function in _OTHERS:
+        return _own(code, _OTHERS[function], values)
+    if function not in _CALLS:
+        raise EngineError(f"kernels cannot call {getattr(function, '__name__', function)}")
+    return _CALLS[function](code, *values)
+
+
+def _own(code: Code, name: str, values: list[Value]) -> Value:
+    code.declared[name] = f"declare double @{name}({', '.join(['double'] * len(values))})"
+    texts = ", ".join(f"double {code.real(value).text}" for value in values)
+    return code.get(REAL, f"call double @{name}({texts})")
+
+
+def _absolute(code: Code, value: Value) -> Value:
+    if value.kind == REAL:
+        return _own(code, "llvm.fabs.f64", [value])
+    low = code.get(TRUTH, f"icmp slt i64 {value.text}, 0")
+    turned = code.get(WHOLE, f"sub i64 0, {value.text}")
+    return choose(code, low, turned, value)
+
+
+def _least(code: Code, first: Value, *others: Value) -> Value:
+    for other in others:
+        first = choose(code, compared(code, ast.Lt, other, first), other, first)
+    return first
+
+
+def _most(code: Code, first: Value, *others: Value) -> Value:
+    for other in others:
+        first = choose(code, compared(code, ast.Gt, other, first), other, first)
+    return first
+
+
+def choose(code: Code, condition: Value, yes: Value, no: Value) -> Value:
+    """One of two values that are both made."""
+    kind = joined(yes.kind, no.kind)
+    if kind is None:
+        raise EngineError(f"{yes.kind} or {no.kind} is no one kind of value")
+    truth = code.truth(condition).text
+    pairs = zip(
+        flat(kind), words(code.turned(yes, kind)), words(code.turned(no, kind)), strict=True
+    )
+    lines = [f"select i1 {truth}, {low} {a}, {low} {b}" for low, a, b in pairs]
+    return rebuilt(kind, [code.get(WHOLE, line).text for line in lines])
+
+
+def _whole(code: Code, value: Value) -> Value:
+    """As a whole number, towards zero; 0 of what is no number, and the ends of what is beyond."""
+    if value.known is not None and value.kind != BITS:
+        return constant(int(value.known))
+    if value.kind != REAL:
+        return Value(WHOLE, code.turned(value, WHOLE).text if value.kind == TRUTH else value.text)
+    name = "llvm.fptosi.sat.i64.f64"
+    code.declared[name] = f"declare i64 @{name}(double)"
+    return code.get(WHOLE, f"call i64 @{name}(double {value.text})")
+
+
+def _bits(code: Code, value: Value) -> Value:
+    return Value(BITS, _whole(code, value).text)
+
+
+def _is_nan(code: Code, value: Value) -> Value:
+    text = code.real(value).text
+    return code.get(TRUTH, f"fcmp uno double {text}, {text}")
+
+
+def _is_finite(code: Code, value: Value) -> Value:
+    size = _absolute(code, code.real(value))
+    return compared(code, ast.Lt, size, constant(math.inf))
+
+
+def _length(_: Code, value: Value) -> Value:
+    if not isinstance(value.kind, Array):
+        raise EngineError("only arrays have a length")
+    return Value(WHOLE, value.sizes[0])
+
+
+def _empty(code: Code, shape: Value) -> Value:
+    return code.room("float64", _sizes(shape), zero=False)
+
+
+def _zeros(code: Code, shape: Value) -> Value:
+    return code.room("float64", _sizes(shape), zero=True)
+
+
+def _sizes(shape: Value) -> list[int]:
+    sizes = [part.known for part in shape.parts or (shape,)]
+    if not all(isinstance(size, int) and 0 < size <= _MOST for size in sizes):
+        raise EngineError("the size of an array that a kernel makes must be known, and small")
+    return sizes
+
+
+_CALLS: Final[dict[Any, Callable[..., Value]]] = {
+    abs: _absolute, min: _least, max: _most, float: Code.real, bool: Code.truth, int: _whole,
+    np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
+    len: _length, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
+}  # fmt: skip

@@ -1,0 +1,74 @@
+"""A function that runs as machine code."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import hashlib
+import threading
+from collections.abc import Callable
+from types import FunctionType
+from typing import Any
+
+from gazelle.engines.planar.native.kinds import Kind
+from gazelle.engines.planar.native.library import digest_of, load
+from gazelle.engines.planar.native.machine import LOCK
+from gazelle.engines.planar.native.packing import Words
+
+_ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+Entry = tuple[Callable[[int], None], Kind | None]
+
+
+class Native:
+    """Compiles a function for the types it is called with, and calls it.
+
+    It runs without the interpreter's lock.
+
+    Args:
+        function: What to compile, in the language of this package.
+        inline: Whether it is always put into what calls it.
+        whole: Whether other kernels call it as it is, so that it is compiled once; it returns
+            nothing.
+    """
+
+    is_native = True
+
+    def __init__(
+        self, function: Callable[..., Any], *, inline: bool = False, whole: bool = False
+    ) -> None:
+        if not isinstance(function, FunctionType):
+            raise TypeError("only functions can be compiled")
+        self.function, self.inline, self.whole = function, inline, whole
+        self.name = function.__name__
+        functools.update_wrapper(self, function)
+        self._own = threading.local()
+        self._entries: dict[tuple[Kind, ...], Entry] = {}
+
+    def __call__(self, *values: Any) -> Any:
+        """Call it; what it returns."""
+        own = self._own
+        words: Words | None = getattr(own, "words", None)
+        if words is None or not words.take(values):
+            own.words = None  # it may be half changed
+            words = Words(values)
+            own.call, own.result = self._entry(words.kinds)
+            own.words = words
+        own.call(words.address)
+        return None if own.result is None else words.result(own.result)
+
+    def symbol(self, kinds: tuple[Kind, ...]) -> str:
+        """Its name in machine code for arguments of some kinds."""
+        digest = hashlib.sha256(f"{self._digest}{kinds!r}".encode()).hexdigest()[:20]
+        return f"{self.name}.{digest}"
+
+    @functools.cached_property
+    def _digest(self) -> str:
+        return digest_of(self.function)  # when it is first called, all that it calls is there
+
+    def _entry(self, kinds: tuple[Kind, ...]) -> Entry:
+        """What calls it with words, compiled if need be, and what it returns."""
+        with LOCK:
+            if kinds not in self._entries:
+                address, result = load(self, kinds)
+                self._entries[kinds] = (_ENTRY(address), result)
+            return self._entries[kinds]

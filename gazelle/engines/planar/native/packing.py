@@ -1,0 +1,92 @@
+"""Values of a call as a row of words of 64 bits, which is what machine code reads."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from gazelle.engines.planar.native.kinds import BITS, REAL, TRUTH, Array, Group, Kind, kind_of
+
+_RESULTS = 8  # words after the values, for what comes out
+
+
+def spread(values: tuple[Any, ...]) -> list[Any]:
+    """Values with what is in tuples in the place of the tuples."""
+    row: list[Any] = []
+    for value in values:
+        if type(value) is tuple:
+            row.extend(spread(value))
+        else:
+            row.append(value)
+    return row
+
+
+class Words:
+    """The words of a call, kept for the next one: most of its values will be the same.
+
+    Args:
+        values: Of the call.
+
+    Attributes:
+        address: Of the words.
+        kinds: Of the values.
+    """
+
+    def __init__(self, values: tuple[Any, ...]) -> None:
+        self.kinds: tuple[Kind, ...] = tuple(kind_of(value) for value in values)
+        self._values = spread(values)
+        self._kinds = [kind_of(value) for value in self._values]
+        self._places, size = [], 0
+        for kind in self._kinds:
+            self._places.append(size)
+            size += 1 + kind.axes if isinstance(kind, Array) else 1
+        self._results = size
+        self._wholes = (ctypes.c_int64 * (size + _RESULTS))()
+        self._reals = (ctypes.c_double * (size + _RESULTS)).from_buffer(self._wholes)
+        self.address = ctypes.addressof(self._wholes)
+        for place, kind, value in zip(self._places, self._kinds, self._values, strict=True):
+            self._write(place, kind, value)
+
+    def take(self, values: tuple[Any, ...]) -> bool:
+        """Change to other values; False if they are of other kinds."""
+        row = spread(values)
+        if len(row) != len(self._values):
+            return False
+        for number, (old, new) in enumerate(zip(self._values, row, strict=True)):
+            if new is old:
+                continue
+            kind = self._kinds[number]
+            if kind_of(new) != kind:
+                return False
+            self._write(self._places[number], kind, new)
+            self._values[number] = new
+        return True
+
+    def _write(self, place: int, kind: Kind, value: Any) -> None:
+        if isinstance(kind, Array):
+            self._wholes[place] = value.__array_interface__["data"][0]
+            for axis, size in enumerate(value.shape, place + 1):
+                self._wholes[axis] = size
+        elif kind == REAL:
+            self._reals[place] = value
+        elif kind == BITS:
+            self._wholes[place] = int(np.int64(np.uint64(value).astype(np.int64)))
+        else:
+            self._wholes[place] = int(value)
+
+    def result(self, kind: Kind) -> Any:
+        """What the call has written."""
+        if isinstance(kind, Group):
+            return tuple(self._number(n, part) for n, part in enumerate(kind.parts, self._results))
+        return self._number(self._results, kind)
+
+    def _number(self, place: int, kind: Kind) -> Any:
+        if kind == REAL:
+            return self._reals[place]
+        if kind == TRUTH:
+            return bool(self._wholes[place] & 1)
+        if kind == BITS:
+            return np.uint64(self._wholes[place] & 0xFFFFFFFFFFFFFFFF)
+        return self._wholes[place]
