@@ -53,7 +53,8 @@ class Binding:
     def refresh(self) -> None:
         """Publish what is true now to all who listen."""
         for output in self._outputs:
-            output.publish()
+            if not output.event:
+                output.publish()
 
     def close(self) -> None:
         """Take the topics and services off the graph."""

@@ -26,6 +26,7 @@ from gazelle.simulation.values import (
     Outcome,
     PathRequest,
     Push,
+    TurnCommand,
 )
 
 
@@ -73,6 +74,13 @@ add_service(
     PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
 )
 add_decoder(Number, Decoder("std_msgs/Float32", lambda message: Number(message.data)))
+add_decoder(
+    TurnCommand,
+    Decoder(
+        "geometry_msgs/QuaternionStamped",
+        lambda message: TurnCommand(message.header.frame_id, quaternion(message.quaternion)),
+    ),
+)
 add_decoder(Push, Decoder("geometry_msgs/Wrench", _push))
 add_service(
     LinkPair,

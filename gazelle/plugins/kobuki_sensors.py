@@ -49,7 +49,7 @@ class Cliffs:
     def open(self, robot: Robot) -> None:
         """Offer what changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
-            made = Output("", CliffValue, self._value_of(place), queue_size=10)
+            made = Output("", CliffValue, self._value_of(place), queue_size=10, event=True)
             robot.outputs[f"cliff_{name}"] = made
             self._outputs.append(made)
 
@@ -103,7 +103,7 @@ class Bumpers:
     def open(self, robot: Robot) -> None:
         """Offer what changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
-            made = Output("", BumperValue, self._value_of(place), queue_size=10)
+            made = Output("", BumperValue, self._value_of(place), queue_size=10, event=True)
             robot.outputs[f"bumper_{name}"] = made
             self._outputs.append(made)
 

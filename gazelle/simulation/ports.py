@@ -163,6 +163,7 @@ class Output(Generic[T]):
         queue_size: Of the topic.
         latch: Whether who comes late gets the last value.
         namespace: Whose frames they are, for topics that many share; else the topic tells.
+        event: Whether it tells of what happens, and has nothing to tell at other times.
     """
 
     def __init__(
@@ -175,11 +176,13 @@ class Output(Generic[T]):
         queue_size: int = 1,
         latch: bool = False,
         namespace: str = "",
+        event: bool = False,
     ) -> None:
         self.topic = topic
         self.kind = kind
         self.frame = frame
         self.namespace = namespace
+        self.event = event
         self.queue_size = queue_size
         self.latch = latch
         self._produce = produce

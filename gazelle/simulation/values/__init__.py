@@ -11,6 +11,7 @@ from gazelle.simulation.values.commands import (
     PathRequest,
     Push,
     Trigger,
+    TurnCommand,
 )
 from gazelle.simulation.values.motion import (
     NO_VARIANCE,
@@ -69,6 +70,7 @@ __all__ = [
     "Transform",
     "Transforms",
     "Trigger",
+    "TurnCommand",
     "UnsureImu",
     "VectorValue",
     "WrenchValue",

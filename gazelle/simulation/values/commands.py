@@ -130,3 +130,16 @@ class GeoReference:
     longitude: float
     altitude: float
     heading: float
+
+
+@dataclass(frozen=True, slots=True)
+class TurnCommand:
+    """An orientation to turn to.
+
+    Attributes:
+        frame: What it is seen from.
+        quaternion: (x, y, z, w), shape (4,).
+    """
+
+    frame: str
+    quaternion: ArrayLike

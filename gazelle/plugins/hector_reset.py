@@ -1,0 +1,26 @@
+"""Tells of resets: what ``libhector_gazebo_reset_plugin.so`` does."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.simulation import ModelPlugin, Output, Robot
+
+Worlds = NDArray[np.intp]
+
+
+class HectorReset(ModelPlugin):
+    """Publishes ``reset`` on ``/syscommand`` at every reset."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Open the port."""
+        del parameters
+        self._output = Output("/syscommand", str, lambda: "reset", event=True)
+        robot.outputs["syscommand"] = self._output
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Tell."""
+        del worlds
+        self._output.publish()
