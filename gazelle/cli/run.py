@@ -4,6 +4,7 @@
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
+  gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
 
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
 Gazebo has them. A master is started where ROS_MASTER_URI names none that
@@ -18,6 +19,7 @@ import time
 from typing import TYPE_CHECKING
 
 from gazelle.cli.parsing import positive_float
+from gazelle.cli.spawning import spawn, wanted
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -57,10 +59,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
     parser.add_argument(
         "--spawn",
-        metavar="ROBOT",
+        metavar="ROBOT[@X,Y[,YAW]]",
+        type=wanted,
         action="append",
         default=[],
-        help="also put a robot there: a file or a bundled name; may be given several times",
+        help="also put a robot there: a file or a bundled name, and where [m, rad] (by default at "
+        "the origin, or beside what stands there); may be given several times",
     )
     parser.add_argument(
         "--plugins",
@@ -86,10 +90,10 @@ def run(args: argparse.Namespace) -> int:
 
     engine = args.engine or "mujoco"
     with Simulation(world, engine, seed=args.seed) as sim:
-        for robot in args.spawn:
-            sim.spawn(robot, namespace="/")
+        said = [spawn(sim, robot) for robot in args.spawn]
         models = ", ".join(sim.robots) or "no models"
         sys.stdout.write(f"world '{sim.world.name}': {models}\n")
+        sys.stdout.writelines(f"{line}\n" for line in said if line)
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {engine}\n")
         sys.stdout.flush()
         return _serve(sim, args) if args.ros else _go(sim, args)
