@@ -3,6 +3,7 @@
 The model becomes kinematic: it pushes others, nothing pushes it. Tags::
 
     <waypoint><time>SECONDS</time><pose>x y z roll pitch yaw</pose></waypoint>  (repeated)
+    <trajectory tension="0" start="0"><waypoint/></trajectory>  splines instead of straight lines
     <loop>true</loop>
     <angular_velocity>x y z</angular_velocity>   turn about the model's origin instead
     <updateRate>10</updateRate>                  how often the pose is set [Hz]
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
+from gazelle.plugins.splines import PoseSpline
 from gazelle.rotations import multiply
 from gazelle.simulation import ModelPlugin, Robot
 
@@ -28,7 +30,9 @@ Worlds = NDArray[np.intp]
 class ScriptedMotion(ModelPlugin):
     """Moves a model along waypoints in the world frame, or turns it evenly.
 
-    Every world has a time of its own that starts at its reset.
+    Waypoints are joined by straight lines, those of a ``<trajectory>`` by a spline as Gazebo's
+    actors follow; several trajectories follow each other, each from its ``start`` on. Every
+    world has a time of its own that starts at its reset.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
@@ -38,6 +42,7 @@ class ScriptedMotion(ModelPlugin):
         self._spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
         self._times, self._positions, self._quaternions = _waypoints(parameters)
         self._velocities, self._turnings = self._rates()
+        self._splines = [_spline(tag) for tag in parameters.find_all("trajectory")]
         self.update_rate = parameters.get("updateRate", 10.0)
         start = robot.description.pose
         self._start = np.asarray(start.position), np.asarray(start.quaternion)
@@ -54,7 +59,9 @@ class ScriptedMotion(ModelPlugin):
     def on_update(self, time: float) -> None:
         """Put the model where the script says."""
         elapsed = time - self._epoch
-        if self._times.size:
+        if self._splines:
+            position, quaternion = self._on_splines(elapsed)
+        elif self._times.size:
             position, quaternion = self._on_path(elapsed)
         else:
             position = np.broadcast_to(self._start[0], (len(elapsed), 3))
@@ -69,6 +76,18 @@ class ScriptedMotion(ModelPlugin):
         since = (moment - self._times[leg])[:, None]
         position = self._positions[leg] + since * self._velocities[leg]
         quaternion = self._quaternions[leg] + since * self._turnings[leg]
+        return position, quaternion
+
+    def _on_splines(self, elapsed: Floats) -> tuple[Floats, Floats]:
+        end = self._splines[-1][0] + self._splines[-1][1].duration
+        moment = elapsed % end if self._loop and end > 0.0 else np.minimum(elapsed, end)
+        starts = np.array([start for start, _ in self._splines[1:]])
+        # A moment at which one ends and the next begins is the one's.
+        chosen = np.searchsorted(starts, moment, side="left")
+        position, quaternion = np.zeros((len(moment), 3)), np.zeros((len(moment), 4))
+        for index, (start, spline) in enumerate(self._splines):
+            rows = np.flatnonzero(chosen == index)
+            position[rows], quaternion[rows] = spline.at(moment[rows] - start)
         return position, quaternion
 
     def reset(self, worlds: Worlds | None) -> None:
@@ -99,6 +118,28 @@ def _waypoints(parameters: Parameters) -> tuple[Floats, Floats, Floats]:
             quaternions[i] *= -1.0
     positions = np.array([pose.position for pose in poses]).reshape(-1, 3)
     return np.asarray(times, np.float64), positions, quaternions
+
+
+def _spline(tag: Parameters) -> tuple[float, PoseSpline]:
+    """When a trajectory starts, and its path."""
+    times, poses = [], []
+    for waypoint in tag.find_all("waypoint"):
+        times.append(waypoint.require("time", float))
+        poses.append(Pose(*waypoint.numbers("pose", (0.0,) * 6)))
+    if not times:
+        raise SimulationError("a <waypoint> is required here", source=tag.source)
+    numbers = (tag.attributes.get(name, "") or "0" for name in ("start", "tension"))
+    try:
+        start, tension = map(float, numbers)
+        spline = PoseSpline(
+            np.array(times),
+            np.array([pose.position for pose in poses]),
+            np.array([pose.quaternion for pose in poses]),
+            tension,
+        )
+    except (SimulationError, ValueError) as error:
+        raise SimulationError(f"wrong trajectory: {error}", source=tag.source) from None
+    return start, spline
 
 
 def _turned(spin: Floats, elapsed: Floats) -> Floats:

@@ -203,9 +203,12 @@ def actor(body="", loop="true", start="true"):
 
 def moments(found):
     """Time, x and yaw of each waypoint of an actor."""
-    waypoints = found.plugins[0].parameters.find_all("waypoint")
-    poses = [(point.get("time", 0.0), point.numbers("pose", (0.0,) * 6)) for point in waypoints]
-    return [(time, pose[0], pose[5]) for time, pose in poses]
+    return [
+        (float(path.attributes["start"]) + point.get("time", 0.0), pose[0], pose[5])
+        for path in found.plugins[0].parameters.find_all("trajectory")
+        for point in path.find_all("waypoint")
+        for pose in [point.numbers("pose", (0.0,) * 6)]
+    ]
 
 
 def test_an_actor_is_a_static_model_that_follows_its_script():
@@ -235,6 +238,22 @@ def test_a_waypoint_before_the_start_is_an_error():
         world(f"<actor name='a'>{script}</actor>")
 
 
+def test_lidars_see_an_actor_that_pushes_nothing():
+    shape = "<geometry><sphere><radius>0.3</radius></sphere></geometry>"
+    visual = f"<visual name='v'><pose>0 0 1 0 0 0</pose>{shape}</visual>"
+    (ghost,) = actor(f"<link name='b'>{visual}</link>").links[0].collisions
+    assert (ghost.name, ghost.pose.z, ghost.geometry.radius) == ("v", 1.0, 0.3)
+    assert ghost.surface.contact.collide_without_contact
+    own = actor(f"<link name='b'>{visual}<collision name='c'>{shape}</collision></link>")
+    (solid,) = own.links[0].collisions
+    assert not solid.surface.contact.collide_without_contact
+    skin = "<skin><filename>nobody.dae</filename><scale>0.5</scale></skin>"
+    with pytest.warns(FormatWarning, match="nobody"):
+        (person,) = actor(skin).links[0].collisions
+    assert person.pose.z == pytest.approx(0.45)
+    assert person.geometry.length == pytest.approx(0.9)
+
+
 def test_an_actor_that_does_not_start_stands():
     assert actor(start="false").plugins == ()
 
@@ -248,7 +267,8 @@ def test_an_actor_shows_its_skin(tmp_path):
     assert isinstance(visual.geometry, Mesh)
     assert visual.geometry.path == tmp_path / "walk.dae"
     assert visual.geometry.scale == (2, 2, 2)
-    assert found.links[0].collisions == ()
+    (person,) = found.links[0].collisions
+    assert person.geometry.length == pytest.approx(3.6)
 
 
 POPULATION = """<population name='p'><model name='can'><link name='l'/></model>

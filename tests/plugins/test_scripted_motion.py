@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import models
 import numpy as np
 import pytest
 import scenes
@@ -70,6 +71,38 @@ def test_it_pushes_and_nothing_pushes_it():
         sim.run(4.5)
         assert sim.robots["post"].position[0, 0] == pytest.approx(1.0, abs=1e-6)
         assert sim.robots["box"].position[0, 0] > 1.2
+
+
+ACTOR = """<actor name="walker"><link name="l"><visual name="v"><pose>0 0 0.5 0 0 0</pose><geometry>
+<cylinder><radius>0.2</radius><length>1</length></cylinder></geometry></visual></link><script>
+<loop>false</loop><trajectory id="0" type="t" tension="0.5"><waypoint><time>0</time>
+<pose>3 0 0 0 0 0</pose></waypoint><waypoint><time>2</time><pose>1 0 0 0 0 0</pose></waypoint>
+<waypoint><time>4</time><pose>1 4 0 0 0 1</pose></waypoint></trajectory></script></actor>"""
+LIDAR = """<sensor name="eye" type="ray"><pose>0.3 0 0 0 0 0</pose><update_rate>20</update_rate><ray>
+<scan><horizontal><samples>1</samples><min_angle>0</min_angle><max_angle>0</max_angle></horizontal>
+</scan><range><min>0.05</min><max>9</max></range></ray></sensor>"""
+
+
+def test_an_actor_follows_its_spline_is_seen_and_pushes_nothing():
+    with models.simulate(ACTOR, models.block(LIDAR), nworld=2) as sim:
+        actor, cube = sim.robots["walker"], sim.robots["cube"]
+        eye = cube.sensors["eye"]
+        sim.run(seconds=1.0)
+        # Half way on the first leg, by Hermite's formula with tangents (-0.5, 0) and (-0.5, 1).
+        assert actor.position[0, :2] == pytest.approx([2.0, -0.125], abs=0.05)
+        assert eye.current()[0] == pytest.approx(2.0 - 0.3 - np.sqrt(0.04 - 0.125**2), abs=0.05)
+        sim.reset([1])
+        sim.run(seconds=0.1)
+        assert actor.position[1, 0] == pytest.approx(3.0, abs=0.05)
+
+
+def test_actors_go_through_what_stands_in_their_way():
+    way = ACTOR.replace("<pose>1 0 0 0 0 0</pose>", "<pose>-3 0 0 0 0 0</pose>")
+    with models.simulate(way, models.block()) as sim:
+        sim.run(seconds=0.5)
+        before = sim.robots["cube"].position.copy()
+        sim.run(seconds=1.5)
+        np.testing.assert_allclose(sim.robots["cube"].position, before, atol=1e-4)
 
 
 def test_times_must_increase():

@@ -160,7 +160,9 @@ def paths_of(simulation: Simulation, robot: Robot, period: float) -> Paths | Non
 
 
 def _is_plain(script: ScriptedMotion) -> bool:
-    """Whether a body keeps its height and turns about z alone."""
+    """Whether a body keeps its height and turns about z alone, and follows no spline."""
+    if script._splines:
+        return False
     if script._times.size:
         return bool(np.ptp(script._quaternions, axis=0).max() < _SAME) and not script._spin.any()
     return not script._spin[:2].any()

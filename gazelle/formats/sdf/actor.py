@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
-from gazelle.description import Parameters
+from gazelle.description import Parameters, Pose
 from gazelle.formats import values
-from gazelle.formats.sdf.build import made
+from gazelle.formats.sdf.build import made, pose_element
 from gazelle.formats.sdf.pose import read_pose
 
 PLUGIN = "libgazelle_scripted_motion.so"
 
 
+# A person, where only the skin is known: height and radius, and where the hip is [m].
+_HEIGHT, _RADIUS, _HIP = 1.8, 0.25, 1.0
+# This plugin moves actors by their hip, whose y points up.
+_WALKER = "ActorPlugin"
+
+
 def as_model(node: Parameters) -> Parameters:
     """The static ``<model>`` of an actor, moved by Gazelle's plugin of scripted motion.
 
-    It has the actor's own links; one of a skin has a link that shows the skin and collides
-    with nothing, as in Gazebo.
+    It has the actor's own links; one of a skin has a link that shows the skin. It collides
+    with nothing, as in Gazebo, but lidars see it: links without collisions get those of their
+    visuals, a skin that of a person, which push nothing.
     """
     pose = node.find("pose")
     children = [made("static", "true", like=node)]
@@ -25,6 +34,7 @@ def as_model(node: Parameters) -> Parameters:
     kept = [child for child in node.children if child.tag in {"link", "joint", "plugin"}]
     if not any(child.tag == "link" for child in kept):
         kept.insert(0, _body(node))
+    kept = [_seen(child) if child.tag == "link" else child for child in kept]
     script = _script(node)
     children += kept if script is None else [*kept, script]
     name = values.attribute(node, "name")
@@ -37,12 +47,48 @@ def _body(node: Parameters) -> Parameters:
     file = "" if skin is None else values.word(skin, "filename")
     if skin is None or not file:
         return made("link", like=node, attributes={"name": "body"})
-    size = " ".join([repr(values.real(skin, "scale", 1.0))] * 3)
+    factor = values.real(skin, "scale", 1.0)
     uri = made("uri", file, like=skin.find("filename") or skin)
-    mesh = made("mesh", "", uri, made("scale", size, like=skin), like=skin)
-    shape = made("geometry", "", mesh, like=skin)
-    visual = made("visual", "", shape, like=skin, attributes={"name": "skin"})
-    return made("link", "", visual, like=node, attributes={"name": "body"})
+    size = made("scale", " ".join([repr(factor)] * 3), like=skin)
+    shape = made("geometry", "", made("mesh", "", uri, size, like=skin), like=skin)
+    stance = _stance(node, factor)
+    visual = made(
+        "visual", "", pose_element(stance, skin), shape, like=skin, attributes={"name": "skin"}
+    )
+    height = _HEIGHT * factor
+    sizes = {"radius": _RADIUS * factor, "length": height}
+    person = (made(tag, repr(size), like=skin) for tag, size in sizes.items())
+    cylinder = made("geometry", "", made("cylinder", "", *person, like=skin), like=skin)
+    ghost = _ghost("skin", pose_element(stance * Pose(z=height / 2.0), skin), cylinder)
+    return made("link", "", visual, ghost, like=node, attributes={"name": "body"})
+
+
+def _stance(node: Parameters, factor: float) -> Pose:
+    """Where the feet are in the frame that moves."""
+    files = (plugin.attributes.get("filename", "") for plugin in node.find_all("plugin"))
+    if any(_WALKER in file for file in files):
+        return Pose(y=-_HIP * factor, roll=-math.pi / 2.0)
+    return Pose()
+
+
+def _seen(link: Parameters) -> Parameters:
+    """A link with something for lidars to see, if it shows anything."""
+    if link.find("collision") is not None:
+        return link
+    ghosts = [
+        _ghost(visual.attributes.get("name", ""), visual.find("pose"), shape)
+        for visual in link.find_all("visual")
+        if (shape := visual.find("geometry")) is not None
+    ]
+    return replace(link, children=(*link.children, *ghosts))
+
+
+def _ghost(name: str, pose: Parameters | None, shape: Parameters) -> Parameters:
+    """A collision that pushes nothing."""
+    touch = made("collide_without_contact", "true", like=shape)
+    surface = made("surface", "", made("contact", "", touch, like=shape), like=shape)
+    parts = [surface, shape] if pose is None else [pose, surface, shape]
+    return made("collision", "", *parts, like=shape, attributes={"name": name})
 
 
 def _script(node: Parameters) -> Parameters | None:
@@ -50,14 +96,14 @@ def _script(node: Parameters) -> Parameters | None:
     script = node.find("script")
     if script is None or not values.flag(script, "auto_start", default=True):
         return None
-    waypoints = list(_waypoints(script))
-    if not waypoints:
+    trajectories = list(_trajectories(script))
+    if not trajectories:
         return None
     loop = "true" if values.flag(script, "loop", default=True) else "false"
     return made(
         "plugin",
         "",
-        *waypoints,
+        *trajectories,
         made("loop", loop, like=script),
         made("updateRate", "30", like=script),
         like=script,
@@ -65,31 +111,31 @@ def _script(node: Parameters) -> Parameters | None:
     )
 
 
-def _waypoints(script: Parameters) -> Iterator[Parameters]:
-    """The waypoints of all trajectories, which follow each other in the order of their ids.
+def _trajectories(script: Parameters) -> Iterator[Parameters]:
+    """The trajectories with waypoints, which follow each other in the order of their ids.
 
     Each counts its time from its own start and lasts until its last waypoint; of several
     waypoints at one time the last holds, as in Gazebo Classic.
     """
     start = values.real(script, "delay_start", 0.0)
-    found: dict[float, Parameters] = {}
     for trajectory in sorted(script.find_all("trajectory"), key=_number):
         own = {values.real(node, "time", 0.0): node for node in trajectory.find_all("waypoint")}
         if own and min(own) < 0.0:
             raise values.fail(own[min(own)], "the <time> of a <waypoint> must not be negative")
-        found |= {start + time: node for time, node in own.items()}
-        start += max(own, default=0.0)
-    for time in sorted(found):
-        node = found[time]
-        x, y, z = (pose := read_pose(node.find("pose"))).position
-        text = " ".join(map(repr, (x, y, z, *pose.rpy)))
-        yield made(
-            "waypoint",
-            "",
-            made("time", repr(time), like=node),
-            made("pose", text, like=node),
-            like=node,
-        )
+        if own:
+            attributes = {"start": repr(start)}
+            if "tension" in trajectory.attributes:
+                attributes["tension"] = trajectory.attributes["tension"]
+            waypoints = (_waypoint(time, own[time]) for time in sorted(own))
+            yield made("trajectory", "", *waypoints, like=trajectory, attributes=attributes)
+            start += max(own)
+
+
+def _waypoint(time: float, node: Parameters) -> Parameters:
+    x, y, z = (pose := read_pose(node.find("pose"))).position
+    text = " ".join(map(repr, (x, y, z, *pose.rpy)))
+    parts = made("time", repr(time), like=node), made("pose", text, like=node)
+    return made("waypoint", "", *parts, like=node)
 
 
 def _number(trajectory: Parameters) -> int:
