@@ -155,12 +155,13 @@ class Scanner:
         total = fleet.nworld * len(mounts)
         self._sensors = np.zeros((total, c.SENSOR))
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
+        self._flat = self.ranges.reshape(-1, fan.count)
         self.names = np.zeros((total if named else 0, fan.count))
 
     @property
     def flat_ranges(self) -> Floats:
         """``ranges`` with one row a sensor, shape (nworld * mounts, count)."""
-        return self.ranges.reshape(-1, self.fan.count)
+        return self._flat
 
     def scan(self, worlds: Worlds | None = None) -> Floats:
         """Distances now [m], shape (n, mounts, count); the fan's reach where nothing is met.

@@ -34,6 +34,8 @@ Kind: TypeAlias = str | Array | Group
 
 UNSIGNED: Final = ("uint8",)  # of those that become whole numbers
 
+_MOST_AXES: Final = 4
+
 # Elements of arrays: what they are in memory, and what they become when they are read.
 ELEMENTS: Final = {
     "float64": ("double", REAL),
@@ -44,6 +46,12 @@ ELEMENTS: Final = {
     "uint8": ("i8", WHOLE),
     "uint64": ("i64", BITS),
     "bool": ("i8", TRUTH),
+}
+
+_ARRAYS: Final = {
+    (np.dtype(name), axes): Array(name, axes)
+    for name in ELEMENTS
+    for axes in range(1, _MOST_AXES + 1)
 }
 
 
@@ -78,10 +86,12 @@ def kind_of(value: Any) -> Kind:
         EngineError: Kernels do not take such values.
     """
     if isinstance(value, np.ndarray):
-        name = value.dtype.name
-        if name not in ELEMENTS or not value.flags.c_contiguous or value.ndim < 1:
-            raise EngineError(f"kernels take contiguous arrays, not {name} of {value.ndim} axes")
-        return Array(name, value.ndim)
+        kind = _ARRAYS.get((value.dtype, value.ndim))
+        if kind is None or not value.flags.c_contiguous:
+            raise EngineError(
+                f"kernels take contiguous arrays, not {value.dtype} of {value.ndim} axes"
+            )
+        return kind
     if isinstance(value, tuple):
         return Group(tuple(kind_of(each) for each in value))
     if isinstance(value, (bool, np.bool_)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from operator import is_
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ def spread(values: tuple[Any, ...]) -> list[Any]:
     row: list[Any] = []
     for value in values:
         if type(value) is tuple:
-            row.extend(spread(value))
+            row.extend(spread(value) if tuple in map(type, value) else value)
         else:
             row.append(value)
     return row
@@ -51,17 +52,24 @@ class Words:
 
     def take(self, values: tuple[Any, ...]) -> bool:
         """Change to other values; False if they are of other kinds."""
-        row = spread(values)
+        row = spread(values) if tuple in map(type, values) else list(values)
         if len(row) != len(self._values):
             return False
-        for number, (old, new) in enumerate(zip(self._values, row, strict=True)):
-            if new is old:
-                continue
-            kind = self._kinds[number]
-            if kind_of(new) != kind:
+        if not all(map(is_, self._values, row)):
+            for number, same in enumerate(map(is_, self._values, row)):
+                if not same and not self._change(number, row[number]):
+                    return False
+            self._values = row
+        return True
+
+    def _change(self, number: int, new: Any) -> bool:
+        """Write another value in a place; False if it is of another kind."""
+        old, kind = self._values[number], self._kinds[number]
+        if type(new) is not type(old) or isinstance(kind, Array):
+            its = kind_of(new)
+            if its is not kind and its != kind:
                 return False
-            self._write(self._places[number], kind, new)
-            self._values[number] = new
+        self._write(self._places[number], kind, new)
         return True
 
     def _write(self, place: int, kind: Kind, value: Any) -> None:
