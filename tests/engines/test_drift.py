@@ -21,6 +21,7 @@ from gazelle.description import (
     Surface,
 )
 from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
 from gazelle.rotations import conjugate, rotate
 
 G = 9.8
@@ -86,10 +87,12 @@ def momenta(engine, moments):
     return motion.linear[0], turning, 0.5 * float((spin**2 * moments).sum())
 
 
-def drift(moments, minutes):
+def drift(moments, minutes, integrator=None):
     """Largest change of momentum, angular momentum and energy of rotation, the last two relative."""
     body = scenes.solid("b", Box((0.1, 0.2, 0.3)), mass=2.0, moments=moments)
-    engine = make_engine("mujoco", scenes.world(body, gravity=(0.0, 0.0, 0.0)))
+    world = scenes.world(body, gravity=(0.0, 0.0, 0.0))
+    profile = replace(world.profile, integrator=integrator)
+    engine = make_engine("mujoco", with_profile(world, profile))
     engine.set_model_motion("b", (1.0, 0.5, 0.0), (0.1, 3.0, 0.1))
     velocity, turning, energy = momenta(engine, np.array(moments))
     worst = np.zeros(3)
@@ -111,12 +114,20 @@ def test_a_free_ball_keeps_everything():
 
 
 @pytest.mark.slow
-def test_a_body_that_tumbles_drifts_as_the_page_says():
-    """About the middle axis, at 3 rad/s: the gyroscopic torque is taken at the start of a step."""
-    linear, turning, energy = drift((0.01, 0.02, 0.025), 10)
-    assert linear < 1e-12
-    assert turning < 0.15
-    assert energy < 0.3
+@pytest.mark.parametrize("integrator", [None, "rk4"])
+def test_a_body_that_tumbles_keeps_its_energy_and_angular_momentum(integrator):
+    """About the middle axis, at 3 rad/s."""
+    linear, turning, energy = drift((0.01, 0.02, 0.025), 10, integrator)
+    assert linear < 1e-11
+    assert turning < 1e-3
+    assert energy < 1e-9
+
+
+def test_with_plain_euler_a_tumbling_body_drifts_as_the_page_says():
+    """The gyroscopic torque is taken at the start of a step."""
+    _, turning, energy = drift((0.01, 0.02, 0.025), 1, "euler")
+    assert 0.002 < turning < 0.015
+    assert 0.01 < energy < 0.03
 
 
 @pytest.mark.slow
@@ -130,7 +141,7 @@ def test_an_elastic_ball_loses_little_of_its_height_in_ten_minutes():
     for _ in range(1000):
         engine.step(2)
         heights.append(engine.model_placement("ball").position[0, 2] - 0.1)
-    assert 0.75 < max(heights) < 1.0
+    assert 0.7 < max(heights) < 1.0
 
 
 def test_two_bodies_keep_their_momentum_through_every_kind_of_contact():

@@ -5,9 +5,21 @@ import numpy as np
 import pytest
 
 from gazelle import formats
-from gazelle.description import Box, Collision, Inertial, Link, Material, Model, Pose, Visual, World
+from gazelle.description import (
+    Bounce,
+    Box,
+    Collision,
+    Inertial,
+    Link,
+    Material,
+    Model,
+    Pose,
+    Surface,
+    Visual,
+    World,
+)
 from gazelle.engines.mujoco import MujocoEngine, to_mjcf
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 
 RED = Material(diffuse=(1.0, 0.0, 0.0, 1.0))
 pytestmark = pytest.mark.filterwarnings("ignore::gazelle.errors.GazelleWarning")
@@ -94,3 +106,12 @@ def test_what_cannot_be_simulated_is_an_error():
     heavy = Link("l", inertial=Inertial(-1.0))
     with pytest.raises(EngineError, match="mass"):
         to_mjcf(World(models=(Model("m", links=(heavy,)),)))
+
+
+def test_what_mujoco_alone_does_not_know_is_said():
+    surface = Surface(bounce=Bounce(0.5, 0.01))
+    box = Link("l", collisions=(Collision("c", Box((1.0, 1.0, 1.0)), surface=surface),))
+    floor = Model("floor", static=True, links=(box,))
+    world = World(models=(floor, Model("box", Pose(z=2.0), links=(box,))))
+    with pytest.warns(EngineWarning, match="without Gazelle bounces are less exact"):
+        to_mjcf(world)

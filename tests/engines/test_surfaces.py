@@ -84,14 +84,6 @@ def test_fdir1_of_the_ground_turns_the_directions():
     assert slid(scenes.rubber(5.0), angle, math.pi / 2.0, ground=floor) > 0.5
 
 
-def test_an_fdir1_that_turns_with_its_body_is_warned_about_once_and_mu_used():
-    surface = Surface(Friction(0.5, 0.1, fdir1=(0.0, 0.0, 1.0)))
-    with pytest.warns(EngineWarning, match=r"fdir1 turns with the link; 0.5 is used") as caught:
-        moved = slid(surface, math.atan(0.3))
-    assert len(caught) == 1
-    assert moved < 0.002
-
-
 def test_directions_do_not_matter_where_nothing_slips():
     with warnings.catch_warnings():
         warnings.simplefilter("error")

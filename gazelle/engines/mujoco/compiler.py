@@ -18,6 +18,8 @@ from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_sprin
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.directions import warn_of_slip
 from gazelle.engines.mujoco.joints import add_joint
+from gazelle.engines.mujoco.loose import tumbling
+from gazelle.engines.mujoco.native import Extras, finish, prepare
 from gazelle.engines.mujoco.options import add_force_probe, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.stops import tune_stops
@@ -109,6 +111,7 @@ class Draft:
         geoms: Names of MuJoCo's geoms by scoped collision.
         springs: Contacts whose terms depend on the compiled model.
         closures: Joints that close loops or couple others.
+        extras: Laws that MuJoCo alone does not know.
     """
 
     spec: mujoco.MjSpec
@@ -117,6 +120,7 @@ class Draft:
     geoms: Mapping[str, list[str]]
     springs: list[Spring]
     closures: Sequence[Closure]
+    extras: Extras
 
     def compile(self) -> mujoco.MjModel:
         """The MuJoCo model.
@@ -148,8 +152,11 @@ def compile_world(recipe: Recipe) -> Compiled:
     """
     draft = draft_world(recipe)
     add_force_probe(draft.spec)
+    prepare(draft.spec, draft.extras)
     springs = [spring.pair for spring in draft.springs]
-    return Compiled(draft.compile(), draft.bodies, draft.geoms, springs, draft.closures)
+    model = draft.compile()
+    finish(model, draft.extras)
+    return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures)
 
 
 def draft_world(recipe: Recipe) -> Draft:
@@ -180,14 +187,15 @@ def draft_world(recipe: Recipe) -> Draft:
     warn_of_slip(solid.collision for solid in builder.solids)
     gravity = math.hypot(*recipe.world.gravity)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
-    if pairs.springs or pairs.bounces:
+    if pairs.springs or pairs.bounces or pairs.rubs:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
-        # and bounce with what bounces.
+        # and bounce with what bounces; its sides do not turn.
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     if pairs.springs:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     closures = [closure for tree in trees.values() for closure in tree.closures]
-    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures)
+    extras = Extras(pairs.bounces, pairs.rubs, tumbling(recipe.world, bodies))
+    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras)
 
 
 def _needs_cone(solids: list[Solid]) -> bool:
@@ -263,8 +271,7 @@ class _Builder:
         moves = body.root not in ("static", "kinematic")
         where = body.name if body.root != "static" else ""
         mass = self._masses[model] if moves else math.inf
-        turn = placed.quaternion if body.root == "static" else None
-        return Solid(name, where, model, mass, body.self_collide, collision, turn)
+        return Solid(name, where, model, mass, body.self_collide, collision, placed)
 
     def _exclude_own(self, bodies: list[Body]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""

@@ -15,14 +15,15 @@ import itertools
 import math
 import warnings
 from collections import defaultdict
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import mujoco
 
-from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Sphere
-from gazelle.engines.mujoco.directions import Quaternion, Rubbing, friction_between, is_directional
+from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere
+from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
+from gazelle.engines.mujoco.native.extras import Rub
 from gazelle.engines.mujoco.surfaces import rigid_terms, torsional_friction_of
 from gazelle.errors import EngineWarning
 
@@ -65,7 +66,7 @@ class Solid:
         share: What of that mass stands on one contact point if all of its springs touch [kg].
         collides_with_own: Whether it collides with its own model.
         collision: The description.
-        turn: How it stands in the world (x, y, z, w); None if it moves.
+        placed: Where it is in the frame of its body in MuJoCo.
     """
 
     geom: str
@@ -74,13 +75,8 @@ class Solid:
     mass: float
     collides_with_own: bool
     collision: Collision
-    turn: Quaternion | None = None
+    placed: Pose = field(default_factory=Pose)
     share: float = math.inf
-
-    @property
-    def rubbing(self) -> Rubbing:
-        """What of it matters for friction."""
-        return Rubbing(self.collision, self.turn)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +101,12 @@ class Pairs:
     Attributes:
         springs: To be tuned by ``tune_springs`` when the model is compiled.
         bounces: Whether some bounce.
+        rubs: Directions of friction by geom, if it differs by direction between some.
     """
 
     springs: list[Spring]
     bounces: bool
+    rubs: Mapping[str, Rub]
 
 
 def add_pairs(
@@ -124,7 +122,7 @@ def add_pairs(
     """
     everything = _with_shares(list(solids))
     springs: list[Spring] = []
-    bounces = False
+    bounces = directional = False
     for count, (first, second) in enumerate(_special_pairs(everything, time_step)):
         if count == _MOST_PAIRS:
             warnings.warn(
@@ -141,10 +139,17 @@ def add_pairs(
             terms, bounces = bouncing_terms(e, time_step, gravity), True
         elif spring is not None:
             springs.append(Spring(count, *spring))
+        along, across = friction_between(first.collision, second.collision)
+        directional |= along != across
         spec.add_pair(
             geomname1=first.geom, geomname2=second.geom, **_friction_terms(first, second), **terms
         )
-    return Pairs(springs, bounces)
+    return Pairs(springs, bounces, _rubs_of(everything) if directional else {})
+
+
+def _rubs_of(solids: Iterable[Solid]) -> dict[str, Rub]:
+    found = ((solid.geom, rub_of(solid.collision, solid.placed)) for solid in solids)
+    return {geom: rub for geom, rub in found if rub is not None}
 
 
 def _with_shares(solids: list[Solid]) -> list[Solid]:
@@ -218,7 +223,7 @@ def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list
 
 
 def _friction_terms(first: Solid, second: Solid) -> dict[str, Any]:
-    one, two = friction_between(first.rubbing, second.rubbing)
+    one, two = friction_between(first.collision, second.collision)
     spin = max(torsional_friction_of(first.collision), torsional_friction_of(second.collision))
     rubs = max(one, two, spin) > 0.0
     condim = 4 if spin > 0.0 else 3

@@ -1,43 +1,22 @@
-"""Friction that differs by direction: what of it MuJoCo's contacts can hold.
+"""Friction that differs by direction.
 
-ODE's first friction direction is the file's ``fdir1``, which turns with its body, or, without
-one, a direction chosen by the normal: world y on level ground. MuJoCo chooses the directions
-of a contact itself: on level ground world y comes first, too. So friction without ``fdir1``,
-and one fixed to what does not move and along x or y, comes out right. A direction that turns
-with a body cannot be told to MuJoCo.
+ODE's first friction direction is the file's ``fdir1``, which turns with its collision, or,
+without one, a direction chosen by the normal: world y on level ground, level on a wall. What
+of this MuJoCo's contacts do not know of themselves it is told in every step (see ``native``).
 """
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.description import Collision
+from gazelle.description import Collision, Pose
+from gazelle.engines.mujoco.native.extras import Rub
 from gazelle.engines.mujoco.surfaces import friction_of, second_friction_of
 from gazelle.errors import EngineWarning
 from gazelle.rotations import rotate
-
-Quaternion = tuple[float, float, float, float]
-
-# A direction this near to an axis of the world is taken as that axis [rad].
-_NEAR = math.radians(5.0)
-
-
-@dataclass(frozen=True, slots=True)
-class Rubbing:
-    """What of a surface matters for friction.
-
-    Attributes:
-        collision: The description.
-        turn: How it stands in the world (x, y, z, w); None if it moves.
-    """
-
-    collision: Collision
-    turn: Quaternion | None
 
 
 def is_directional(collision: Collision) -> bool:
@@ -45,22 +24,25 @@ def is_directional(collision: Collision) -> bool:
     return friction_of(collision) != second_friction_of(collision)
 
 
-def friction_between(first: Rubbing, second: Rubbing) -> tuple[float, float]:
-    """Coefficients along MuJoCo's first and second direction: ODE's, the smaller of each."""
-    ends = (first, second)
-    along = min(friction_of(end.collision) for end in ends)
-    across = min(second_friction_of(end.collision) for end in ends)
-    if along == across:
-        return along, along
-    directed = [end for end in ends if any(end.collision.surface.friction.fdir1)]
-    if not directed:
-        return along, across
-    owner = min(directed, key=lambda end: friction_of(end.collision))
-    axis = _axis_of(owner)
-    if axis is None:
-        _warn(owner, along, across)
-        return along, along
-    return (along, across) if axis == "y" else (across, along)
+def friction_between(first: Collision, second: Collision) -> tuple[float, float]:
+    """Coefficients along the first and second direction: the smaller of each."""
+    along = min(friction_of(first), friction_of(second))
+    return along, min(second_friction_of(first), second_friction_of(second))
+
+
+def rub_of(collision: Collision, placed: Pose) -> Rub | None:
+    """The directions of a surface; None where it has none.
+
+    Args:
+        collision: The description.
+        placed: How it stands in the frame of MuJoCo's body.
+    """
+    fdir1 = np.array(collision.surface.friction.fdir1, np.float64)
+    size = np.linalg.norm(fdir1)
+    if size > 0.0:
+        x, y, z = rotate(np.array(placed.quaternion), fdir1 / size).tolist()
+        return Rub((x, y, z), friction_of(collision))
+    return Rub(None, friction_of(collision)) if is_directional(collision) else None
 
 
 def warn_of_slip(collisions: Iterable[Collision]) -> None:
@@ -72,28 +54,3 @@ def warn_of_slip(collisions: Iterable[Collision]) -> None:
             EngineWarning(f"slip1 and slip2 of collision '{slips[0].name}'{others} have no effect"),
             stacklevel=2,
         )
-
-
-def _axis_of(owner: Rubbing) -> str | None:
-    """The horizontal axis of the world that a fixed ``fdir1`` lies along, if any."""
-    if owner.turn is None:
-        return None
-    local = np.array(owner.collision.surface.friction.fdir1, np.float64)
-    x, y, z = np.abs(rotate(np.array(owner.turn), local / np.linalg.norm(local)))
-    if z < math.sin(_NEAR):
-        if y > math.cos(_NEAR):
-            return "y"
-        if x > math.cos(_NEAR):
-            return "x"
-    return None
-
-
-def _warn(owner: Rubbing, along: float, across: float) -> None:
-    why = "turns with the link" if owner.turn is None else "is not along x or y of the world"
-    warnings.warn(
-        EngineWarning(
-            f"collision '{owner.collision.name}': friction differs by direction ({along:g} along "
-            f"fdir1, {across:g} across), and fdir1 {why}; {along:g} is used in all directions"
-        ),
-        stacklevel=2,
-    )

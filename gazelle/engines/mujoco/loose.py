@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import mujoco
 
-from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
+from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Inertial, Model, Sphere, World
+from gazelle.engines.mujoco.tree import Body
 
 # From so many loose bodies on the time saved outweighs an ``MjData`` for every world.
 _MANY = 16
@@ -54,6 +57,34 @@ def keep_awake(model: mujoco.MjModel, world: World) -> None:
                 )
                 if body > 0 and model.body_treeid[body] >= 0:
                     model.tree_sleep_policy[model.body_treeid[body]] = never
+
+
+def tumbling(world: World, bodies: Mapping[str, Sequence[Body]]) -> list[str]:
+    """Loose links of a world without gravity that turn about changing axes.
+
+    What gravity pulls does not tumble long. Over minutes Euler's method would add to the spin
+    of such a link.
+
+    Args:
+        world: The description.
+        bodies: Of its models, by name.
+    """
+    if world.profile.integrator is not None or any(world.gravity):
+        return []
+    carriers = {body.parent for parts in bodies.values() for body in parts}
+    return [
+        body.name
+        for parts in bodies.values()
+        for body in parts
+        if body.root == "free" and body.name not in carriers and not _is_round(body)
+    ]
+
+
+def _is_round(body: Body) -> bool:
+    """Whether all axes through a link's centre are alike."""
+    inertia = (body.link.inertial or Inertial()).inertia
+    mixed = (inertia.ixy, inertia.ixz, inertia.iyz)
+    return not any(mixed) and inertia.ixx == inertia.iyy == inertia.izz
 
 
 def _is_loose(model: Model) -> bool:

@@ -13,6 +13,7 @@ import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
 from gazelle.engines.mujoco.compiler import VISUAL_GROUP, Draft, Recipe, draft_world
+from gazelle.engines.mujoco.native import Extras
 from gazelle.engines.mujoco.tree import Body
 from gazelle.errors import EngineWarning
 
@@ -39,12 +40,26 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
     step = world.profile.max_step_size if time_step is None else time_step
     draft = draft_world(Recipe(world, step))
     draft.spec.modelname = world.name
+    _warn_of(draft.extras)
     if visuals:
         _add_visuals(draft)
     draft.spec.copy_back(draft.compile())
     with _exact_numbers():
         text: str = draft.spec.to_xml()
     return text
+
+
+def _warn_of(extras: Extras) -> None:
+    lacking = {
+        "bounces are less exact": extras.bounces,
+        "friction differs along world y and x, not along fdir1": extras.rubs,
+        "bodies that tumble freely drift": extras.tumbling,
+    }
+    found = [words for words, present in lacking.items() if present]
+    if found:
+        warnings.warn(
+            EngineWarning(f"in MuJoCo without Gazelle {' and '.join(found)}"), stacklevel=3
+        )
 
 
 def _add_visuals(draft: Draft) -> None:

@@ -1,0 +1,93 @@
+"""Which of the laws beyond MuJoCo's a model needs, written into the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+from gazelle.rotations import conjugate, rotate
+
+Direction = tuple[float, float, float]
+
+# Name of the custom numbers of a model that say what holds for it.
+_NAME = "gazelle_laws"
+
+
+@dataclass(frozen=True, slots=True)
+class Rub:
+    """How a geom's friction differs by direction.
+
+    Attributes:
+        along: The first direction in the frame of MuJoCo's body; None if the normal gives it.
+        coefficient: Of friction along it: of two surfaces the slipperier one's counts.
+    """
+
+    along: Direction | None
+    coefficient: float
+
+
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """Laws that a model needs beyond MuJoCo's.
+
+    Attributes:
+        bounces: Whether some contacts bounce.
+        rubs: Geoms that rub by direction, by name.
+        tumbling: Names of loose bodies that tumble freely.
+    """
+
+    bounces: bool = False
+    rubs: Mapping[str, Rub] = field(default_factory=dict)
+    tumbling: Sequence[str] = ()
+
+    @property
+    def any(self) -> bool:
+        """Whether there is need of any."""
+        return bool(self.bounces or self.rubs or self.tumbling)
+
+
+def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
+    """Make room in a model for what ``finish`` writes."""
+    if not extras.any:
+        return
+    from gazelle.engines.mujoco.native.kernel import GEOM_NUMBERS, HEAD  # Numba
+
+    size = HEAD + 2 * len(extras.tumbling)
+    spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
+    if extras.rubs:
+        spec.nuser_geom = GEOM_NUMBERS
+
+
+def finish(model: mujoco.MjModel, extras: Extras) -> None:
+    """Write the laws into a compiled model, and let MuJoCo follow them.
+
+    Raises:
+        EngineError: Another program in this process has MuJoCo's callback.
+    """
+    if not extras.any:
+        return
+    from gazelle.engines.mujoco.native.callback import install  # Numba
+    from gazelle.engines.mujoco.native.kernel import (
+        BY_THE_NORMAL,
+        HEAD,
+        ITS_OWN,
+        MARK,
+    )
+
+    # The first of the custom numbers: nothing else here adds any.
+    numbers = model.numeric_data
+    numbers[:HEAD] = MARK, mujoco.mj_isSparse(model), len(extras.tumbling)
+    for place, name in enumerate(extras.tumbling):
+        body = model.body(name)
+        numbers[HEAD + 2 * place :][:2] = body.id, body.dofadr[0]
+    for name, rub in extras.rubs.items():
+        geom = model.geom(name).id
+        along = np.zeros(3) if rub.along is None else np.array(rub.along)
+        w, x, y, z = model.geom_quat[geom]
+        local = rotate(conjugate(np.array([x, y, z, w])), along)
+        kind = BY_THE_NORMAL if rub.along is None else ITS_OWN
+        model.geom_user[geom] = kind, *local, rub.coefficient
+    install()

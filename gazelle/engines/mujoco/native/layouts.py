@@ -1,0 +1,203 @@
+"""Where the fields of MuJoCo's structs lie in memory, from MuJoCo's own description of them.
+
+Compiled code that MuJoCo calls in the middle of a step gets bare addresses of its model and
+data. The offsets are worked out by ``ctypes`` from ``mujoco.introspect``, which comes with
+every release, and compared with what MuJoCo says of a model before they are used.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import mujoco
+from mujoco.introspect import ast_nodes, structs
+
+from gazelle.errors import EngineError
+
+_PLAIN: dict[str, Any] = {
+    "mjtNum": ctypes.c_double,
+    "double": ctypes.c_double,
+    "float": ctypes.c_float,
+    "int": ctypes.c_int,
+    "mjtSize": ctypes.c_int64,
+    "size_t": ctypes.c_size_t,
+    "uintptr_t": ctypes.c_size_t,
+    "uint64_t": ctypes.c_uint64,
+    "unsigned int": ctypes.c_uint,
+    "mjtByte": ctypes.c_uint8,
+    "mjtBool": ctypes.c_uint8,
+    "char": ctypes.c_char,
+}
+
+
+class Offsets(NamedTuple):
+    """Bytes from the start of a struct to each field, and the size of a contact.
+
+    Those named ``contact_...`` are in ``mjContact``, ``model_...`` in ``mjModel`` and the others
+    in ``mjData``.
+    """
+
+    ncon: int
+    contact: int
+    rownnz: int
+    rowadr: int
+    jacobian: int
+    velocity: int
+    reference: int
+    qvel: int
+    passive: int
+    xmat: int
+    geom_xmat: int
+    contact_size: int
+    contact_dist: int
+    contact_frame: int
+    contact_margin: int
+    contact_solref: int
+    contact_solreffriction: int
+    contact_dim: int
+    contact_geom: int
+    contact_address: int
+    model_nv: int
+    model_njnt: int
+    model_nnumeric: int
+    model_numeric: int
+    model_timestep: int
+    model_gravity: int
+    model_cone: int
+    model_bodyid: int
+    model_rootid: int
+    model_jntadr: int
+    model_jntnum: int
+    model_jnt_type: int
+    model_jnt_bodyid: int
+    model_jnt_dofadr: int
+    model_inertia: int
+    model_iquat: int
+    model_gravcomp: int
+    model_nuser_geom: int
+    model_geom_user: int
+
+
+@lru_cache(maxsize=1)
+def offsets() -> Offsets:
+    """The offsets in the MuJoCo that runs.
+
+    Raises:
+        EngineError: MuJoCo is not laid out as it says.
+    """
+    model, data, contact = (_struct(f"mj{name}") for name in ("Model", "Data", "Contact"))
+    option = _struct("mjOption")
+    found = Offsets(
+        ncon=data.ncon.offset,
+        contact=data.contact.offset,
+        rownnz=data.efc_J_rownnz.offset,
+        rowadr=data.efc_J_rowadr.offset,
+        jacobian=data.efc_J.offset,
+        velocity=data.efc_vel.offset,
+        reference=data.efc_aref.offset,
+        qvel=data.qvel.offset,
+        passive=data.qfrc_passive.offset,
+        xmat=data.xmat.offset,
+        geom_xmat=data.geom_xmat.offset,
+        contact_size=ctypes.sizeof(contact),
+        contact_dist=contact.dist.offset,
+        contact_frame=contact.frame.offset,
+        contact_margin=contact.includemargin.offset,
+        contact_solref=contact.solref.offset,
+        contact_solreffriction=contact.solreffriction.offset,
+        contact_dim=contact.dim.offset,
+        contact_geom=contact.geom.offset,
+        contact_address=contact.efc_address.offset,
+        model_nv=model.nv.offset,
+        model_njnt=model.njnt.offset,
+        model_nnumeric=model.nnumeric.offset,
+        model_numeric=model.numeric_data.offset,
+        model_timestep=model.opt.offset + option.timestep.offset,
+        model_gravity=model.opt.offset + option.gravity.offset,
+        model_cone=model.opt.offset + option.cone.offset,
+        model_bodyid=model.geom_bodyid.offset,
+        model_rootid=model.body_rootid.offset,
+        model_jntadr=model.body_jntadr.offset,
+        model_jntnum=model.body_jntnum.offset,
+        model_jnt_type=model.jnt_type.offset,
+        model_jnt_bodyid=model.jnt_bodyid.offset,
+        model_jnt_dofadr=model.jnt_dofadr.offset,
+        model_inertia=model.body_inertia.offset,
+        model_iquat=model.body_iquat.offset,
+        model_gravcomp=model.body_gravcomp.offset,
+        model_nuser_geom=model.nuser_geom.offset,
+        model_geom_user=model.geom_user.offset,
+    )
+    _verify(found)
+    return found
+
+
+@lru_cache(maxsize=32)
+def _struct(name: str) -> Any:
+    """A struct of MuJoCo's as ``ctypes`` lays it out."""
+    return _lay_out(name, structs.STRUCTS[name].fields)
+
+
+def _lay_out(name: str, fields: Any) -> Any:
+    parts = [
+        (getattr(field, "name", "") or f"unnamed{place}", _type_of(getattr(field, "type", field)))
+        for place, field in enumerate(fields)
+    ]
+    return type(name, (ctypes.Structure,), {"_fields_": parts})
+
+
+def _type_of(kind: Any) -> Any:
+    if isinstance(kind, ast_nodes.PointerType):
+        return ctypes.c_void_p
+    if isinstance(kind, ast_nodes.ArrayType):
+        made = _type_of(kind.inner_type)
+        for extent in reversed(kind.extents):
+            made = made * extent
+        return made
+    if isinstance(kind, ast_nodes.AnonymousStructDecl):
+        return _lay_out("anonymous", kind.fields)
+    if kind.name in structs.STRUCTS:
+        return _struct(kind.name)
+    return _PLAIN.get(kind.name, ctypes.c_int)  # all others are enumerations
+
+
+def _verify(found: Offsets) -> None:
+    """Compare the offsets with a small model whose addresses MuJoCo tells.
+
+    Raises:
+        EngineError: They differ.
+    """
+    spec = mujoco.MjSpec()
+    spec.nuser_geom = 1
+    spec.add_numeric(name="here", data=[1.0], size=1)
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[1, 1, 1])
+    body = spec.worldbody.add_body(pos=[0, 0, 0.09])
+    body.add_freejoint()
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.1, 0, 0])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    here, there = model._address, data._address  # noqa: SLF001  # the only way to an address
+    told = [
+        (there + found.qvel, data.qvel),
+        (there + found.passive, data.qfrc_passive),
+        (there + found.contact, data.contact.dist),
+        (there + found.velocity, data.efc_vel),
+        (there + found.reference, data.efc_aref),
+        (there + found.jacobian, data.efc_J),
+        (here + found.model_numeric, model.numeric_data),
+        (here + found.model_geom_user, model.geom_user),
+        (here + found.model_inertia, model.body_inertia),
+    ]
+    right = all(
+        ctypes.c_int64.from_address(place).value == array.ctypes.data for place, array in told
+    )
+    step = ctypes.c_double.from_address(here + found.model_timestep).value
+    count = ctypes.c_int.from_address(there + found.ncon).value
+    if not (right and step == model.opt.timestep and count == data.ncon == 1):
+        raise EngineError(
+            f"MuJoCo {mujoco.__version__} is not laid out as it says",
+            hint="bounces, turning friction and tumbling bodies need a release from PyPI",
+        )
