@@ -90,7 +90,7 @@ class StageCamera:
         resolution: Columns and rows [pixel].
         range: Nearest and farthest depth [m].
         fov: Horizontal and vertical field of view [rad].
-        pantilt: Yaw and pitch of the optical axis [rad].
+        pantilt: How far the optical axis is turned to the right, and down [rad].
     """
 
     resolution: tuple[int, int] = (32, 32)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-import warnings
 from types import TracebackType
 from typing import Any, Self
 
@@ -13,8 +12,6 @@ from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
 from gazelle.bridges.stage.watchdog import Watchdog
-from gazelle.description import StageCamera
-from gazelle.errors import SimulationWarning
 from gazelle.ros import Node, Time, load_message
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.stage import StageSimulation
@@ -71,8 +68,9 @@ class StageDoor:
         )
         self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
         messages = Messages()
+        metres = bool(node.get_param("~is_depth_canonical", True))
         self._topics = [
-            RobotTopics(simulation, robot, node, self.naming, messages, world)
+            RobotTopics(simulation, robot, node, self.naming, messages, world, metres=metres)
             for robot in simulation.robots
         ]
         flat = str(node.get_param("~cmd_pose_type", "Pose")).rpartition("/")[2] == "Pose2D"
@@ -93,7 +91,6 @@ class StageDoor:
         self._poses = PoseServices(simulation, node, self.naming, world, kind)
         self._unsubscribe = simulation.subscribe(self._after_step)
         node.on_shutdown.append(lambda _reason: self.stop())
-        _warn_of_cameras(simulation)
 
     # -- publishing ------------------------------------------------------------------------
 
@@ -205,14 +202,3 @@ class StageDoor:
         trace: TracebackType | None,
     ) -> None:
         self.close()
-
-
-def _warn_of_cameras(simulation: StageSimulation) -> None:
-    for robot in simulation.robots:
-        if any(isinstance(child.device, StageCamera) for child in robot.model.children):
-            warnings.warn(
-                f"the cameras of '{robot.name}' take no pictures in the plane",
-                SimulationWarning,
-                stacklevel=3,
-            )
-            return

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.bridges.stage.cameras import CameraTopics
 from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, Publisher, Time, load_message
 from gazelle.simulation.stage import Ranger, StageRobot, StageSimulation
@@ -84,6 +85,7 @@ class RobotTopics:
         naming: Of topics and frames.
         messages: Classes.
         world: Which world of a batch the graph sees.
+        metres: Whether depths of cameras are in metres, not in millimetres.
     """
 
     def __init__(
@@ -94,6 +96,8 @@ class RobotTopics:
         naming: Naming,
         messages: Messages,
         world: int,
+        *,
+        metres: bool = True,
     ) -> None:
         self._simulation, self._robot, self._messages = simulation, robot, messages
         self._world, self._node = world, node
@@ -111,6 +115,7 @@ class RobotTopics:
         self._footprint = naming.frame(index, "base_footprint")
         self._base = naming.frame(index, "base_link")
         self._lasers = self._open_lasers(naming)
+        self._cameras = CameraTopics(simulation, robot, node, naming, world=world, metres=metres)
 
     def _open_lasers(self, naming: Naming) -> list[_Laser]:
         index = self._robot.index
@@ -144,9 +149,10 @@ class RobotTopics:
         for laser in self._lasers:
             if laser.publisher.has_listener:
                 laser.publisher.publish(self._scan(facts, laser))
+        self._cameras.publish(facts.stamp)
 
     def transforms(self, facts: Facts) -> list[Any]:
-        """From odom to base_footprint, to base_link, to the lasers."""
+        """From odom to base_footprint, to base_link, to the lasers and the cameras in use."""
         x, y, yaw = facts.odometry[self._robot.index]
         found = [
             self._transform(facts, self._odom_frame, self._footprint, x, y, self._z, yaw),
@@ -155,10 +161,16 @@ class RobotTopics:
         for laser in self._lasers:
             at = laser.ranger.pose
             found.append(self._transform(facts, self._base, laser.frame, at.x, at.y, at.z, at.yaw))
+        for frame, place, turn in self._cameras.places():
+            transform = self._transform(facts, self._base, frame, *place, 0.0)
+            q = transform.transform.rotation
+            q.x, q.y, q.z, q.w = turn
+            found.append(transform)
         return found
 
     def close(self) -> None:
         """Publish no more."""
+        self._cameras.close()
         for publisher in (self._odom, self._truth, self._stall, self._crashed):
             publisher.close()
         for laser in self._lasers:

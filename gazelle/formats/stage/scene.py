@@ -44,7 +44,6 @@ from gazelle.description import (
     StagePose,
     StageRanger,
     StageSensor,
-    StageSize,
     StageWorld,
     Surface,
     Visual,
@@ -305,7 +304,7 @@ def _sensors(model: StageModel, pose: StagePose, name: str) -> list[Sensor]:
             for index, sensor in enumerate(device.sensors)
         ]
     if isinstance(device, StageCamera):
-        return [_camera(device, pose, model.size, name, rate)]
+        return [_camera(device, pose, name, rate)]
     return []
 
 
@@ -358,11 +357,9 @@ def _reach(pose: Pose, collision: Collision) -> float:
     )
 
 
-def _camera(
-    device: StageCamera, pose: StagePose, size: StageSize, name: str, rate: float
-) -> Sensor:
-    lens = pose.then(StagePose(z=size.z / 2.0, yaw=device.pantilt[0]))
-    where = Pose(lens.x, lens.y, lens.z, pitch=device.pantilt[1], yaw=lens.yaw)
+def _camera(device: StageCamera, pose: StagePose, name: str, rate: float) -> Sensor:
+    pan, tilt = device.pantilt
+    where = Pose(pose.x, pose.y, pose.z, pitch=tilt, yaw=pose.yaw - pan)
     camera = Camera(
         horizontal_fov=device.fov[0],
         width=device.resolution[0],

@@ -1,7 +1,18 @@
 """Stage worlds that run: fleets of robots in the plane."""
 
+from gazelle.engines.planar.pictures import Pictures
+from gazelle.simulation.stage.cameras import Camera, cameras_of
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.simulation.stage.simulation import StageSimulation
 
-__all__ = ["Blob", "Fiducial", "Ranger", "StageRobot", "StageSimulation"]
+__all__ = [
+    "Blob",
+    "Camera",
+    "Fiducial",
+    "Pictures",
+    "Ranger",
+    "StageRobot",
+    "StageSimulation",
+    "cameras_of",
+]

@@ -17,15 +17,13 @@ from gazelle.description import (
     StagePose,
 )
 from gazelle.errors import SimulationError
+from gazelle.simulation.stage.scenery import color_of
 from gazelle.simulation.stage.sight import Outlines, distances, joined, outlines_of
 
 if TYPE_CHECKING:
     from gazelle.simulation.stage.simulation import StageSimulation
 
 Device = TypeVar("Device", StageFiducial, StageBlobfinder)
-
-_GREY: Color = (0.5, 0.5, 0.5, 1.0)
-"""Of models of a random colour."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +175,7 @@ def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list
     blobs: list[Blob] = []
     for column in np.flatnonzero(nearest <= device.range).tolist():
         seen = models[int(level.owners[int(met[column].argmin())])].model
-        color = _GREY if seen.color == "random" else seen.color
+        color = color_of(seen)
         if seen.returns.blob and (not device.colors or color in device.colors):
             _add(blobs, Blob(color, column, column, float(nearest[column])))
     return blobs

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -10,27 +10,21 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle import formats
 from gazelle.description import StageWorld, World
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.pictures import Pictures
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.formats.stage import is_stage, load_stage
 from gazelle.formats.stage.building import no_garbage
-from gazelle.formats.xml import read_bytes
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.pacing import run_paced
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
-from gazelle.simulation.stage.finders import (
-    Blob,
-    Fiducial,
-    Surroundings,
-    find_blobs,
-    find_fiducials,
-)
+from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
+from gazelle.simulation.stage.opening import stage_of
 from gazelle.simulation.stage.scans import Eyes, RangeNoise
+from gazelle.simulation.stage.senses import Senses
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -81,7 +75,7 @@ class StageSimulation:
         euler: bool = False,
         controllers: bool = True,
     ) -> None:
-        self.stage = _stage_of(world)
+        self.stage = stage_of(world)
         self.seed, self.nworld = seed, nworld
         with no_garbage():
             layout = layout_of(self.stage)
@@ -104,7 +98,7 @@ class StageSimulation:
             for each in layout.noises
         ]
         self._eyes: dict[int, Eyes] = {}
-        self._around: Surroundings | None = None
+        self._senses = Senses(self)
         self._seen: dict[int, Floats] = {}
         self._odometry = Odometry(layout.robots, nworld, seed)
         positions = [robot.position for robot in self.robots]
@@ -241,7 +235,7 @@ class StageSimulation:
         Raises:
             SimulationError: There is no such robot or finder.
         """
-        return find_fiducials(self._surroundings(), self.robot(name).index, finder, world)
+        return self._senses.fiducials(self.robot(name).index, finder, world)
 
     def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
         """What a blob finder of a robot sees now, from left to right.
@@ -249,12 +243,45 @@ class StageSimulation:
         Raises:
             SimulationError: There is no such robot or finder.
         """
-        return find_blobs(self._surroundings(), self.robot(name).index, finder, world)
+        return self._senses.blobs(self.robot(name).index, finder, world)
 
-    def _surroundings(self) -> Surroundings:
-        if self._around is None:
-            self._around = Surroundings(self)
-        return self._around
+    def picture(self, name: str, camera: int = 0, world: int = 0) -> Pictures:
+        """What a camera of a robot sees now, drawn once a step: colours and depths.
+
+        Args:
+            name: Of the robot.
+            camera: Number of the camera on it, depth first in file order.
+            world: Which world.
+
+        Returns:
+            ``color``, shape (height, width, 4), and ``depth`` [m], shape (height, width).
+
+        Raises:
+            SimulationError: There is no such robot or camera.
+        """
+        return self._senses.picture(self.robot(name).index, camera, world)
+
+    def pictures(
+        self,
+        names: Sequence[str] | None = None,
+        camera: int = 0,
+        worlds: Worlds | None = None,
+    ) -> Pictures:
+        """What cameras of many robots and worlds see now, drawn by all threads.
+
+        Args:
+            names: Of the robots; all that have such a camera if None.
+            camera: As for ``picture``.
+            worlds: Which worlds; all if None.
+
+        Returns:
+            ``color``, shape (worlds, robots, height, width, 4), and ``depth`` [m].
+
+        Raises:
+            SimulationError: There is no such robot or camera, or their lenses differ.
+        """
+        robots = None if names is None else [self.robot(name).index for name in names]
+        return self._senses.pictures(robots, camera, worlds)
 
     def _eye(self, scanner: int) -> Eyes:
         if scanner not in self._eyes:
@@ -267,6 +294,11 @@ class StageSimulation:
                 name=f"ranger/{scanner}",
             )
         return self._eyes[scanner]
+
+    def _forget(self) -> None:
+        """Something moved: what was seen is seen no longer."""
+        self._seen.clear()
+        self._senses.forget()
 
     # -- time --------------------------------------------------------------------------
 
@@ -318,7 +350,7 @@ class StageSimulation:
         if self._odometry.needed:
             self._odometry.advance(self.velocities, self.time_step)
         self.clock.advance(count)
-        self._seen.clear()
+        self._forget()
         if self._listeners:
             for listener in tuple(self._listeners):
                 listener()
@@ -374,7 +406,7 @@ class StageSimulation:
         rows = slice(None) if worlds is None else worlds
         self.fleet.stalled[rows, index] = False
         self._before[rows, index] = self.fleet.pose[rows, index]
-        self._seen.clear()
+        self._forget()
 
     def reset_positions(self, worlds: Worlds | None = None) -> None:
         """Put all robots back to where they were at first, standing, their odometry at zero."""
@@ -382,7 +414,7 @@ class StageSimulation:
         self._odometry.reset(worlds)
         rows = slice(None) if worlds is None else worlds
         self._before[rows] = self.fleet.pose[rows]
-        self._seen.clear()
+        self._forget()
 
     def reset(self) -> None:
         """Start over: robots, time, and random numbers."""
@@ -413,16 +445,3 @@ class StageSimulation:
     def named(self) -> Mapping[str, StageRobot]:
         """The robots by name; of several of one name the last."""
         return self._names
-
-
-def _stage_of(world: StageWorld | World | str | Path) -> StageWorld:
-    if isinstance(world, StageWorld):
-        return world
-    file = None if isinstance(world, World) else Path(world)
-    if file is not None and file.is_file() and is_stage(read_bytes(file), file.suffix):
-        return load_stage(file)
-    loaded = world if isinstance(world, World) else formats.load(world)
-    if loaded.stage is None:
-        place = loaded.source.file if loaded.source is not None else None
-        raise SimulationError("this is no world of Stage", file=place, hint="use Simulation")
-    return loaded.stage

@@ -4,8 +4,6 @@ import math
 
 import pytest
 
-from gazelle.errors import SimulationWarning
-
 ROBOT = 'robot ( name "r" pose [1 2 0 90] )\n'
 WALL = "model ( size [8 1 2] pose [1 5.5 0 0] ranger_return 250 )\n"
 ODOMETRY, SCAN, TWIST = "nav_msgs/Odometry", "sensor_msgs/LaserScan", "geometry_msgs/Twist"
@@ -160,8 +158,3 @@ def test_nothing_is_measured_when_nobody_listens(stage):
     world = stage(ROBOT + WALL)
     world.step(count=3)
     assert world.sim._eyes == {}
-
-
-def test_cameras_are_warned_of(stage):
-    with pytest.warns(SimulationWarning, match="take no pictures"):
-        stage("robot ( camera ( ) )")

@@ -1,0 +1,148 @@
+"""The pictures of one robot's cameras, as stage_ros publishes them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.ros import Node, Publisher, Time, load_message
+from gazelle.simulation.stage import Camera, StageRobot, StageSimulation, cameras_of
+
+_QUEUE = 10
+_MILLIMETRES = 1000.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Eye:
+    """A camera that is published."""
+
+    which: int
+    camera: Camera
+    frame: str
+    image: Publisher
+    depth: Publisher
+    info: Publisher
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return bool(self.image.has_listener or self.depth.has_listener or self.info.has_listener)
+
+
+class CameraTopics:
+    """Pictures, depths and what the lens is, of the cameras directly on a robot.
+
+    Args:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics and frames.
+        world: Which world of a batch the graph sees.
+        metres: Whether depths are metres in 32FC1, not millimetres in 16UC1.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        robot: StageRobot,
+        node: Node,
+        naming: Naming,
+        *,
+        world: int,
+        metres: bool,
+    ) -> None:
+        self._simulation, self._robot, self._world = simulation, robot, world
+        self._metres = metres
+        self._image: Any = load_message("sensor_msgs/Image")
+        self._info: Any = load_message("sensor_msgs/CameraInfo")
+        direct = [(k, c) for k, c in enumerate(cameras_of(robot.model)) if c.direct]
+        count, index = len(direct), robot.index
+
+        def advertise(name: str, place: int, kind: Any) -> Publisher:
+            return node.advertise(naming.device_topic(index, name, place, count), kind, _QUEUE)
+
+        self._eyes = [
+            _Eye(
+                which,
+                camera,
+                naming.frame(index, "camera", place, count),
+                advertise("image", place, self._image),
+                advertise("depth", place, self._image),
+                advertise("camera_info", place, self._info),
+            )
+            for place, (which, camera) in enumerate(direct)
+        ]
+
+    def publish(self, stamp: Time) -> None:
+        """Draw and publish what is listened to."""
+        for eye in self._eyes:
+            if eye.image.has_listener or eye.depth.has_listener:
+                seen = self._simulation.picture(self._robot.name, eye.which, self._world)
+                if eye.image.has_listener:
+                    self._send(eye, eye.image, stamp, "rgba8", seen.color)
+                if eye.depth.has_listener:
+                    self._send(eye, eye.depth, stamp, *self._depths(eye, seen.depth))
+            if eye.wanted:
+                eye.info.publish(self._lens(eye, stamp))
+
+    def places(self) -> list[tuple[str, tuple[float, float, float], tuple[float, ...]]]:
+        """Of each camera that is listened to its frame, place and quaternion on the robot."""
+        return [
+            (eye.frame, (eye.camera.pose.x, eye.camera.pose.y, eye.camera.pose.z), _optical(eye))
+            for eye in self._eyes
+            if eye.wanted
+        ]
+
+    def close(self) -> None:
+        """Publish no more."""
+        for eye in self._eyes:
+            for publisher in (eye.image, eye.depth, eye.info):
+                publisher.close()
+
+    def _depths(self, eye: _Eye, depth: NDArray[np.float32]) -> tuple[str, NDArray[Any]]:
+        """By REP 118: in metres, or in millimetres with 0 for what is not known."""
+        if self._metres:
+            return "32FC1", depth
+        near, far = (int(_MILLIMETRES * end) for end in eye.camera.device.range)
+        with np.errstate(invalid="ignore"):
+            whole = np.where(np.isfinite(depth), depth * _MILLIMETRES, 0.0).astype(np.int64)
+        return "16UC1", np.where((whole > near) & (whole < far), whole, 0).astype(np.uint16)
+
+    def _send(
+        self, eye: _Eye, to: Publisher, stamp: Time, encoding: str, pixels: NDArray[Any]
+    ) -> None:
+        message = self._image()
+        message.header.stamp, message.header.frame_id = stamp, eye.frame
+        message.height, message.width = pixels.shape[:2]
+        message.encoding, message.step = encoding, pixels[0].nbytes
+        message.data = pixels.astype(pixels.dtype.newbyteorder("<"), copy=False).tobytes()
+        to.publish(message)
+
+    def _lens(self, eye: _Eye, stamp: Time) -> Any:
+        lens = eye.camera.lens
+        (fx, fy), cx, cy = lens.focal, lens.width / 2.0, lens.height / 2.0
+        message = self._info()
+        message.header.stamp, message.header.frame_id = stamp, eye.frame
+        message.height, message.width = lens.height, lens.width
+        message.D = [0.0] * 4
+        message.K = [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]
+        message.R = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+        message.P = [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]
+        return message
+
+
+def _optical(eye: _Eye) -> tuple[float, ...]:
+    """Of the optical frame on the robot, z ahead and y down (REP 103): x, y, z, w.
+
+    It is the turn by the heading about z after that by -90 degrees less the tilt about x.
+    """
+    pan, tilt = eye.camera.device.pantilt
+    yaw = (eye.camera.pose.yaw - pan - math.pi / 2.0) / 2.0
+    roll = (-math.pi / 2.0 - tilt) / 2.0
+    cos, sin = math.cos(roll), math.sin(roll)
+    return (math.cos(yaw) * sin, math.sin(yaw) * sin, math.sin(yaw) * cos, math.cos(yaw) * cos)

@@ -1,0 +1,117 @@
+"""Stage's cameras: what they see, drawn when somebody asks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import StageCamera, StageModel, StagePose
+from gazelle.engines.planar.pictures import Lens, Painter, Pictures, View
+from gazelle.errors import SimulationError
+from gazelle.simulation.stage.scenery import scenery_of
+
+if TYPE_CHECKING:
+    from gazelle.simulation.stage.simulation import StageSimulation
+
+Worlds = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """A camera on a robot.
+
+    Attributes:
+        name: Its own name in the file.
+        device: What the file says.
+        pose: In the robot's frame, its height included; its heading without the pan.
+        direct: Whether it is mounted on the robot itself.
+        owner: Which of the models on the robot it is, depth first.
+    """
+
+    name: str
+    device: StageCamera
+    pose: StagePose
+    direct: bool
+    owner: int
+
+    @property
+    def lens(self) -> Lens:
+        """Its pixels, field of view and range."""
+        return Lens(*self.device.resolution, self.device.fov, *self.device.range)
+
+    def view(self, body: int) -> View:
+        """Where it is on a body: as in Stage a pan is to the right, and a tilt down."""
+        pan, tilt = self.device.pantilt
+        x, y, z, yaw = self.pose
+        return View(body, x, y, z, yaw - pan, tilt, self.owner)
+
+
+class Cameras:
+    """All cameras of a world; pictures are drawn once a step, however often they are asked for.
+
+    Args:
+        simulation: Runs.
+        models: Of all moving bodies.
+    """
+
+    def __init__(self, simulation: StageSimulation, models: list[StageModel]) -> None:
+        self._simulation = simulation
+        self._painter = Painter(simulation.fleet, scenery_of(simulation.stage, models))
+        self._seen: dict[tuple[int, int, int], Pictures] = {}
+
+    def forget(self) -> None:
+        """Something moved."""
+        self._seen.clear()
+
+    def picture(self, robot: int, which: int, world: int) -> Pictures:
+        """What one camera sees, shape (height, width, ...).
+
+        Raises:
+            SimulationError: The robot has no camera of this number.
+        """
+        key = (robot, which, world)
+        if key not in self._seen:
+            many = self.pictures([robot], which, np.array([world]))
+            self._seen[key] = Pictures(many.color[0, 0], many.depth[0, 0])
+        return self._seen[key]
+
+    def pictures(self, robots: list[int], which: int, worlds: Worlds) -> Pictures:
+        """What the cameras of a number see, shape (worlds, robots, height, width, ...).
+
+        Raises:
+            SimulationError: A robot has no camera of this number, or they differ in their lens.
+        """
+        found = [self._camera(robot, which) for robot in robots]
+        lenses = {camera.lens for camera in found}
+        if len(lenses) != 1:
+            raise SimulationError(
+                "only cameras with the same resolution, range and fov make one array",
+                hint="ask for their pictures one by one",
+            )
+        views = [camera.view(robot) for camera, robot in zip(found, robots, strict=True)]
+        return self._painter.draw(lenses.pop(), views, worlds)
+
+    def _camera(self, robot: int, which: int) -> Camera:
+        own = self._simulation.robots[robot]
+        found = cameras_of(own.model)
+        if not 0 <= which < len(found):
+            raise SimulationError(f"'{own.name}' has {len(found)} cameras, no number {which}")
+        return found[which]
+
+
+def cameras_of(model: StageModel) -> tuple[Camera, ...]:
+    """The cameras on a robot, in file order, in its frame."""
+    return tuple(
+        Camera(
+            placed.model.name,
+            placed.model.device,
+            placed.pose,
+            direct=placed.parent is not None and placed.parent.parent is None,
+            owner=owner,
+        )
+        for owner, placed in enumerate(replace(model, pose=StagePose()).walk())
+        if isinstance(placed.model.device, StageCamera)
+    )
