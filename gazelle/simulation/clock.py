@@ -33,6 +33,10 @@ class Clock:
         """The whole number of physics steps nearest to a time."""
         return round(seconds * NANOSECONDS / self.step_ns)
 
+    def steps_to(self, due_ns: int) -> int:
+        """Physics steps until a time, at least 1."""
+        return max(1, -((self.now_ns - due_ns) // self.step_ns))
+
 
 class Schedule:
     """When something is due: at multiples of its period, on the first step not before.
@@ -75,8 +79,7 @@ class Schedule:
 
     def steps_until(self, clock: Clock) -> int:
         """Physics steps until it is due, at least 1."""
-        wait = self.due_ns - clock.now_ns
-        return max(1, -(-wait // clock.step_ns))
+        return clock.steps_to(self.due_ns)
 
     def restart(self) -> None:
         """Start over at time zero."""

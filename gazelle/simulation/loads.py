@@ -209,7 +209,7 @@ class Loads:
             return 1
         if self._due_ns is None:
             return None
-        return max(1, -(-(self._due_ns - clock.now_ns) // clock.step_ns))
+        return clock.steps_to(self._due_ns)
 
     def _change(self, now_ns: int) -> None:
         targets = {wrench.target for wrench in self._wrenches}

@@ -38,13 +38,15 @@ def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) 
     One that raises is detached with a warning: it is never updated again, and all else goes on.
     """
     for entry in tuple(plugins):
-        if entry.schedule is not None and entry.plugin.active and entry.schedule.is_due(now_ns):
-            try:
-                entry.plugin.on_update(now)
-            except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-                _detach(entry, error, now)
-                continue
-            entry.schedule.done(now_ns)
+        schedule = entry.schedule
+        if schedule is None or now_ns < schedule.due_ns or not entry.plugin.active:
+            continue
+        try:
+            entry.plugin.on_update(now)
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            _detach(entry, error, now)
+            continue
+        schedule.done(now_ns)
 
 
 def _detach(entry: ScheduledPlugin, error: Exception, now: float) -> None:
@@ -68,7 +70,7 @@ def warn_of_fault(what: str, owner: str, when: str, error: Exception) -> None:
 def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:
     """Measure with all sensors that are awake and due."""
     for sensor in tuple(sensors):
-        if sensor.awake and sensor.schedule.is_due(now_ns):
+        if now_ns >= sensor.schedule.due_ns and sensor.awake:
             sensor.update(now_ns)
 
 
@@ -76,14 +78,15 @@ def steps_to_next(
     plugins: Iterable[ScheduledPlugin], sensors: Iterable[SensorUnit], clock: Clock, most: int
 ) -> int:
     """Physics steps until something is due, ``most`` at most."""
-    steps = most
+    soonest = clock.now_ns + most * clock.step_ns
     for entry in plugins:
-        if entry.schedule is not None and entry.plugin.active:
-            steps = min(steps, entry.schedule.steps_until(clock))
+        schedule = entry.schedule
+        if schedule is not None and schedule.due_ns < soonest and entry.plugin.active:
+            soonest = schedule.due_ns
     for sensor in sensors:
-        if sensor.awake:
-            steps = min(steps, sensor.schedule.steps_until(clock))
-    return steps
+        if sensor.schedule.due_ns < soonest and sensor.awake:
+            soonest = sensor.schedule.due_ns
+    return clock.steps_to(soonest)
 
 
 def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None:
