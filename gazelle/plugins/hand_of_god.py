@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Parameters
+from gazelle.plugins.heard_frames import HeardFrames
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, multiply
 from gazelle.simulation import Input, Output, Robot, Transform, Transforms
@@ -17,9 +18,10 @@ Worlds = NDArray[np.intp]
 
 
 class HandOfGod(Publishing):
-    """Draws a weightless link to the frame ``<frameId>_desired`` in ``world``, without swinging.
+    """Draws a weightless link to the frame ``<frameId>_desired``, without swinging.
 
-    The frame must be given in ``world`` itself. Until it is heard of nothing is done.
+    The frame may be given in any other that tf connects with ``world``. Until it is known where
+    it is in ``world`` nothing is done.
     """
 
     update_rate = 0.0
@@ -31,12 +33,12 @@ class HandOfGod(Publishing):
         self._link.set_properties(gravity=0.0)
         self._name = parameters.get("frameId", "hog")
         self._stiffness = parameters.get("kl", 200.0), parameters.get("ka", 200.0)
-        nworld = robot.simulation.nworld
-        self._known = np.zeros(nworld, np.bool_)
-        self._position: Floats = np.zeros((nworld, 3))
-        self._quaternion: Floats = np.tile([0.0, 0.0, 0.0, 1.0], (nworld, 1))
+        self._frames = HeardFrames(robot.simulation.nworld)
         robot.inputs[f"{self._name}_desired"] = Input(
-            "/tf", Transforms, self._hear, forget=self.reset, queue_size=100
+            "/tf", Transforms, self._frames.hear, forget=self.reset, queue_size=100
+        )
+        robot.inputs[f"{self._name}_static"] = Input(
+            "/tf_static", Transforms, self._hear_static, queue_size=100
         )
         actual = f"{self._name}_actual"
         robot.outputs[actual] = Output("/tf", Transforms, self._tell)
@@ -44,36 +46,34 @@ class HandOfGod(Publishing):
 
     @property
     def active(self) -> bool:
-        """Whether there is a frame to follow, or anybody listens."""
-        return bool(self._known.any()) or super().active
+        """Whether there are frames, or anybody listens."""
+        return self._frames.any or super().active
 
-    def _hear(self, transforms: Transforms, worlds: Worlds | None) -> None:
-        rows = slice(None) if worlds is None else worlds
-        for each in transforms.transforms:
-            child = each.child_frame.lstrip("/")
-            if child == f"{self._name}_desired" and each.frame.lstrip("/") == "world":
-                self._position[rows], self._quaternion[rows] = each.position, each.quaternion
-                self._known[rows] = True
+    def _hear_static(self, transforms: Transforms, worlds: Worlds | None) -> None:
+        self._frames.hear(transforms, worlds, static=True)
 
     def on_update(self, time: float) -> None:
         """Draw, and tell where the link is."""
-        if self._known.any():
-            engine, name = self._simulation.engine, self._link.name
-            place, motion = self._link.placement(), self._link.motion()
-            mass = engine.parameter("link_mass", name)
-            inertia = engine.parameter("link_inertia", name)[:, :1]
-            linear, angular = self._stiffness
-            force = linear * (self._position - place.position)
-            force -= 2.0 * np.sqrt(linear * mass) * motion.linear
-            turn = multiply(self._quaternion, conjugate(place.quaternion))
-            # Twice the vector part, the short way round, is the turn for small angles.
-            torque = angular * 2.0 * turn[:, :3] * np.where(turn[:, 3:] < 0.0, -1.0, 1.0)
-            torque -= 2.0 * np.sqrt(angular * inertia) * motion.angular
-            known = self._known[:, None]
-            self._simulation.loads.hold(
-                "hand_of_god", name, np.where(known, force, 0.0), np.where(known, torque, 0.0)
-            )
+        if self._frames.any:
+            known, position, quaternion = self._frames.find(f"{self._name}_desired", "world")
+            self._draw(known[:, None], position, quaternion)
         super().on_update(time)
+
+    def _draw(self, known: NDArray[np.bool_], position: Floats, quaternion: Floats) -> None:
+        engine, name = self._simulation.engine, self._link.name
+        place, motion = self._link.placement(), self._link.motion()
+        mass = engine.parameter("link_mass", name)
+        inertia = engine.parameter("link_inertia", name)[:, :1]
+        linear, angular = self._stiffness
+        force = linear * (position - place.position)
+        force -= 2.0 * np.sqrt(linear * mass) * motion.linear
+        turn = multiply(quaternion, conjugate(place.quaternion))
+        # Twice the vector part, the short way round, is the turn for small angles.
+        torque = angular * 2.0 * turn[:, :3] * np.where(turn[:, 3:] < 0.0, -1.0, 1.0)
+        torque -= 2.0 * np.sqrt(angular * inertia) * motion.angular
+        self._simulation.loads.hold(
+            "hand_of_god", name, np.where(known, force, 0.0), np.where(known, torque, 0.0)
+        )
 
     def _tell(self) -> Transforms:
         place = self._link.placement()
@@ -82,17 +82,12 @@ class HandOfGod(Publishing):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Follow nothing."""
-        self._known[slice(None) if worlds is None else worlds] = False
+        self._frames.forget(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What is followed."""
-        return {
-            "known": self._known.copy(),
-            "position": self._position.copy(),
-            "quaternion": self._quaternion.copy(),
-        }
+        """The frames that are known."""
+        return self._frames.state()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._known[:] = state["known"]
-        self._position[:], self._quaternion[:] = state["position"], state["quaternion"]
+        self._frames.restore(state)

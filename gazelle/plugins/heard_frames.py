@@ -1,23 +1,41 @@
-"""Frames that plugins hear of on ``/tf``: how one is turned against another."""
+"""Frames as others tell them on tf, in every world: where one is in another, by any way."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.rotations import conjugate, multiply
+from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.simulation import Transforms
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
-_UPRIGHT = np.array([0.0, 0.0, 0.0, 1.0])
+
+@dataclass(slots=True)
+class _Step:
+    """Where a frame is in its parent, in the worlds that it is known in.
+
+    Attributes:
+        parent: Name of the parent.
+        static: Whether it was told once and for all.
+        known: Shape (nworld,).
+        position: [m], shape (nworld, 3).
+        quaternion: (x, y, z, w), shape (nworld, 4).
+    """
+
+    parent: str
+    static: bool
+    known: NDArray[np.bool_]
+    position: Floats
+    quaternion: Floats
 
 
 class HeardFrames:
-    """The latest orientation of every frame in its parent, in every world.
+    """The last transforms that were heard, by child.
 
     Args:
         nworld: Number of worlds.
@@ -25,54 +43,86 @@ class HeardFrames:
 
     def __init__(self, nworld: int) -> None:
         self._nworld = nworld
-        self._parents: dict[str, str] = {}
-        self._turns: dict[str, Floats] = {}
+        self._steps: dict[str, _Step] = {}
 
-    def hear(self, transforms: Transforms, worlds: Worlds | None) -> None:
-        """Take what is told; for worlds that nobody told of, frames are as in their parents."""
-        for each in transforms.transforms:
+    @property
+    def any(self) -> bool:
+        """Whether anything was heard."""
+        return bool(self._steps)
+
+    def hear(self, told: Transforms, worlds: Worlds | None, *, static: bool = False) -> None:
+        """Take transforms in."""
+        rows = slice(None) if worlds is None else worlds
+        for each in told.transforms:
             child, parent = each.child_frame.lstrip("/"), each.frame.lstrip("/")
-            turns = self._turns.setdefault(child, np.tile(_UPRIGHT, (self._nworld, 1)))
-            turns[slice(None) if worlds is None else worlds] = each.quaternion
-            self._parents[child] = parent
+            step = self._steps.get(child)
+            if step is None or step.parent != parent:
+                step = self._steps[child] = self._fresh(parent, static=static)
+            step.static = static
+            step.known[rows] = True
+            step.position[rows], step.quaternion[rows] = each.position, each.quaternion
 
-    def turn(self, target: str, source: str) -> Floats | None:
-        """The orientation of a frame seen from another, shape (nworld, 4); None if not known."""
-        above_target, above_source = self._above(target), self._above(source)
-        for frame, turn in above_source.items():
-            if frame in above_target:
-                return multiply(conjugate(above_target[frame]), turn)
-        return None
+    def _fresh(self, parent: str, *, static: bool) -> _Step:
+        upright = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
+        known = np.zeros(self._nworld, np.bool_)
+        return _Step(parent, static, known, np.zeros((self._nworld, 3)), upright)
 
-    def _above(self, frame: str) -> dict[str, Floats]:
-        """A frame and all above it, with its orientation in each."""
-        turn = np.tile(_UPRIGHT, (self._nworld, 1))
-        found = {frame: turn}
-        while frame in self._parents and self._parents[frame] not in found:
-            turn = multiply(self._turns[frame], turn)
-            frame = self._parents[frame]
-            found[frame] = turn
-        return found
+    def find(self, frame: str, base: str) -> tuple[NDArray[np.bool_], Floats, Floats]:
+        """Where a frame is in another one, and in which worlds that is known.
 
-    def clear(self) -> None:
-        """Forget everything."""
-        self._parents.clear()
-        self._turns.clear()
+        Returns:
+            Whether it is known (nworld,), position (nworld, 3), quaternion (nworld, 4).
+        """
+        root, known, position, quaternion = self._climb(frame.lstrip("/"))
+        other, also, origin, turn = self._climb(base.lstrip("/"))
+        if root != other:
+            return np.zeros(self._nworld, np.bool_), position, quaternion
+        back = conjugate(turn)
+        return known & also, rotate(back, position - origin), multiply(back, quaternion)
+
+    def _climb(self, frame: str) -> tuple[str, NDArray[np.bool_], Floats, Floats]:
+        """The root above a frame, and where the frame is in it."""
+        known = np.ones(self._nworld, np.bool_)
+        position = np.zeros((self._nworld, 3))
+        quaternion = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
+        passed: set[str] = set()
+        while (step := self._steps.get(frame)) is not None and frame not in passed:
+            passed.add(frame)
+            known = known & step.known
+            position = step.position + rotate(step.quaternion, position)
+            quaternion = multiply(step.quaternion, quaternion)
+            frame = step.parent
+        return frame, known, position, quaternion
+
+    def forget(self, worlds: Worlds | None) -> None:
+        """Forget all but what was told once and for all."""
+        rows = slice(None) if worlds is None else worlds
+        for step in self._steps.values():
+            if not step.static:
+                step.known[rows] = False
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """All that was heard."""
-        names = list(self._parents)
+        """Everything that was heard."""
+        steps = list(self._steps.values())
+        shape = (len(steps), self._nworld)
         return {
-            "frames": np.array(names, np.str_),
-            "parents": np.array([self._parents[name] for name in names], np.str_),
-            "turns": np.array([self._turns[name] for name in names], np.float64),
+            "frames": np.asarray([*self._steps], np.str_),
+            "parents": np.asarray([step.parent for step in steps], np.str_),
+            "static": np.asarray([step.static for step in steps], np.bool_),
+            "known": np.array([step.known for step in steps]).reshape(shape),
+            "positions": np.array([step.position for step in steps]).reshape(*shape, 3),
+            "quaternions": np.array([step.quaternion for step in steps]).reshape(*shape, 4),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self.clear()
-        for name, parent, turn in zip(
-            state["frames"], state["parents"], state["turns"], strict=True
-        ):
-            self._parents[str(name)] = str(parent)
-            self._turns[str(name)] = np.array(turn, np.float64)
+        self._steps = {
+            str(frame): _Step(
+                str(state["parents"][i]),
+                bool(state["static"][i]),
+                np.array(state["known"][i], np.bool_),
+                np.array(state["positions"][i], np.float64),
+                np.array(state["quaternions"][i], np.float64),
+            )
+            for i, frame in enumerate(state["frames"])
+        }

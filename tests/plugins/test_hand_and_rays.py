@@ -23,7 +23,6 @@ def test_a_hand_draws_its_link_to_a_frame_without_swinging():
         sim.run(seconds=0.2)
         assert robot.position[:, 2] == pytest.approx(0.5)
         robot.inputs["hog_desired"].send(desired((0.3, 0.0, 1.0)), np.array([1]))
-        robot.inputs["hog_desired"].send(desired((9.0, 9.0, 9.0), frame="map"))
         highest = 0.0
         for _ in range(20):
             sim.run(seconds=0.1)
@@ -40,6 +39,35 @@ def test_a_hand_draws_its_link_to_a_frame_without_swinging():
         sim.restore(state)
         sim.run(seconds=0.1)
         assert robot.position[1] == pytest.approx([0.3, 0.0, 1.0], abs=0.01)
+
+
+def test_a_hand_follows_a_frame_through_others():
+    east = np.array([[0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]])
+    with simulate(block(plugin=HAND), ground=False, nworld=2) as sim:
+        robot = sim.robots["cube"]
+        hear, told = robot.inputs["hog_desired"], robot.inputs["hog_static"]
+        assert (hear.topic, told.topic) == ("/tf", "/tf_static")
+        hear.send(desired((0.5, 0.0, 0.0), frame="/hand"))
+        sim.run(seconds=0.1)
+        assert robot.position[:, 2] == pytest.approx(0.5)  # nobody says where the hand is
+        world = np.array([[1.0, 0.0, -1.0]])
+        told.send(Transforms(0, (Transform("map", "world", world, east),)))
+        hear.send(desired((1.0, 0.2, 0.0), frame="map", child="hand"), np.array([1]))
+        sim.run(seconds=3.0)
+        # In the map at (1.5, 0.2, 0), seen from a world at (1, 0, -1) that is turned left.
+        assert robot.position[1] == pytest.approx([0.2, -0.5, 1.0], abs=0.01)
+        turned = robot.quaternion[1] * np.sign(robot.quaternion[1, 3])
+        assert turned == pytest.approx([0.0, 0.0, -np.sqrt(0.5), np.sqrt(0.5)], abs=0.01)
+        assert robot.position[0] == pytest.approx([0.0, 0.0, 0.5], abs=1e-6)
+        state = sim.snapshot()
+        sim.reset()
+        hear.send(desired((0.0, 0.0, 1.0), frame="map"))
+        sim.run(seconds=3.0)
+        # What is told once and for all outlives a reset.
+        assert robot.position[0] == pytest.approx([0.0, 1.0, 2.0], abs=0.01)
+        sim.restore(state)
+        sim.run(seconds=0.1)
+        assert robot.position[1] == pytest.approx([0.2, -0.5, 1.0], abs=0.01)
 
 
 def slip(force="30", lateral="0"):
