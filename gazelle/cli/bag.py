@@ -1,7 +1,7 @@
 """What rosbag does: record, play and inspect bag files.
 
 gazelle bag record -O drive /scan /odom
-gazelle bag play drive.bag --clock -r 2
+gazelle bag play drive.bag --clock -r 2 /scan:=/old_scan
 gazelle bag info drive.bag
 gazelle bag filter drive.bag scans.bag "topic == '/scan'"
 """
@@ -65,13 +65,25 @@ def run(args: argparse.Namespace) -> int:
 def _record(args: argparse.Namespace) -> int:
     from gazelle.ros.bags.commandline import record
 
-    return record(args)
+    return record(args, _node_options(args, "record", "topics"))
 
 
 def _play(args: argparse.Namespace) -> int:
     from gazelle.ros.bags.commandline import play
 
-    return play(args)
+    own = ("bags", "more_bags", "topics", "pause_topics")
+    return play(args, _node_options(args, "play", *own))
+
+
+def _node_options(args: argparse.Namespace, name: str, *lists: str) -> dict[str, Any]:
+    """What the remappings among the words of some lists say of the node; they are taken out."""
+    from gazelle.ros.builtin.arguments import parse_arguments
+
+    words = [word for each in lists for word in getattr(args, each)]
+    for each in lists:
+        setattr(args, each, [word for word in getattr(args, each) if ":=" not in word])
+    mappings = [word for word in words if ":=" in word]
+    return parse_arguments(mappings, name, anonymous=True).options
 
 
 def _info(args: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ import threading
 import pytest
 from ros.graph import until
 
+from gazelle.cli.main import main
 from gazelle.ros import Duration, Time, load_message
 from gazelle.ros.bags import Bag
 from gazelle.ros.bags.playing import Player, PlayOptions
@@ -27,3 +28,15 @@ def test_the_first_message_is_played_whatever_its_stamp(make_node, tmp_path, nan
     playing.close()
     until(lambda: len(heard) == 3)
     assert heard == ["0", "1", "2"]
+
+
+def test_remappings_are_understood_on_the_command_line(make_node, master, tmp_path, monkeypatch):
+    text = load_message("std_msgs/String")
+    with Bag(tmp_path / "b.bag", "w") as bag:
+        bag.write("/chatter", text("hello"), Time(1763718123))
+    heard = []
+    make_node("listener").subscribe("/words", text, lambda message: heard.append(message.data))
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    words = ["--wait-for-subscribers", str(tmp_path / "b.bag"), "/chatter:=/words"]
+    assert main(["bag", "play", "-q", *words]) == 0
+    until(lambda: heard == ["hello"])
