@@ -106,6 +106,15 @@ class Entities:
                 return robot, robot.joints[inner]
         return None
 
+    def has_fixed_joint(self, name: str) -> bool:
+        """Whether a model has a joint that does not move, by plain or scoped name."""
+        return any(
+            name in (joint.name, f"{placed.scope}::{joint.name}")
+            for robot in self.simulation.robots.values()
+            for placed in robot.description.walk()
+            for joint in placed.model.joints
+        )
+
     def frame(self, name: str) -> State | None:
         """The state of a model or link by name; the world frame for ``""``, ``world`` or ``map``."""
         if is_world(name):

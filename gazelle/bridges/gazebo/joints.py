@@ -1,7 +1,11 @@
-"""The services on joints: properties and efforts."""
+"""The services on joints: properties and efforts.
+
+Joints that do not move are there, as in Gazebo: nothing that is done to them has an effect.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from gazelle.bridges.gazebo.answers import Answer, no, yes
@@ -21,7 +25,14 @@ class JointServices:
         """``get_joint_properties``; as in Gazebo the type is always 0 and damping empty."""
         found = self._entities.joint(request.joint_name)
         if found is None:
-            return no("GetJointProperties: joint not found")
+            if not self._entities.has_fixed_joint(request.joint_name):
+                return no("GetJointProperties: joint not found")
+            # What ODE's fixed joint answers.
+            return {
+                "position": [math.nan],
+                "rate": [0.0],
+                **yes("GetJointProperties: got properties"),
+            }
         _, joint = found
         worlds = self._entities.worlds
         return {
@@ -40,7 +51,9 @@ class JointServices:
         """
         found = self._entities.joint(request.joint_name)
         if found is None:
-            return no("SetJointProperties: joint not found")
+            if not self._entities.has_fixed_joint(request.joint_name):
+                return no("SetJointProperties: joint not found")
+            return yes("SetJointProperties: properties set")
         _, joint = found
         wanted = request.ode_joint_config
         try:
@@ -67,7 +80,9 @@ class JointServices:
         """``apply_joint_effort``."""
         found = self._entities.joint(request.joint_name)
         if found is None:
-            return no("ApplyJointEffort: joint not found")
+            if not self._entities.has_fixed_joint(request.joint_name):
+                return no("ApplyJointEffort: joint not found")
+            return yes("ApplyJointEffort: effort set")
         _, joint = found
         duration = request.duration.to_sec()
         try:

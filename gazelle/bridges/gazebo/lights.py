@@ -19,8 +19,8 @@ class LightServices:
         self._simulation = context.simulation
 
     def add(self, light: Light) -> bool:
-        """Put a light into the world; False if there is one of that name."""
-        if self._find(light.name) is not None:
+        """Put a light into the world; False if there is a light or a model of that name."""
+        if self._find(light.name) is not None or light.name in self._simulation.robots:
             return False
         self._keep((*self._simulation.world.lights, light))
         return True
@@ -28,7 +28,8 @@ class LightServices:
     def delete(self, request: Any) -> Answer:
         """``delete_light``."""
         if self._find(request.light_name) is None:
-            return no("DeleteLight: Requested light " + request.light_name + " not found!")
+            # Gazebo writes this over the better reason.
+            return no(f'DeleteLight: Timeout reached while removing light "{request.light_name}"')
         lights = self._simulation.world.lights
         self._keep(tuple(light for light in lights if light.name != request.light_name))
         return yes("DeleteLight: " + request.light_name + " successfully deleted")

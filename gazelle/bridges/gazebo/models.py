@@ -18,7 +18,12 @@ from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.entities import State
 from gazelle.bridges.gazebo.lights import LightServices
-from gazelle.bridges.gazebo.spawning import NEITHER, failure, is_model, is_urdf, read
+from gazelle.bridges.gazebo.spawning import (
+    TAKEN,
+    failure,
+    is_urdf,
+    read_or_say,
+)
 from gazelle.description import Light, Model, Pose
 from gazelle.errors import Error
 from gazelle.ros.errors import ServiceError
@@ -52,16 +57,19 @@ class ModelServices:
 
         The text is read beside the running simulation; only what follows waits for its turn.
         """
-        if not is_model(request.model_xml):
-            return no(NEITHER)
-        try:
-            found = read(request.model_xml, request.model_name)
-        except Error as error:
-            return no(failure(error))
-        requests = self._simulation.requests
+        found = read_or_say(request.model_xml, request.model_name)
+        return self._simulation.requests.call(lambda: self._put(found, request))
+
+    def _put(self, found: Model | Light | str, request: Any) -> Answer:
+        """Spawn what was found in the text, if anything; frames come first, as in Gazebo."""
+        pose = self._pose(request)
+        if pose is None:
+            return no(f"SpawnModel: {_NO_FRAME}")
+        if isinstance(found, str):
+            return no(found)
         if isinstance(found, Light):
-            return requests.call(lambda: self._spawn_light(found, request))
-        return requests.call(lambda: self._spawn(found, request))
+            return self._spawn_light(replace(found, pose=pose * found.pose))
+        return self._spawn(found, pose, request)
 
     def _pose(self, request: Any) -> Pose | None:
         """Where a request wants its model; None if there is no such frame."""
@@ -73,22 +81,16 @@ class ModelServices:
         qx, qy, qz, qw = place.quaternion.tolist()
         return Pose.from_quaternion((x, y, z), (qx, qy, qz, qw))
 
-    def _spawn_light(self, light: Light, request: Any) -> Answer:
-        pose = self._pose(request)
-        if pose is None:
-            return no(f"SpawnModel: {_NO_FRAME}")
-        if not self._lights.add(replace(light, pose=pose * light.pose)):
-            return no("SpawnModel: Failure - entity already exists.")
+    def _spawn_light(self, light: Light) -> Answer:
+        if not self._lights.add(light):
+            return no(TAKEN)
         return yes("SpawnModel: Successfully spawned entity")
 
-    def _spawn(self, model: Model, request: Any) -> Answer:
-        if request.model_name in self._simulation.robots:
-            return no("SpawnModel: Failure - entity already exists.")
-        pose = self._pose(request)
-        if pose is None:
-            return no(f"SpawnModel: {_NO_FRAME}")
+    def _spawn(self, model: Model, pose: Pose, request: Any) -> Answer:
+        if model.name in self._simulation.robots:
+            return no(TAKEN)
         try:
-            self._simulation.spawn(model, request.model_name, pose, request.robot_namespace)
+            self._simulation.spawn(model, pose=pose, namespace=request.robot_namespace)
         except Error as error:
             return no(failure(error))
         return yes("SpawnModel: Successfully spawned entity")
@@ -108,7 +110,7 @@ class ModelServices:
             return no("GetModelProperties: model does not exist")
         model = robot.description
         return {
-            "body_names": list(robot.links),
+            "body_names": [link.name for link in model.links],
             "geom_names": [each.name for link in model.links for each in link.collisions],
             "joint_names": [joint.name for joint in model.joints],
             "child_model_names": [child.name for child in model.models],
@@ -121,18 +123,19 @@ class ModelServices:
         robot = self._entities.model(request.model_name)
         if robot is None:
             return no("GetModelState: model does not exist")
-        frame = self._entities.frame(request.relative_entity_name)
-        if frame is None:
-            return no(
-                "GetModelState: reference relative_entity_name not found, did you forget to scope "
-                "the body by model name?"
-            )
-        seen = self._entities.state(robot).seen_from(frame)
         response = self._context.response("GetModelState")
         self._calls[request.model_name] += 1
         response.header.seq = self._calls[request.model_name]
         response.header.stamp = self._context.now()
         response.header.frame_id = request.relative_entity_name
+        frame = self._entities.frame(request.relative_entity_name)
+        if frame is None:
+            response.status_message = (
+                "GetModelState: reference relative_entity_name not found, did you forget to scope "
+                "the body by model name?"
+            )
+            return response
+        seen = self._entities.state(robot).seen_from(frame)
         set_pose(response.pose, seen.position, seen.quaternion)
         set_twist(response.twist, seen.linear, seen.angular)
         response.success = True

@@ -19,6 +19,8 @@ NEITHER = (
     "converted to Gazebo compatible format."
 )
 """Gazebo's answer to a text that is neither SDF nor URDF."""
+TAKEN = "SpawnModel: Failure - entity already exists."
+"""Gazebo's answer to a name that is taken."""
 
 
 def is_urdf(text: str) -> bool:
@@ -34,6 +36,16 @@ def is_model(text: str) -> bool:
 def _root(text: str) -> str:
     found = _ELEMENT.search(_BEFORE.sub("", text))
     return found[1] if found else ""
+
+
+def read_or_say(text: str, name: str) -> Model | Light | str:
+    """The model or light of a request, or the status message that says why there is none."""
+    if not is_model(text):
+        return NEITHER
+    try:
+        return read(text, name)
+    except Error as error:
+        return failure(error)
 
 
 def read(text: str, name: str) -> Model | Light:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import threading
 
 import pytest
 import yaml
 from missing import skip_or_fail
+from odd_calls import ODD, kind_of
 from real_messages import generate_real_classes
 from ros.real import INSTALLED, PYTHON, environment
 
@@ -108,6 +110,50 @@ END
 """
 
 
+ODD_CALLS = """
+import json, math, rospy, sys
+import gazebo_msgs.srv as services
+from gazebo_msgs.msg import *
+from geometry_msgs.msg import *
+from std_srvs.srv import Empty
+rospy.init_node("real", anonymous=True)
+def call(name, kind, **fields):
+    rospy.wait_for_service("/gazebo/" + name, 5.0)
+    return rospy.ServiceProxy("/gazebo/" + name, getattr(services, kind))(**fields)
+def say(answer): print(answer.success, "|", answer.status_message, flush=True)
+for name, kind, fields in json.loads(sys.argv[1]):
+    say(call(name, kind, **fields))
+say(call("set_model_state", "SetModelState", model_state=ModelState(model_name="no")))
+say(call("set_model_state", "SetModelState", model_state=ModelState(model_name="r1", reference_frame="no")))
+say(call("set_link_state", "SetLinkState", link_state=LinkState(link_name="no")))
+say(call("set_link_state", "SetLinkState", link_state=LinkState(link_name="r1::base_footprint", reference_frame="no")))
+try:
+    call("spawn_urdf_model", "SpawnModel", model_name="x", model_xml="<sdf/>")
+except rospy.ServiceException as error:
+    print("refused |", str(error).partition(": ")[0], flush=True)
+POST = '''<sdf version="1.6"><model name="p"><link name="a"><inertial><mass>1</mass></inertial></link>
+<link name="b"><inertial><mass>1</mass></inertial></link><joint name="weld" type="fixed">
+<parent>a</parent><child>b</child></joint></model></sdf>'''
+say(call("spawn_sdf_model", "SpawnModel", model_name="post", model_xml=POST))
+weld = call("get_joint_properties", "GetJointProperties", joint_name="weld")
+say(weld)
+assert weld.type == 0 and not weld.damping and math.isnan(weld.position[0]) and weld.rate == (0.0,), weld
+say(call("apply_joint_effort", "ApplyJointEffort", joint_name="weld", effort=1.0))
+say(call("set_joint_properties", "SetJointProperties", joint_name="weld"))
+"""
+ODD_ENDS = """
+False | SetModelState: model does not exist
+False | SetModelState: specified reference frame entity does not exist
+False | SetLinkState: link does not exist
+False | SetLinkState: failed
+refused | service [/gazebo/spawn_urdf_model] responded with an error
+True | SpawnModel: Successfully spawned entity
+True | GetJointProperties: got properties
+True | ApplyJointEffort: effort set
+True | SetJointProperties: properties set
+"""
+
+
 @pytest.fixture(scope="module")
 def classes(tmp_path_factory):
     if not INSTALLED:
@@ -143,6 +189,13 @@ def test_a_real_client_gets_gazebos_answers_from_every_service(background, class
     said = run(background.master.uri, classes, PYTHON, "-c", EVERY_SERVICE)
     lines = [line.rstrip() for line in said.strip().splitlines()]
     assert lines == ANSWERS.strip().splitlines()
+
+
+def test_a_real_client_gets_gazebos_answers_to_what_cannot_be_done(background, classes):
+    calls = json.dumps([(service, kind_of(service), fields) for service, fields, _ in ODD])
+    said = run(background.master.uri, classes, PYTHON, "-c", ODD_CALLS, calls)
+    expected = [f"False | {text}" for _, _, text in ODD] + ODD_ENDS.strip().splitlines()
+    assert said.strip().splitlines() == expected
 
 
 def test_the_real_tools_see_the_types_of_services_and_topics(background, classes):
