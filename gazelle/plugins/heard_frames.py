@@ -73,10 +73,26 @@ class HeardFrames:
         Returns:
             Whether it is known (nworld,), position (nworld, 3), quaternion (nworld, 4).
         """
+        found = self._find(frame, base)
+        if found is None:
+            upright = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
+            return np.zeros(self._nworld, np.bool_), np.zeros((self._nworld, 3)), upright
+        return found
+
+    def turn(self, target: str, source: str) -> Floats | None:
+        """The orientation of a source frame seen from a target, shape (nworld, 4).
+
+        None if no way leads from one to the other. In worlds that nobody told of a frame it is
+        as its parent.
+        """
+        found = self._find(source, target)
+        return None if found is None else found[2]
+
+    def _find(self, frame: str, base: str) -> tuple[NDArray[np.bool_], Floats, Floats] | None:
         root, known, position, quaternion = self._climb(frame.lstrip("/"))
         other, also, origin, turn = self._climb(base.lstrip("/"))
         if root != other:
-            return np.zeros(self._nworld, np.bool_), position, quaternion
+            return None
         back = conjugate(turn)
         return known & also, rotate(back, position - origin), multiply(back, quaternion)
 
