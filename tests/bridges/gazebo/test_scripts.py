@@ -71,7 +71,7 @@ True
 'r1::base_footprint' True GetModelState: got properties [r1::base_footprint] 0.0 1.0
 'ground_plane' True GetModelState: got properties [ground_plane] 0.0 1.0
 'nowhere' False GetModelState: reference relative_entity_name not found, did you forget to scope \
-the body by model name? [] 0.0 0.0
+the body by model name? [nowhere] 0.0 0.0
 [0, 1, 2, 3, 4, 5]
 r1::wheel_left_link r1::base_footprint 0.080
 GetLinkState: link not found, did you forget to scope the link by model name?
