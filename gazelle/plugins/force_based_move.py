@@ -10,15 +10,13 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters
 from gazelle.engines import Placement
 from gazelle.plugins.frames import relative
-from gazelle.plugins.odometry import as_transforms
+from gazelle.plugins.odometry import OdometryOutputs
 from gazelle.rotations import conjugate, rotate
 from gazelle.simulation import (
     ModelPlugin,
     Odometry,
-    Output,
     Robot,
     Schedule,
-    Transforms,
     TwistInput,
     absolute,
     namespace_of,
@@ -59,13 +57,8 @@ class ForceBasedMove(ModelPlugin):
         rate = parameters.get("odometryRate", 20.0)
         self._schedule = Schedule(rate) if rate > 0.0 else None
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        self._published = [Output(odometry, Odometry, self._measure)]
-        robot.outputs["odom"] = self._published[0]
-        if parameters.get("publishOdometryTf", True):
-            frames = robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
-            self._frames_output: Output[Transforms] | None = frames
-        else:
-            self._frames_output = None
+        framed = parameters.get("publishOdometryTf", True)
+        self._odometry = OdometryOutputs(robot, odometry, self._measure, namespace, framed=framed)
         self._start = robot.placement()
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  forces act at every step
@@ -82,9 +75,7 @@ class ForceBasedMove(ModelPlugin):
         self._simulation.loads.hold("force_based_move", self._link.name, force, torque)
         if self._schedule is not None and self._schedule.is_due(self._clock.now_ns):
             self._schedule.done(self._clock.now_ns)
-            self._published[0].publish()
-            if self._frames_output is not None:
-                self._frames_output.publish()
+            self._odometry.publish()
 
     def _weight(self, place: Placement) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Mass of the model, and its least inertia about the vertical, shape (nworld,)."""
@@ -117,9 +108,6 @@ class ForceBasedMove(ModelPlugin):
             pose,
             twist,
         )
-
-    def _frames(self) -> Transforms:
-        return as_transforms(self._measure())
 
     def reset(self, worlds: Worlds | None) -> None:
         """The odometry starts anew."""

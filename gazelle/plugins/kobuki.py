@@ -12,7 +12,8 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
 from gazelle.plugins.kobuki_sensors import Bumpers, Cliffs
-from gazelle.plugins.odometry import as_transforms
+from gazelle.plugins.odometry import OdometryOutputs
+from gazelle.plugins.publishing import Published
 from gazelle.sensors import ImuReading
 from gazelle.simulation import (
     Input,
@@ -22,7 +23,6 @@ from gazelle.simulation import (
     Output,
     Robot,
     Setting,
-    Transforms,
     TwistInput,
     absolute,
     namespace_of,
@@ -82,15 +82,13 @@ class Kobuki(ModelPlugin):
             "joint_states": Output(
                 absolute(namespace, "joint_states"), JointStates, self._read_wheels
             ),
-            "odom": Output(absolute(namespace, "odom"), Odometry, self._measure),
             "imu_data": Output("", ImuReading, self._feel, frame="gyro_link"),
         }
-        if parameters.get("publish_tf", False):
-            opened["odom_tf"] = Output(
-                "/tf", Transforms, lambda: as_transforms(self._measure()), namespace=namespace
-            )
         robot.outputs.update(opened)
-        self._published = tuple(opened.values())
+        framed = parameters.get("publish_tf", False)
+        topic = absolute(namespace, "odom")
+        odometry = OdometryOutputs(robot, topic, self._measure, namespace, framed=framed)
+        self._published: tuple[Published, ...] = (*opened.values(), odometry)
         self._cliffs.open(robot)
         self._bumpers.open(robot)
         self._namespace = namespace

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.odometry import as_transforms, true_odometry
+from gazelle.plugins.odometry import OdometryOutputs, true_odometry
 from gazelle.plugins.wheels import Side, WheeledDrive
-from gazelle.simulation import Odometry, Output, Robot, Transforms, absolute, namespace_of
+from gazelle.simulation import Odometry, Robot, absolute, namespace_of
 
 
 class MultiWheelDrive(WheeledDrive):
@@ -29,10 +29,11 @@ class MultiWheelDrive(WheeledDrive):
         self._frame = parameters.get("odometryFrame", "odom")
         self._base = parameters.get("robotBaseFrame", "base_footprint")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        if parameters.get("publishOdometryMsg", True):
-            self.publish(robot, "odom", Output(topic, Odometry, self._measure))
-        if parameters.get("publishOdometryTf", True):
-            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames, namespace=namespace))
+        told = parameters.get("publishOdometryMsg", True)
+        framed = parameters.get("publishOdometryTf", True)
+        self.publish(
+            OdometryOutputs(robot, topic, self._measure, namespace, told=told, framed=framed)
+        )
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
         """Names of the joints, and their sides."""
@@ -49,9 +50,6 @@ class MultiWheelDrive(WheeledDrive):
 
     def _measure(self) -> Odometry:
         return true_odometry(self._robot, self._frame, self._base)
-
-    def _frames(self) -> Transforms:
-        return as_transforms(self._measure())
 
 
 class SixWheelDrive(MultiWheelDrive):

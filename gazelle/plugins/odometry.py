@@ -43,6 +43,7 @@ class OdometryOutputs:
         topic: Of the odometry.
         measure: The odometry now.
         namespace: Whose frame it is.
+        told: Whether there is ``odom``.
         framed: Whether there is ``odom_tf``.
     """
 
@@ -53,11 +54,14 @@ class OdometryOutputs:
         measure: Callable[[], Odometry],
         namespace: str,
         *,
+        told: bool = True,
         framed: bool = True,
     ) -> None:
         self._measure = measure
-        self._odom = robot.outputs["odom"] = Output(topic, Odometry, measure)
+        self._odom: Output[Odometry] | None = None
         self._frame: Output[Transforms] | None = None
+        if told:
+            self._odom = robot.outputs["odom"] = Output(topic, Odometry, measure)
         if framed:
             self._frame = robot.outputs["odom_tf"] = Output(
                 "/tf", Transforms, lambda: as_transforms(measure()), namespace=namespace
@@ -66,14 +70,14 @@ class OdometryOutputs:
     @property
     def wanted(self) -> bool:
         """Whether anybody listens to either."""
-        return self._odom.wanted or (self._frame is not None and self._frame.wanted)
+        return any(output is not None and output.wanted for output in (self._odom, self._frame))
 
     def publish(self) -> None:
         """Compute the odometry and hand it to all who listen, if anybody does."""
         if not self.wanted:
             return
         odometry = self._measure()
-        if self._odom.wanted:
+        if self._odom is not None and self._odom.wanted:
             self._odom.hand(odometry)
         if self._frame is not None and self._frame.wanted:
             self._frame.hand(as_transforms(odometry))

@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Parameters
-from gazelle.plugins.odometry import as_transforms, true_odometry
+from gazelle.plugins.odometry import OdometryOutputs, true_odometry
 from gazelle.rotations import from_yaw, rotate, yaw_of
 from gazelle.simulation import (
     ModelPlugin,
     Odometry,
-    Output,
     Robot,
-    Transforms,
     TwistInput,
     absolute,
     namespace_of,
@@ -47,8 +45,7 @@ class PlanarMove(ModelPlugin):
         rate = parameters.get("odometryRate", 20.0)
         self._schedule = Schedule(rate) if rate > 0.0 else None
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        robot.outputs["odom"] = Output(odometry, Odometry, self._measure)
-        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
+        self._odometry = OdometryOutputs(robot, odometry, self._measure, namespace)
 
     def on_update(self, time: float) -> None:
         """Move, and publish when it is time to."""
@@ -59,8 +56,7 @@ class PlanarMove(ModelPlugin):
         self._robot.simulation.engine.set_model_motion(self._robot.name, rotate(turn, planar), spin)
         if self._schedule is not None and self._schedule.is_due(self._clock.now_ns):
             self._schedule.done(self._clock.now_ns)
-            self._robot.outputs["odom"].publish()
-            self._robot.outputs["odom_tf"].publish()
+            self._odometry.publish()
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""
@@ -89,6 +85,3 @@ class PlanarMove(ModelPlugin):
 
     def _measure(self) -> Odometry:
         return true_odometry(self._robot, self._frame, self._base)
-
-    def _frames(self) -> Transforms:
-        return as_transforms(self._measure())

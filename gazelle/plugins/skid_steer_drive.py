@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters
-from gazelle.plugins.odometry import as_transforms, true_odometry
+from gazelle.plugins.odometry import OdometryOutputs, true_odometry
 from gazelle.plugins.wheels import Side, WheeledDrive
-from gazelle.simulation import Odometry, Output, Robot, Transforms, absolute, namespace_of
+from gazelle.simulation import Odometry, Robot, absolute, namespace_of
 
 _CORNERS = (
     ("leftFrontJoint", "left_front_joint", Side.LEFT),
@@ -44,12 +44,8 @@ class SkidSteerDrive(WheeledDrive):
         )
         self._variance = (x, y, _UNSURE, _UNSURE, _UNSURE, yaw)
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        self.publish(robot, "odom", Output(topic, Odometry, self._measure))
-        if parameters.get("broadcastTF", False):
-            self.publish(robot, "odom_tf", Output("/tf", Transforms, self._frames, namespace=namespace))
+        framed = parameters.get("broadcastTF", False)
+        self.publish(OdometryOutputs(robot, topic, self._measure, namespace, framed=framed))
 
     def _measure(self) -> Odometry:
         return true_odometry(self._robot, self._frame, self._base, self._variance, self._variance)
-
-    def _frames(self) -> Transforms:
-        return as_transforms(self._measure())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,8 @@ from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
 from gazelle.plugins.frames import transform
-from gazelle.plugins.odometry import POSE_VARIANCE, as_transforms, true_odometry
+from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
+from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
     JointStates,
     ModelPlugin,
@@ -90,11 +90,11 @@ class TricycleDrive(ModelPlugin):
         self._frame = parameters.get("odometryFrame", "odom")
         self._base = parameters.get("robotBaseFrame", "base_link")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        robot.outputs["odom"] = Output(topic, Odometry, self._measure)
-        robot.outputs["odom_tf"] = Output("/tf", Transforms, self._frames, namespace=namespace)
-        published: list[Output[Any]] = [robot.outputs["odom"], robot.outputs["odom_tf"]]
+        published: list[Published] = [OdometryOutputs(robot, topic, self._measure, namespace)]
         if parameters.get("publishWheelTF", False):
-            robot.outputs["wheel_tf"] = Output("/tf", Transforms, self._wheel_frames, namespace=namespace)
+            robot.outputs["wheel_tf"] = Output(
+                "/tf", Transforms, self._wheel_frames, namespace=namespace
+            )
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             states = absolute(namespace, "joint_states")
@@ -143,9 +143,6 @@ class TricycleDrive(ModelPlugin):
             return true_odometry(self._robot, self._frame, self._base)
         now = self._clock.now_ns
         return self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
-
-    def _frames(self) -> Transforms:
-        return as_transforms(self._measure())
 
     def _wheel_frames(self) -> Transforms:
         robot = self._robot

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from gazelle.description.source import Source
 from gazelle.errors import SimulationError
-from gazelle.simulation import JointHandle, ModelPlugin, Output, Robot, TwistInput
+from gazelle.plugins.publishing import Published
+from gazelle.simulation import JointHandle, ModelPlugin, Robot, TwistInput
 
 Worlds = NDArray[np.intp]
 
@@ -30,7 +31,7 @@ class WheeledDrive(ModelPlugin):
     """
 
     def __init__(self) -> None:
-        self._published: list[Output[Any]] = []
+        self._published: list[Published] = []
         self._wheels: list[tuple[JointHandle, Side]] = []
         self._settled = -1  # the command whose speeds the motors already have
 
@@ -70,9 +71,8 @@ class WheeledDrive(ModelPlugin):
         """Open the port for commands."""
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, topic)
 
-    def publish(self, robot: Robot, name: str, output: Output[Any]) -> None:
-        """Open an output that is published at every update."""
-        robot.outputs[name] = output
+    def publish(self, output: Published) -> None:
+        """Publish something at every update."""
         self._published.append(output)
 
     @property
