@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.engines.planar.native import Native
+from gazelle.engines.planar.native import Native, each
+
+__all__ = ["Function", "each", "inner", "kernel", "part", "whole"]
 
 Function = Callable[..., Any]
 

@@ -41,7 +41,7 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import each, kernel, part
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
 from gazelle.engines.planar.kernels_scan import aim, scan
 from gazelle.envs.planar.tables import Floats, Table, Worlds
@@ -82,7 +82,7 @@ def find_faces(
 ) -> int:  # fmt: skip
     """The sides of statics that can be seen from (x, y); returns how many."""
     total = faces.shape[1]
-    for i in range(np.uint64(total)):
+    for i in each(0, total):
         ax, ay, bx, by = faces[0, i] - x, faces[1, i] - y, faces[2, i] - x, faces[3, i] - y
         cross = ax * by - bx * ay
         ex, ey = bx - ax, by - ay
@@ -106,7 +106,7 @@ def draw_one(
     beams: Floats, lo: int, hi: int, x0: float, y0: float, x1: float, y1: float, inverse: float,
 ) -> None:  # fmt: skip
     """A segment into beams lo to hi, however near it is."""
-    for k in range(np.uint64(lo), np.uint64(hi)):
+    for k in each(lo, hi):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
         c0, c1 = dx * y0 - dy * x0, dx * y1 - dy * x1
         v = (c1 - c0) * inverse
@@ -118,7 +118,7 @@ def draw_two(beams: Floats, found: Floats, i: int, j: int) -> None:
     """Two segments into all beams."""
     ax, ay, au, av, ai = found[0, i], found[1, i], found[2, i], found[3, i], found[8, i]
     bx, by, bu, bv, bi = found[0, j], found[1, j], found[2, j], found[3, j], found[8, j]
-    for k in range(np.uint64(beams.shape[1])):
+    for k in each(0, beams.shape[1]):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
         c0, c1 = dx * ay - dy * ax, dx * av - dy * au
         v = (c1 - c0) * ai
@@ -132,7 +132,7 @@ def draw_two(beams: Floats, found: Floats, i: int, j: int) -> None:
 def draw_disc(beams: Floats, x: float, y: float, radius: float, outside: float) -> None:
     """A disc that beams begin outside of, into all beams."""
     inverse, square = 1.0 / outside, radius * radius
-    for k in range(np.uint64(beams.shape[1])):
+    for k in each(0, beams.shape[1]):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
         along, aside = dx * x + dy * y, dx * y - dy * x
         rest = square - aside * aside
@@ -205,7 +205,7 @@ def look(
 ) -> bool:  # fmt: skip
     """Scan from outside of everything; False if that is not sure."""
     nothing = 1.0 / fan[REACH]
-    for k in range(np.uint64(beams.shape[1])):
+    for k in each(0, beams.shape[1]):
         beams[2, k] = nothing
     c, s = sensors[m, S_COS], sensors[m, S_SIN]
     x, y = sensors[m, S_X], sensors[m, S_Y]
@@ -220,10 +220,10 @@ def look(
             return False
         draw_disc(beams, c * ox + s * oy, c * oy - s * ox, radius, outside)
     draw_faces(beams, fan, found, find_faces(found, turned, faces, fan[REACH], x, y, c, s))
-    most = 0.0
-    for k in range(np.uint64(beams.shape[1])):
-        most = max(most, beams[2, k])
-    return bool(most <= fan[NEAR])
+    nearer = 0
+    for k in each(0, beams.shape[1]):
+        nearer += 1 if beams[2, k] > fan[NEAR] else 0
+    return nearer == 0
 
 
 @kernel
@@ -246,7 +246,7 @@ def see(
         me = kinds[owners[w] - base, FAMILY]
         aim(sensors, w, owners, mounts, pose)
         if look(w, base, me, sensors, fan, faces, discs, kinds, looks, pose, beams, found, turned):
-            for k in range(np.uint64(beams.shape[1])):
+            for k in each(0, beams.shape[1]):
                 best = beams[2, k]
                 ranges[w, k] = 1.0 / best if best > nothing else np.inf
             continue
@@ -271,7 +271,7 @@ def logarithm(values: Floats, bits: Table) -> None:
         values: The numbers.
         bits: The same memory as unsigned integers.
     """
-    for k in range(np.uint64(values.shape[0])):
+    for k in each(0, values.shape[0]):
         raw = bits[k]
         power = float(np.int64(raw >> np.uint64(52)) - 1023)
         bits[k] = (raw & _MANTISSA) | _ONE
@@ -295,7 +295,7 @@ def logarithm(values: Floats, bits: Table) -> None:
 @part
 def uniforms(key: np.uint64, start: np.uint64, bits: Table, values: Floats) -> None:
     """The next numbers in [0, 1) of a world of ``gazelle.streams.Stream``."""
-    for k in range(np.uint64(bits.shape[0])):
+    for k in each(0, bits.shape[0]):
         z = key + (start + np.uint64(k) + np.uint64(1)) * _GOLDEN
         z = (z ^ (z >> np.uint64(30))) * _MIX_1
         z = (z ^ (z >> np.uint64(27))) * _MIX_2
@@ -316,10 +316,10 @@ def normals(key: np.uint64, start: np.uint64, values: Floats, bits: Table) -> No
     """
     pairs = values.shape[0] // 2
     uniforms(key, start, bits, values)
-    for k in range(np.uint64(pairs)):
+    for k in each(0, pairs):
         values[k] = 1.0 - values[k]
     logarithm(values[:pairs], bits[:pairs])
-    for k in range(np.uint64(pairs)):
+    for k in each(0, pairs):
         radius = math.sqrt(max(-2.0 * values[k], 0.0))
         t = 4.0 * values[pairs + k]
         quarter = math.floor(t + 0.5)
@@ -368,7 +368,7 @@ def report(
         if noisy:
             normals(keys[w], counters[w], values, bits)
             counters[w] += np.uint64(values.shape[0])
-        for k in range(np.uint64(count)):
+        for k in each(0, count):
             true = ranges[w, k]
             measured = true + mean + spread * values[k] if noisy else true + mean
             if resolution > 0.0:

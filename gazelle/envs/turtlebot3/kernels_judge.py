@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import YAW, X, Y
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import each, kernel, part
 from gazelle.envs.planar.tables import Flags, Floats, Table, Worlds
 
 _SPLIT = 2.0**27 + 1.0
@@ -57,7 +57,7 @@ def observe(
     for i in range(first, last):
         b = worlds[i] * nbody + robot
         least = np.inf
-        for k in range(np.uint64(count)):
+        for k in each(0, count):
             value = cleaned[i, k]
             observation[i, k] = value
             least = min(least, value)

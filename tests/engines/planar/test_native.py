@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.engines.planar.native import Native, store
+from gazelle.engines.planar.native import Native, each, store
 from gazelle.errors import EngineError
 
 WHOLE = st.integers(-1000, 1000)
@@ -82,6 +82,22 @@ def test_arrays_are_read_and_written_in_place():
 def test_numbers_without_a_sign_wrap_around():
     with np.errstate(over="ignore"):
         assert Native(hashed)(np.uint64(2**63 + 5)) == hashed(np.uint64(2**63 + 5))
+
+
+@given(st.integers(0, 40))
+def test_rounds_in_any_order_give_what_rounds_in_turn_do(count):
+    values = np.linspace(-3.0, 5.0, count)
+    own = values.copy()
+    assert Native(squared)(own, 1.0) == squared(values, 1.0)
+    assert (own == values).all()
+
+
+def squared(values, least):
+    below = 0
+    for k in each(0, values.shape[0]):
+        below += 1 if values[k] < least else 0
+        values[k] = values[k] * values[k] if values[k] > 0.0 else -values[k]
+    return below
 
 
 def test_what_is_no_number_becomes_zero_and_what_is_too_large_the_end():

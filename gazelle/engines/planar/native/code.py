@@ -129,7 +129,7 @@ class Code:
             f"{self._group} = distinct !{{}}",
             f"{loop} = distinct !{{{loop}, {access}, {one}}}",
             f'{access} = !{{!"llvm.loop.parallel_accesses", {self._group}}}',
-            f'{one} = !{{!"llvm.loop.vectorize.enable", i1 true}}',
+            f'{one} = !{{!"llvm.loop.interleave.count", i32 1}}',
         ]
         yield f"br label %{head}, !llvm.loop {loop}"
         self._group = outer
