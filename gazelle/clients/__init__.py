@@ -12,10 +12,11 @@ from gazelle.clients.agv import AGV, AGVFleet
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.descriptions import load_parameters, load_urdf, read_urdf
 from gazelle.clients.errors import ClientError
-from gazelle.clients.gazebo import Gazebo, PhysicsSettings
+from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.hosting import SimulatorProcess
 from gazelle.clients.motion import Driver
 from gazelle.clients.performance import PerformanceWatch, Sample
+from gazelle.clients.physics import PhysicsSettings
 from gazelle.clients.poses import ModelState
 from gazelle.clients.processes import Processes
 from gazelle.clients.spawning import spawn_robot

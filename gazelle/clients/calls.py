@@ -40,10 +40,32 @@ class Caller:
         Raises:
             ClientError: The service is not there, breaks off, or answers that it failed.
         """
+        return self._call_until(name, kind, fields, self.retries)[0]
+
+    def call_once(self, name: str, kind: str, /, **fields: Any) -> Any:
+        """The same, for what must not be done twice: never made again.
+
+        Raises:
+            ClientError: As ``call``; after a connection broke off it may have been done.
+        """
+        return self._call_until(name, kind, fields, 0)[0]
+
+    def call_again(self, name: str, kind: str, /, **fields: Any) -> tuple[Any, bool]:
+        """The same; also tells whether an earlier try may have been carried out.
+
+        Raises:
+            ClientError: As ``call``.
+        """
+        return self._call_until(name, kind, fields, self.retries)
+
+    def _call_until(
+        self, name: str, kind: str, fields: dict[str, Any], retries: int
+    ) -> tuple[Any, bool]:
         full = name if name.startswith("/") else f"{self.namespace}/{name}"
-        for attempt in range(self.retries + 1):
+        attempt = 0
+        while True:
             try:
-                return self._call(full, kind, fields)
+                return self._call(full, kind, fields), attempt > 0
             except ServiceFailedError as error:
                 raise ClientError(f"{full}: {error}") from error
             except RosTimeoutError as error:
@@ -53,10 +75,10 @@ class Caller:
                 ) from error
             except RosError as error:
                 self._forget(full)
-                if attempt == self.retries:
+                if attempt == retries:
                     raise ClientError(f"{full}: {error}") from error
+                attempt += 1
                 time.sleep(_PAUSE_S)
-        raise ClientError(f"{full} was never called")
 
     def demand(self, name: str, kind: str, /, **fields: Any) -> Any:
         """Call a service whose answer has ``success``, and insist on it.
@@ -64,9 +86,25 @@ class Caller:
         Raises:
             ClientError: As ``call``, and when it answers that it did not succeed.
         """
-        answer = self.call(name, kind, **fields)
+        return self.accept(name, self.call(name, kind, **fields))
+
+    def demand_once(self, name: str, kind: str, /, **fields: Any) -> Any:
+        """The same, for what must not be done twice.
+
+        Raises:
+            ClientError: As ``call_once``, and when it answers that it did not succeed.
+        """
+        return self.accept(name, self.call_once(name, kind, **fields))
+
+    def accept(self, name: str, answer: Any) -> Any:
+        """The answer of a service that has ``success``.
+
+        Raises:
+            ClientError: It did not succeed.
+        """
         if not answer.success:
-            raise ClientError(f"{self.namespace}/{name}: {answer.status_message}")
+            full = name if name.startswith("/") else f"{self.namespace}/{name}"
+            raise ClientError(f"{full}: {answer.status_message}")
         return answer
 
     def close(self) -> None:

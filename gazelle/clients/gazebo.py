@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -12,34 +11,18 @@ from typing import Any, Self
 from gazelle.clients.calls import Caller
 from gazelle.clients.descriptions import find_file, read_urdf
 from gazelle.clients.errors import ClientError
+from gazelle.clients.physics import PhysicsCalls, Vector, vector
 from gazelle.clients.poses import ModelState, pose_message, read_state, twist_message
 from gazelle.clients.states import LiveStates
 from gazelle.ros import Duration, Node, Time, WallClock, load_message
 
-Vector = tuple[float, float, float]
 _FOREVER = Duration(-1, 0)
+# What Gazebo answers to a spawn or delete that was carried out already.
+_TAKEN = "SpawnModel: Failure - entity already exists."
+_GONE = "DeleteModel: model does not exist"
 
 
-@dataclass(frozen=True, slots=True)
-class PhysicsSettings:
-    """How the physics of a world runs.
-
-    Attributes:
-        time_step: Between two steps [s].
-        max_update_rate: Steps a second of wall time to aim at [Hz]; 0 for as many as possible.
-        gravity: [m/s²].
-        paused: Whether time stands still.
-        ode: ODE's settings, a ``gazebo_msgs/ODEPhysics``.
-    """
-
-    time_step: float
-    max_update_rate: float
-    gravity: Vector
-    paused: bool
-    ode: Any
-
-
-class Gazebo:
+class Gazebo(PhysicsCalls):
     """Calls the services of ``gazebo_ros``; also a context manager.
 
     Args:
@@ -47,7 +30,8 @@ class Gazebo:
         namespace: Where the services are.
         master_uri: For its own node; by default ``ROS_MASTER_URI``.
         timeout: For services to be there and for answers [s of wall time].
-        retries: How often calls that break off are made again.
+        retries: How often calls that break off are made again; steps and forces never are,
+            and models are neither spawned nor deleted twice.
 
     Raises:
         MasterUnreachableError: There is no master.
@@ -92,7 +76,7 @@ class Gazebo:
         Raises:
             ClientError: The world is not paused, or this is no Gazelle.
         """
-        answer = self._caller.demand("/gazelle/step", "gazelle_msgs/Step", steps=steps)
+        answer = self._caller.demand_once("/gazelle/step", "gazelle_msgs/Step", steps=steps)
         return float(answer.time.to_sec())
 
     @property
@@ -107,96 +91,6 @@ class Gazebo:
 
     def _world(self) -> Any:
         return self._caller.demand("get_world_properties", "gazebo_msgs/GetWorldProperties")
-
-    # -- physics -----------------------------------------------------------------------------
-
-    @property
-    def physics(self) -> PhysicsSettings:
-        """How the physics runs."""
-        found = self._caller.demand("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
-        gravity = (found.gravity.x, found.gravity.y, found.gravity.z)
-        return PhysicsSettings(
-            found.time_step, found.max_update_rate, gravity, found.pause, found.ode_config
-        )
-
-    def set_physics(
-        self,
-        *,
-        time_step: float | None = None,
-        max_update_rate: float | None = None,
-        gravity: Vector | None = None,
-        **ode: Any,
-    ) -> None:
-        """Change how the physics runs; what is None stays.
-
-        Args:
-            time_step: [s].
-            max_update_rate: [Hz]; 0 for as fast as possible.
-            gravity: [m/s²].
-            ode: Fields of ``gazebo_msgs/ODEPhysics``, such as ``sor_pgs_iters=100``.
-
-        Raises:
-            ClientError: There is no such field, or Gazebo refuses.
-        """
-        now = self.physics
-        for name, value in ode.items():
-            if name not in now.ode.__slots__:
-                raise ClientError(f"ODEPhysics has no field '{name}'")
-            setattr(now.ode, name, value)
-        x, y, z = gravity or now.gravity
-        self._caller.demand(
-            "set_physics_properties",
-            "gazebo_msgs/SetPhysicsProperties",
-            time_step=now.time_step if time_step is None else time_step,
-            max_update_rate=now.max_update_rate if max_update_rate is None else max_update_rate,
-            gravity=vector(x, y, z),
-            ode_config=now.ode,
-        )
-
-    @property
-    def real_time_factor(self) -> float:
-        """Simulated seconds a wall second to aim at; 0 for as many as possible."""
-        now = self.physics
-        return now.max_update_rate * now.time_step
-
-    @real_time_factor.setter
-    def real_time_factor(self, value: float) -> None:
-        self.set_physics(max_update_rate=value / self.physics.time_step)
-
-    @property
-    def time_step(self) -> float:
-        """Between two steps of the physics [s]."""
-        return self.physics.time_step
-
-    @time_step.setter
-    def time_step(self, value: float) -> None:
-        self.set_physics(time_step=value)
-
-    @property
-    def gravity(self) -> Vector:
-        """[m/s²]."""
-        return self.physics.gravity
-
-    @gravity.setter
-    def gravity(self, value: Vector) -> None:
-        self.set_physics(gravity=value)
-
-    def set_default_physics(self) -> None:
-        """What an empty world of Gazebo begins with: 1 ms steps in real time, 9.8 m/s² down."""
-        self.set_physics(
-            time_step=0.001,
-            max_update_rate=1000.0,
-            gravity=(0.0, 0.0, -9.8),
-            auto_disable_bodies=False,
-            sor_pgs_precon_iters=0,
-            sor_pgs_iters=50,
-            sor_pgs_w=1.3,
-            cfm=0.0,
-            erp=0.2,
-            contact_surface_layer=0.001,
-            contact_max_correcting_vel=100.0,
-            max_contacts=20,
-        )
 
     # -- models ------------------------------------------------------------------------------
 
@@ -269,7 +163,8 @@ class Gazebo:
         frame: str = "world",
         namespace: str = "/",
     ) -> None:
-        self._caller.demand(
+        known = name in self.models
+        answer, repeated = self._caller.call_again(
             service,
             "gazebo_msgs/SpawnModel",
             model_name=name,
@@ -278,6 +173,10 @@ class Gazebo:
             initial_pose=pose_message(position, rpy),
             reference_frame=frame,
         )
+        # An answer that got lost may have been a yes: then what is there now is ours.
+        if repeated and not known and answer.status_message == _TAKEN:
+            return
+        self._caller.accept(service, answer)
 
     def delete(self, name: str) -> None:
         """Take a model away.
@@ -285,7 +184,12 @@ class Gazebo:
         Raises:
             ClientError: There is none of that name.
         """
-        self._caller.demand("delete_model", "gazebo_msgs/DeleteModel", model_name=name)
+        known = name in self.models
+        answer, repeated = self._caller.call_again(
+            "delete_model", "gazebo_msgs/DeleteModel", model_name=name
+        )
+        if not (repeated and known and answer.status_message == _GONE):
+            self._caller.accept("delete_model", answer)
 
     def model_state(self, name: str, frame: str = "world") -> ModelState:
         """Where a model is and how it moves, seen from a frame.
@@ -352,7 +256,7 @@ class Gazebo:
         """
         wrench: Any = load_message("geometry_msgs/Wrench")()
         wrench.force, wrench.torque = vector(*force), vector(*torque)
-        self._caller.demand(
+        self._caller.demand_once(
             "apply_body_wrench",
             "gazebo_msgs/ApplyBodyWrench",
             body_name=link,
@@ -372,7 +276,7 @@ class Gazebo:
         Raises:
             ClientError: There is no such joint.
         """
-        self._caller.demand(
+        self._caller.demand_once(
             "apply_joint_effort",
             "gazebo_msgs/ApplyJointEffort",
             joint_name=joint,
@@ -425,8 +329,3 @@ class Gazebo:
         trace: TracebackType | None,
     ) -> None:
         self.close()
-
-
-def vector(x: float, y: float, z: float) -> Any:
-    """A ``geometry_msgs/Vector3``."""
-    return load_message("geometry_msgs/Vector3")(x, y, z)

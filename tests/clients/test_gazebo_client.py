@@ -1,6 +1,9 @@
 """The client of Gazebo's services."""
 
+import contextlib
+
 import pytest
+from flaky_service import FlakyService
 from ros.graph import until
 
 from gazelle import assets
@@ -123,3 +126,53 @@ def test_waiting_for_a_model_ends(graph):
     graph.gazebo.wait_for_model("r1")
     with pytest.raises(ClientError, match="not there after"):
         graph.gazebo.wait_for_model("nobody", timeout=0.2)
+
+
+@pytest.fixture
+def flaky(graph):
+    """Makes a service lose its first answers."""
+    with contextlib.ExitStack() as stack:
+
+        def begin(name, lost=1):
+            service = FlakyService(graph.gazebo.node, f"/gazebo/{name}", lost)
+            return stack.enter_context(contextlib.closing(service))
+
+        yield begin
+
+
+def test_a_spawn_whose_answer_got_lost_is_a_spawn(graph, flaky):
+    service = flaky("spawn_sdf_model", lost=2)
+    graph.gazebo.spawn_sdf("ball", BALL, position=(1.0, 0.0, 2.0))
+    assert service.calls == 3
+    assert graph.gazebo.models.count("ball") == 1
+    assert graph.gazebo.model_state("ball").position == pytest.approx((1.0, 0.0, 2.0))
+
+
+def test_a_name_that_was_taken_before_is_taken_however_often_one_asks(graph, flaky):
+    graph.gazebo.spawn_sdf("ball", BALL)
+    flaky("spawn_sdf_model")
+    with pytest.raises(ClientError, match="already exists"):
+        graph.gazebo.spawn_sdf("ball", BALL, position=(1.0, 0.0, 2.0))
+    assert graph.gazebo.model_state("ball").position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
+
+
+def test_a_spawn_fails_when_all_answers_get_lost(graph, flaky):
+    service = flaky("spawn_sdf_model", lost=9)
+    with pytest.raises(ClientError, match="spawn_sdf_model"):
+        graph.gazebo.spawn_sdf("ball", BALL)
+    assert service.calls == 3
+
+
+def test_a_delete_whose_answer_got_lost_is_a_delete(graph, flaky):
+    service = flaky("delete_model")
+    graph.gazebo.delete("r1")
+    assert (service.calls, "r1" in graph.gazebo.models) == (2, False)
+    with pytest.raises(ClientError, match="model does not exist"):
+        graph.gazebo.delete("r1")
+
+
+def test_forces_are_not_applied_twice(graph, flaky):
+    service = flaky("apply_body_wrench")
+    with pytest.raises(ClientError, match="apply_body_wrench"):
+        graph.gazebo.apply_wrench("r1::base_footprint", (1.0, 0.0, 0.0), duration=0.1)
+    assert service.calls == 1
