@@ -81,7 +81,8 @@ class Layout:
         statics: All that does not drive.
         fans: Of each scanner.
         mounts: Of each scanner, one a sensor.
-        noises: Of each scanner: constant [m] and proportional standard deviation of each sensor.
+        noises: Of each scanner: constant [m], proportional and angular [rad] standard deviation
+            of each sensor.
     """
 
     bodies: list[Body] = field(default_factory=list)
@@ -89,7 +90,7 @@ class Layout:
     statics: Table | None = None
     fans: list[Fan] = field(default_factory=list)
     mounts: list[list[Mount]] = field(default_factory=list)
-    noises: list[list[tuple[float, float]]] = field(default_factory=list)
+    noises: list[list[tuple[float, float, float]]] = field(default_factory=list)
 
 
 def layout_of(world: StageWorld) -> Layout:
@@ -111,7 +112,7 @@ class _View:
 
     scanner: int
     place: tuple[float, float, float, float]
-    noise: tuple[float, float]
+    noise: tuple[float, float, float]
 
 
 @dataclass(slots=True)
@@ -190,7 +191,7 @@ class _Maker:
             self.layout.noises.append([])
         at = placed.pose.then(StagePose(*sensor.pose))
         place = (at.x, at.y, at.yaw, at.z + sensor.size[2] / 2.0)
-        return _View(which, place, (sensor.noise[0], sensor.noise[1]))
+        return _View(which, place, sensor.noise)
 
 
 def _all_parts(own: list[PlacedStageModel]) -> Iterator[Part]:
@@ -203,13 +204,6 @@ def _warn_of_riders(carried: list[PlacedStageModel]) -> None:
         if placed.model.position is not None:
             warnings.warn(
                 f"'{placed.name}' is mounted on a robot, and does not drive by itself",
-                SimulationWarning,
-                stacklevel=2,
-            )
-        device = placed.model.device
-        if isinstance(device, StageRanger) and any(s.noise[2] for s in device.sensors):
-            warnings.warn(
-                f"noise of the angles of '{placed.name}' is left out",
                 SimulationWarning,
                 stacklevel=2,
             )

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.streams import Stream
@@ -22,10 +23,12 @@ class RangeNoise:
     Attributes:
         constant: Standard deviation [m], shape (sensors,).
         share: Standard deviation as a share of the distance, shape (sensors,).
+        angle: Standard deviation of the angle of each beam [rad], shape (sensors,).
     """
 
     constant: Floats
     share: Floats
+    angle: Floats
 
 
 class Eyes:
@@ -53,7 +56,8 @@ class Eyes:
         self.fan = fan
         self._fleet, self._mounts, self._noise = fleet, mounts, noise
         self._noisy = bool(noise.constant.any() or noise.share.any())
-        self._scanner = Scanner(fleet, fan, mounts)
+        self._seed = seed
+        self._scanner = self._make(named=False)
         self._named = False
         self._shape = (fleet.nworld, len(mounts), fan.count)
         self._stream = Stream(seed, name, fleet.nworld)
@@ -79,7 +83,9 @@ class Eyes:
             world: Which world.
         """
         if not self._named:
-            self._scanner = Scanner(self._fleet, self.fan, self._mounts, named=True)
+            tick = self._scanner.tick
+            self._scanner = self._make(named=True)
+            self._scanner.tick = tick - 1  # the scan that was made already once more
             self._scanner.scan()
             self._named = True
         names = np.abs(self._scanner.names[world * self._shape[1] + sensor])
@@ -95,3 +101,10 @@ class Eyes:
     def rewind(self) -> None:
         """Draw the same random numbers again."""
         self._stream.rewind()
+        self._scanner.tick = 0
+
+    def _make(self, *, named: bool) -> Scanner:
+        fleet, fan, mounts, angle = self._fleet, self.fan, self._mounts, self._noise.angle
+        if angle.any():
+            return AstrayScanner(fleet, fan, mounts, angle, named=named, seed=self._seed)
+        return Scanner(fleet, fan, mounts, named=named)

@@ -94,7 +94,7 @@ class StageSimulation:
         self.paused = self.stage.paused
         self._fans, self._mounts = layout.fans, layout.mounts
         self.noise = [
-            RangeNoise(*np.array(each, np.float64).reshape(-1, 2).T.copy())
+            RangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
             for each in layout.noises
         ]
         self._eyes: dict[int, Eyes] = {}
