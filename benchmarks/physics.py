@@ -32,6 +32,7 @@ from gazelle.description import (
     Pose,
     Surface,
 )
+from gazelle.engines.mujoco.compiler import Recipe, compile_world
 
 STEP = 0.001
 WINDOWS = 5
@@ -196,7 +197,35 @@ def boxes(seconds: float) -> None:
     for name, column in zip(("that slides", "that sleeps"), y.T, strict=True):
         slope, offset = np.polyfit(x, column, 1, w=1.0 / column)
         off = np.abs((slope * x + offset) / column - 1.0).max()
-        print(f"a box {name}: {slope:.2f} us a step; a line fits within {off:.0%}")
+        print(f"a box {name}: {slope:.3f} us a step; a line fits within {off:.0%}")
+    asleep_in_mujoco(seconds)
+
+
+def asleep_in_mujoco(seconds: float) -> None:
+    """What a sleeping box costs in bare MuJoCo, and in which of its parts."""
+    count = COUNTS[-1]
+    model = compile_world(Recipe(grid(count, moving=False), STEP)).model
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=600)
+    parts = {
+        "mj_step": mujoco.mj_step,
+        "collisions": mujoco.mj_collision,
+        "kinematics": mujoco.mj_kinematics,
+        "constraints": mujoco.mj_makeConstraint,
+        "centres of mass": mujoco.mj_comPos,
+    }
+
+    def part(function: Callable[[mujoco.MjModel, mujoco.MjData], None]) -> Callable[[], float]:
+        def work() -> float:
+            for _ in range(20):
+                function(model, data)
+            return 20.0 * count
+
+        return work
+
+    found = on_one_core([part(function) for function in parts.values()], seconds)
+    costs = [f"{name} {1e6 / rate:.3f}" for name, rate in zip(parts, found, strict=True)]
+    print(f"a box that sleeps, of {count}, in bare MuJoCo, us: {', '.join(costs)}")
 
 
 def stepping(count: int, *, moving: bool) -> Callable[[], float]:
