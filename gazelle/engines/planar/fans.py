@@ -15,6 +15,7 @@ from gazelle.engines.planar import kernels_noise
 from gazelle.engines.planar.compiled import Function
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kernels_front import MANY, scan_crowded
+from gazelle.engines.planar.kernels_march import LANES, SIDE_BY_SIDE
 from gazelle.engines.planar.kernels_scan import scan
 from gazelle.engines.planar.kernels_walk import FEW_BEAMS, scan_singly
 from gazelle.errors import EngineError
@@ -92,9 +93,10 @@ class _Scratch:
     beams: Floats
     view: Floats
     stamp: NDArray[np.int64]
-    spans: NDArray[np.int64]
+    begins: Floats
     walls: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
     others: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
+    going: Floats = field(default_factory=lambda: np.zeros(LANES))
 
 
 class Scanner:
@@ -141,17 +143,20 @@ class Scanner:
         beams = np.zeros((4, fan.count))
         beams[0], beams[1] = np.cos(fan.angles), np.sin(fan.angles)
         self._outline = _outline(fan)
-        statics, rows = len(fleet.scene.table.rows), int(fleet.scene.grid[4])
+        statics = len(fleet.scene.table.rows)
         self._scratch = [
             _Scratch(
                 beams.copy(),
                 np.zeros_like(self._outline),
                 np.zeros(statics + 1, np.int64),
-                np.zeros((rows, 2), np.int64),
+                np.zeros(-(-fan.count // SIDE_BY_SIDE)),
             )
             for _ in range(fleet.crew.size)
         ]
         self._look = _look_of(fan, fleet)
+        self._middles = _middles_of(fan)
+        if self._look is not scan:
+            self._clearing = fleet.scene.clearing(solid=fan.begin == 0.0)
         total = fleet.nworld * len(mounts)
         self._sensors = np.zeros((total, c.SENSOR))
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
@@ -179,7 +184,7 @@ class Scanner:
 
         def work(first: int, last: int, part: int) -> None:
             own = self.arguments(part)
-            extra = (self._scratch[part].spans,) if self._look is scan_crowded else ()
+            extra = () if self._look is scan else self._ahead(part)
             self._look(
                 first, last, own[0], owners, *own[2:5], self.fleet.widest, *self._looks(),
                 *own[5:], *extra, ranges, self.names,
@@ -233,6 +238,19 @@ class Scanner:
             fleet.rows, fleet.head, fleet.follow,
         )  # fmt: skip
 
+    def _ahead(self, part: int) -> tuple[Any, ...]:
+        """Where statics are, for kernels in which beams go through clear space."""
+        there, own = self._clearing, self._scratch[part]
+        return (
+            there.fine,
+            there.start,
+            there.items,
+            there.clear,
+            own.going,
+            own.begins,
+            self._middles,
+        )
+
     def arguments(self, part: int) -> tuple[Any, ...]:
         """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
         own = self._scratch[part]
@@ -258,6 +276,13 @@ def _look_of(fan: Fan, fleet: Fleet) -> Function:
     if scene.cells > 1 and fan.count <= FEW_BEAMS:
         return scan_singly
     return scan_crowded if scene.cells > 1 and len(scene.items) > MANY else scan
+
+
+def _middles_of(fan: Fan) -> Floats:
+    """Directions of the middles of bundles of beams, shape (2, n)."""
+    first = np.arange(0, fan.count, SIDE_BY_SIDE)
+    angles = fan.start + fan.step * (first + 0.5 * (SIDE_BY_SIDE - 1))
+    return np.stack((np.cos(angles), np.sin(angles)))
 
 
 def _outline(fan: Fan) -> Floats:

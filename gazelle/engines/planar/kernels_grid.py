@@ -47,7 +47,7 @@ def stretch(
 
 
 @kernel
-def list_statics(statics: Floats, grid: Floats, start: Cells, items: Cells) -> None:
+def list_statics(statics: Floats, grid: Floats, start: Cells, items: Cells, margin: float) -> None:
     """Count the statics of each cell into ``start``, or, once summed up, list them.
 
     Args:
@@ -55,6 +55,7 @@ def list_statics(statics: Floats, grid: Floats, start: Cells, items: Cells) -> N
         grid: As above.
         start: Shape (cells + 1,); where there are ``items``, the next free place of each cell.
         items: Indices of statics; of length 0 to count.
+        margin: By which cells are larger than they are [m].
     """
     columns, side = int(grid[3]), grid[2]
     for s in range(statics.shape[0]):
@@ -65,18 +66,18 @@ def list_statics(statics: Floats, grid: Floats, start: Cells, items: Cells) -> N
             radius = x1
             x0, x1 = x0 - radius, x0 + radius
             y0, y1 = y0 - radius, y0 + radius
-        first = place_in(min(y0, y1) - 1e-9, grid[1], side, grid[4])
-        last = place_in(max(y0, y1) + 1e-9, grid[1], side, grid[4])
+        first = place_in(min(y0, y1) - margin, grid[1], side, grid[4])
+        last = place_in(max(y0, y1) + margin, grid[1], side, grid[4])
         for r in range(first, last + 1):
             lo, hi = min(x0, x1), max(x0, x1)
             if not circle and first < last:
-                low = grid[1] + r * side - 1e-9 if r > 0 else -math.inf
-                high = grid[1] + (r + 1) * side + 1e-9 if r < grid[4] - 1 else math.inf
+                low = grid[1] + r * side - margin if r > 0 else -math.inf
+                high = grid[1] + (r + 1) * side + margin if r < grid[4] - 1 else math.inf
                 lo, hi = stretch(low, high, y0, y1, x0, x1)
             if hi < lo:
                 continue
-            left = place_in(lo - 1e-9, grid[0], side, grid[3])
-            right = place_in(hi + 1e-9, grid[0], side, grid[3])
+            left = place_in(lo - margin, grid[0], side, grid[3])
+            right = place_in(hi + margin, grid[0], side, grid[3])
             for c in range(left, right + 1):
                 cell = r * columns + c
                 if items.size > 0:

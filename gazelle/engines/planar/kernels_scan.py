@@ -38,10 +38,10 @@ from gazelle.engines.planar.tables import Cells, Floats, Indices
 
 
 @part
-def put_view(view: Floats, outline: Floats, sensors: Floats, m: int) -> None:
-    """Corners of the convex outline of all that a sensor can see, in the world."""
+def put_view(view: Floats, outline: Floats, sensors: Floats, m: int, share: float) -> None:
+    """Corners of the convex outline of all that a sensor sees up to a share of its reach."""
     for k in range(outline.shape[0]):
-        x, y = outline[k, 0], outline[k, 1]
+        x, y = share * outline[k, 0], share * outline[k, 1]
         view[k, 0] = sensors[m, S_X] + sensors[m, S_COS] * x - sensors[m, S_SIN] * y
         view[k, 1] = sensors[m, S_Y] + sensors[m, S_SIN] * x + sensors[m, S_COS] * y
 
@@ -176,7 +176,7 @@ def scan(
         me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
         clear(beams, 1.0 / fan[REACH])
         if grid[3] * grid[4] > 1.0:
-            put_view(view, outline, sensors, m)
+            put_view(view, outline, sensors, m, 1.0)
         draw_view(
             beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
             kinds, looks, pose, head, follow, world, me, walls, others, False,

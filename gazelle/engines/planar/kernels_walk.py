@@ -1,4 +1,8 @@
-"""Follow single beams through the grid, cell by cell, until they meet something."""
+"""Scan with fans of few beams, as sonars are: the beams of many sensors side by side.
+
+Statics are met in the grid of clear space. What else there is near a body is looked up once for
+all its sensors.
+"""
 
 # ruff: noqa: ARG001  # the arguments are those of all scanning kernels
 
@@ -6,8 +10,11 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from gazelle.engines.planar.columns import (
     CIRCLE,
+    COS,
     FAMILY,
     FIRST_LOOK,
     GLOW,
@@ -17,147 +24,170 @@ from gazelle.engines.planar.columns import (
     LOW,
     NAMES,
     NEAR,
+    RADIUS,
     REACH,
-    S_COS,
-    S_SIN,
     S_X,
     S_Y,
     S_Z,
+    SIN,
     X0,
     X1,
     Y0,
     Y1,
     Z,
 )
+from gazelle.engines.planar.columns import X as BODY_X
+from gazelle.engines.planar.columns import Y as BODY_Y
 from gazelle.engines.planar.compiled import inner, kernel, part
-from gazelle.engines.planar.kernels_bodies import draw_looks, find_body
-from gazelle.engines.planar.kernels_fan import draw_circle, draw_segment
 from gazelle.engines.planar.kernels_grid import place_in
-from gazelle.engines.planar.kernels_scan import aim, clear, report
-from gazelle.engines.planar.tables import Cells, Floats, Indices
+from gazelle.engines.planar.kernels_march import (
+    BEST,
+    DX,
+    DY,
+    HEIGHT,
+    MOST_LANES,
+    NAME,
+    X,
+    Y,
+    is_clear,
+    meet_disc,
+    meet_segment,
+    meet_statics,
+    put_lanes,
+)
+from gazelle.engines.planar.kernels_scan import aim, clear, draw_view, put_view, report
+from gazelle.engines.planar.tables import Cells, Floats, Indices, Marks
 
-FEW_BEAMS = 8  # of a fan that are followed one by one
-MARGIN = 1e-6  # by which the grid is taken to be larger than it is [m]
-
-
-@inner
-def meet_static(
-    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, statics: Floats, p: int
-) -> None:
-    """Draw a static primitive into beam k."""
-    height = sensors[m, S_Z]
-    if statics[p, GLOW] < 0.0 or height < statics[p, LOW] or height > statics[p, HIGH]:
-        return
-    c, s = sensors[m, S_COS], sensors[m, S_SIN]
-    ax, ay = statics[p, X0] - sensors[m, S_X], statics[p, Y0] - sensors[m, S_Y]
-    x0, y0 = c * ax + s * ay, c * ay - s * ax
-    name = p + 1.0
-    if (int(statics[p, KIND]) & int(CIRCLE)) != 0:
-        square = statics[p, X1] * statics[p, X1]
-        cross = x0 * x0 + y0 * y0 - square
-        if cross != 0.0:
-            draw_circle(beams, k, k + 1, x0, y0, square, 1.0 / cross, fan[NEAR], name)
-        return
-    bx, by = statics[p, X1] - sensors[m, S_X], statics[p, Y1] - sensors[m, S_Y]
-    x1, y1 = c * bx + s * by, c * by - s * bx
-    dx, dy = beams[0, k], beams[1, k]
-    cross = x0 * y1 - x1 * y0
-    if cross != 0.0 and (dx * y0 - dy * x0) * (dx * y1 - dy * x1) <= 0.0:
-        seen = name if cross < 0.0 else -name
-        draw_segment(beams, k, k + 1, x0, y0, x1, y1, 1.0 / cross, fan[NEAR], seen)
-
-
-@part
-def enters(place: float, way: float, low: float, high: float) -> tuple[float, float]:
-    """Between which distances a coordinate that changes by ``way`` is within bounds."""
-    if way == 0.0:
-        return (-math.inf, math.inf) if low <= place <= high else (math.inf, -math.inf)
-    a, b = (low - place) / way, (high - place) / way
-    return min(a, b), max(a, b)
-
-
-@part
-def follow_beam(
-    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, grid: Floats, statics: Floats,
-    start: Cells, items: Cells, begin: float,
-) -> None:  # fmt: skip
-    """Meet the statics along beam k; those nearer than ``begin`` may be left out."""
-    c, s = sensors[m, S_COS], sensors[m, S_SIN]
-    dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
-    x, y, side = sensors[m, S_X], sensors[m, S_Y], grid[2]
-    columns, rows = int(grid[3]), int(grid[4])
-    in_x, out_x = enters(x, dx, grid[0] - MARGIN, grid[0] + columns * side + MARGIN)
-    in_y, out_y = enters(y, dy, grid[1] - MARGIN, grid[1] + rows * side + MARGIN)
-    t = max(in_x, in_y, begin)
-    if t > min(out_x, out_y, fan[REACH]):
-        return
-    column = place_in(x + t * dx, grid[0], side, grid[3])
-    row = place_in(y + t * dy, grid[1], side, grid[4])
-    to_x, to_y = 1 if dx > 0.0 else 0, 1 if dy > 0.0 else 0
-    over_x, over_y = 1.0 / dx if dx != 0.0 else math.inf, 1.0 / dy if dy != 0.0 else math.inf
-    while 0 <= column < columns and 0 <= row < rows:
-        cell = row * columns + column
-        for i in range(start[cell], start[cell + 1]):
-            meet_static(beams, k, fan, sensors, m, statics, int(items[i]))
-        t_x = (grid[0] + (column + to_x) * side - x) * over_x if dx != 0.0 else math.inf
-        t_y = (grid[1] + (row + to_y) * side - y) * over_y if dy != 0.0 else math.inf
-        if min(t_x, t_y) * beams[2, k] >= 1.0:
-            return
-        if t_x <= t_y:
-            column += 2 * to_x - 1
-        else:
-            row += 2 * to_y - 1
-
-
-@inner
-def meet_bodies(
-    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, dx: float, dy: float,
-    grid: Floats, widest: float, kinds: Floats, looks: Floats, pose: Floats, head: Cells,
-    follow: Cells, world: int, me: float, others: Floats,
-) -> None:  # fmt: skip
-    """Meet the bodies along beam k up to what it met, but for those of the family ``me``."""
-    x, y, side = sensors[m, S_X], sensors[m, S_Y], grid[2]
-    x1, y1 = x + dx / beams[2, k], y + dy / beams[2, k]
-    first = place_in(min(y, y1) - widest, grid[1], side, grid[4])
-    last = place_in(max(y, y1) + widest, grid[1], side, grid[4])
-    across = dx / dy if abs(dy) > MARGIN else 0.0
-    for row in range(first, last + 1):
-        left, right = min(x, x1), max(x, x1)
-        if first < last and abs(dy) > MARGIN:
-            low, high = grid[1] + row * side - widest, grid[1] + (row + 1) * side + widest
-            low = min(low, y, y1) if row == 0 else low
-            high = max(high, y, y1) if row == grid[4] - 1 else high
-            enter, leave = x + (low - y) * across, x + (high - y) * across
-            left, right = max(left, min(enter, leave)), min(right, max(enter, leave))
-        begin = row * int(grid[3]) + place_in(left - widest, grid[0], side, grid[3])
-        end = row * int(grid[3]) + place_in(right + widest, grid[0], side, grid[3])
-        for cell in range(begin, end + 1):
-            b = int(head[world, cell])
-            while b >= 0:
-                kind = b - world * kinds.shape[0]
-                if kinds[kind, FAMILY] != me:
-                    meet_body(beams, k, fan, sensors, m, kinds, looks, pose, kind, b, others)
-                b = int(follow[b])
+FEW_BEAMS = 8  # of a fan whose beams are followed one by one
 
 
 @inner
 def meet_body(
-    beams: Floats, k: int, fan: Floats, sensors: Floats, m: int, kinds: Floats, looks: Floats,
-    pose: Floats, kind: int, b: int, others: Floats,
+    lanes: Floats, i: int, near: float, kinds: Floats, looks: Floats, pose: Floats, k: int, b: int
+) -> None:
+    """Let lane i meet body b, of kind k."""
+    c, s = pose[b, COS], pose[b, SIN]
+    ox, oy = lanes[X + i] - pose[b, BODY_X], lanes[Y + i] - pose[b, BODY_Y]
+    x, y = c * ox + s * oy, c * oy - s * ox
+    dx, dy = c * lanes[DX + i] + s * lanes[DY + i], c * lanes[DY + i] - s * lanes[DX + i]
+    height = lanes[HEIGHT + i] - pose[b, Z]
+    for p in range(int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK])):
+        if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
+            continue
+        name = NAMES * (b + 1.0) + p
+        x0, y0 = looks[p, X0] - x, looks[p, Y0] - y
+        if (int(looks[p, KIND]) & int(CIRCLE)) != 0:
+            meet_disc(lanes, i, dx, dy, x0, y0, looks[p, X1], near, name)
+        else:
+            x1, y1 = looks[p, X1] - x, looks[p, Y1] - y
+            c0, c1 = dx * y0 - dy * x0, dx * y1 - dy * x1
+            meet_segment(lanes, i, c0, c1, x0 * y1 - x1 * y0, near, name)
+
+
+@part
+def meet_some(
+    lanes: Floats, first: int, last: int, near: float, found: Floats, n: int, kinds: Floats,
+    looks: Floats, pose: Floats, world: int,
 ) -> None:  # fmt: skip
-    """Draw body b into beam k."""
-    if find_body(others, 0, fan, sensors, m, kinds, pose, kind, b) == 0:
-        return
-    x, y, radius = others[0, 0], others[1, 0], others[4, 0]
-    aside = beams[0, k] * y - beams[1, k] * x
-    if aside * aside > radius * radius:
-        return
-    nearest = math.sqrt(x * x + y * y) - radius
-    away = nearest > 0.0 and nearest * fan[NEAR] >= 1.0
-    draw_looks(
-        beams, k, k + 1, fan, looks, int(kinds[kind, FIRST_LOOK]), int(kinds[kind, LAST_LOOK]),
-        sensors[m, S_Z] - pose[b, Z], others, 0, away, NAMES * (b + 1.0),
-    )  # fmt: skip
+    """Let lanes first to last meet the bodies found, each as a disc at first."""
+    for i in range(first, last):
+        x, y, dx, dy = lanes[X + i], lanes[Y + i], lanes[DX + i], lanes[DY + i]
+        for j in range(np.uint64(n)):
+            ox, oy, radius = found[0, j] - x, found[1, j] - y, found[2, j]
+            along, aside = dx * ox + dy * oy, dx * oy - dy * ox
+            passed = (aside * aside <= radius * radius) & (along >= -radius)
+            found[4, j] = along - radius if passed else math.inf
+        for j in range(n):
+            if found[4, j] * lanes[BEST + i] < 1.0:
+                b = int(found[3, j])
+                k = b - world * kinds.shape[0]
+                meet_body(lanes, i, near, kinds, looks, pose, k, b)
+
+
+@inner
+def bounds_of(lanes: Floats, first: int, last: int) -> tuple[float, float, float, float]:
+    """Left, right, lower and upper bound of where lanes first to last have got."""
+    left, right, low, high = math.inf, -math.inf, math.inf, -math.inf
+    for i in range(first, last):
+        x, y = lanes[X + i], lanes[Y + i]
+        x1, y1 = x + lanes[DX + i] / lanes[BEST + i], y + lanes[DY + i] / lanes[BEST + i]
+        left, right = min(left, x, x1), max(right, x, x1)
+        low, high = min(low, y, y1), max(high, y, y1)
+    return left, right, low, high
+
+
+@part
+def meet_bodies(
+    lanes: Floats, first: int, last: int, near: float, found: Floats, grid: Floats, widest: float,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
+) -> None:  # fmt: skip
+    """Let lanes first to last, all of one body, meet others up to what they met before."""
+    left, right, low, high = bounds_of(lanes, first, last)
+    begin = place_in(left - widest, grid[0], grid[2], grid[3])
+    end = place_in(right + widest, grid[0], grid[2], grid[3])
+    bottom = place_in(low - widest, grid[1], grid[2], grid[4])
+    top = place_in(high + widest, grid[1], grid[2], grid[4])
+    n = 0
+    for row in range(bottom, top + 1):
+        base = row * int(grid[3])
+        for cell in range(base + begin, base + end + 1):
+            b = int(head[world, cell])
+            while b >= 0:
+                k = b - world * kinds.shape[0]
+                if kinds[k, FAMILY] != me:
+                    found[0, n], found[1, n] = pose[b, BODY_X], pose[b, BODY_Y]
+                    found[2, n], found[3, n] = kinds[k, RADIUS], float(b)
+                    n += 1
+                    if n == found.shape[1]:
+                        meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
+                        n = 0
+                b = int(follow[b])
+    meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
+
+
+@inner
+def end_of(first: int, last: int, most: int, owners: Indices) -> int:
+    """Up to which sensor all go at once: not more than ``most``, a body's together if they can."""
+    end = min(last, first + most)
+    if end < last:
+        whole = end
+        while whole > first and owners[whole] == owners[whole - 1]:
+            whole -= 1
+        end = whole if whole > first else end
+    return end
+
+
+@part
+def meet_others(
+    lanes: Floats, first: int, last: int, beams: int, near: float, owners: Indices, found: Floats,
+    grid: Floats, widest: float, kinds: Floats, looks: Floats, pose: Floats, head: Cells,
+    follow: Cells,
+) -> None:  # fmt: skip
+    """Let the lanes of sensors first to last, some beams each, meet bodies."""
+    begin = first
+    while begin < last:
+        end = begin + 1
+        while end < last and owners[end] == owners[begin]:
+            end += 1
+        world = owners[begin] // kinds.shape[0]
+        me = kinds[owners[begin] - world * kinds.shape[0], FAMILY]
+        meet_bodies(
+            lanes, (begin - first) * beams, (end - first) * beams, near, found, grid, widest,
+            kinds, looks, pose, head, follow, world, me,
+        )  # fmt: skip
+        begin = end
+
+
+@inner
+def report_lanes(
+    lanes: Floats, first: int, beams: int, m: int, reach: float, ranges: Floats, names: Floats
+) -> None:
+    """Write down what the lanes of sensor m met."""
+    for k in range(beams):
+        best = lanes[BEST + first + k]
+        ranges[m, k] = 1.0 / best if best > 1.0 / reach else reach
+        if names.shape[0] > 0:
+            names[m, k] = lanes[NAME + first + k]
 
 
 @kernel
@@ -165,21 +195,36 @@ def scan_singly(
     first: int, last: int, sensors: Floats, owners: Indices, mounts: Floats, fan: Floats,
     outline: Floats, widest: float, grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats,
     kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, beams: Floats,
-    view: Floats, stamp: Indices, walls: Floats, others: Floats, ranges: Floats,
+    view: Floats, stamp: Indices, walls: Floats, others: Floats, fine: Floats, first_item: Cells,
+    fine_items: Cells, free: Marks, going: Floats, begins: Floats, middles: Floats, ranges: Floats,
     names: Floats,
 ) -> None:  # fmt: skip
     """What ``kernels_scan.scan`` does, faster for fans with few beams in a grid."""
-    for m in range(first, last):
-        aim(sensors, m, owners, mounts, pose)
-        world = owners[m] // kinds.shape[0]
-        me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
-        clear(beams, 1.0 / fan[REACH])
-        c, s = sensors[m, S_COS], sensors[m, S_SIN]
-        for k in range(beams.shape[1]):
-            dx, dy = c * beams[0, k] - s * beams[1, k], s * beams[0, k] + c * beams[1, k]
-            follow_beam(beams, k, fan, sensors, m, grid, statics, start, items, 0.0)
-            meet_bodies(
-                beams, k, fan, sensors, m, dx, dy, grid, widest, kinds, looks, pose, head,
-                follow, world, me, others,
+    count = beams.shape[1]
+    begin = first
+    while begin < last:
+        end = end_of(begin, last, MOST_LANES // count, owners)
+        for m in range(begin, end):
+            aim(sensors, m, owners, mounts, pose)
+            put_lanes(going, (m - begin) * count, beams, 0, count, fine, sensors, m, fan[REACH])
+        meet_statics(
+            going, (end - begin) * count, fan[NEAR], statics, fine, first_item, fine_items, free
+        )
+        meet_others(
+            going, begin, end, count, fan[NEAR], owners, others, grid, widest, kinds, looks, pose,
+            head, follow,
+        )  # fmt: skip
+        for m in range(begin, end):
+            if is_clear(fine, free, sensors[m, S_X], sensors[m, S_Y], sensors[m, S_Z]):
+                report_lanes(going, (m - begin) * count, count, m, fan[REACH], ranges, names)
+                continue
+            world = owners[m] // kinds.shape[0]
+            me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
+            clear(beams, 1.0 / fan[REACH])
+            put_view(view, outline, sensors, m, 1.0)
+            draw_view(
+                beams, fan, sensors, m, view, widest, grid, statics, start, items, lanes, stamp,
+                kinds, looks, pose, head, follow, world, me, walls, others, False,
             )  # fmt: skip
-        report(beams, m, fan[REACH], ranges, names)
+            report(beams, m, fan[REACH], ranges, names)
+        begin = end

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.kernels_grid import list_statics
+from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
 from gazelle.engines.planar.shapes import Part, Table, primitives_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 
 _FEW = 48  # primitives up to which all in one cell are drawn faster than they are looked for
+_MARGIN = 1e-9  # by which cells are larger than they are [m]
 _MOST_CELLS = 1 << 24  # of all worlds together
 
 
@@ -37,11 +38,23 @@ class Scene:
     start: Indices
     items: Indices
     lanes: Floats
+    _clearings: dict[bool, Clearing] = field(default_factory=dict, init=False)
 
     @property
     def cells(self) -> int:
         """Number of cells."""
         return len(self.start) - 1
+
+    def clearing(self, *, solid: bool) -> Clearing:
+        """Where beams can go on without a look; made when it is first asked for.
+
+        Args:
+            solid: Whether a bitmap's cells may be solid, as they are for beams that begin where
+                they start.
+        """
+        if solid not in self._clearings:
+            self._clearings[solid] = clearing_of(self.table, solid=solid)
+        return self._clearings[solid]
 
 
 def scene_of(
@@ -57,7 +70,7 @@ def scene_of(
         nworld: Worlds.
     """
     table = parts if isinstance(parts, Table) else primitives_of(parts)
-    corners = np.vstack((extent, _corners(table.rows)))
+    corners = np.vstack((extent, corners_of(table.rows)))
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = np.maximum(high - low, 1e-3)
     columns, rows = 1, 1
@@ -65,25 +78,8 @@ def scene_of(
         side = max(side, math.sqrt(width * height * nworld / _MOST_CELLS))
         columns, rows = math.ceil(width / side), math.ceil(height / side)
     grid = np.array([*low, side, columns, rows])
-    start = np.zeros(columns * rows + 1, np.int32)
-    nothing = np.zeros(0, np.int32)
-    list_statics(table.rows, grid, start, nothing)
-    counts = start[:-1].copy()
-    start[1:] = np.cumsum(counts)
-    start[0] = 0
-    items = np.zeros(int(start[-1]), np.int32)
-    if len(items):
-        list_statics(table.rows, grid, start[:-1].copy(), items)
+    start, items = listed(table.rows, grid, _MARGIN)
     return Scene(table, grid, start, items, _lanes_of(table.rows, columns * rows))
-
-
-def _corners(rows: Floats) -> Floats:
-    """Points that bound primitives, shape (n, 2)."""
-    circle = (rows[:, c.KIND].astype(int) & 1) == 1
-    radius = np.where(circle, rows[:, c.X1], 0.0)[:, None]
-    start, end = rows[:, [c.X0, c.Y0]], rows[:, [c.X1, c.Y1]]
-    end = np.where(circle[:, None], start, end)
-    return np.vstack((start - radius, start + radius, end))
 
 
 def _lanes_of(rows: Floats, cells: int) -> Floats:

@@ -53,16 +53,41 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
+class Raster:
+    """A bitmap that some primitives are the outline of.
+
+    Attributes:
+        cells: What is solid, the lowest row first.
+        low: Lower left corner in the bitmap's frame [m].
+        cell: Width and depth of a cell [m].
+        pose: x, y [m] and heading [rad] of the frame.
+        z: Lowest and highest height [m].
+        first: The first of its primitives.
+        last: The one after its last.
+    """
+
+    cells: NDArray[np.bool_]
+    low: Point
+    cell: Point
+    pose: tuple[float, float, float]
+    z: tuple[float, float]
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, slots=True)
 class Table:
     """Primitives that rays meet, and the tags of the parts they are of.
 
     Attributes:
         rows: Shape (n, PRIMITIVE).
         tags: Shape (n,).
+        raster: The largest bitmap among them, if there is one.
     """
 
     rows: Floats
     tags: NDArray[np.int64]
+    raster: Raster | None = None
 
 
 @dataclass(frozen=True, slots=True)

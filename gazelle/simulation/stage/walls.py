@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import PlacedStageModel, StageBitmap, StagePose
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.shapes import Part, Table, primitives_of
+from gazelle.engines.planar.shapes import Part, Raster, Table, primitives_of
 from gazelle.formats.terrain import rectangles
 
 Floats = NDArray[np.float64]
@@ -52,14 +52,27 @@ def blocks_of(placed: PlacedStageModel) -> Iterator[Part]:
 def table_of(models: Iterable[PlacedStageModel]) -> Table:
     """The primitives of models that stand still; of bitmaps only their outlines."""
     parts: list[Part] = []
-    rows: list[Floats] = []
+    pictures: list[tuple[PlacedStageModel, StageBitmap]] = []
     for placed in models:
         if placed.model.bitmap is not None:
-            rows.append(_outline_rows(placed, placed.model.bitmap))
+            pictures.append((placed, placed.model.bitmap))
         parts += blocks_of(placed)
     plain = primitives_of(parts)
-    all_rows = np.vstack([plain.rows, *rows])
-    return Table(all_rows, np.zeros(len(all_rows), np.int64))
+    rows = [plain.rows, *(_outline_rows(placed, bitmap) for placed, bitmap in pictures)]
+    all_rows, raster, first = np.vstack(rows), None, len(plain.rows)
+    for (placed, bitmap), own in zip(pictures, rows[1:], strict=True):
+        seen = placed.model.returns.ranger >= 0.0
+        if seen and (raster is None or bitmap.cells.size > raster.cells.size):
+            raster = _raster_of(placed, bitmap, first, first + len(own))
+        first += len(own)
+    return Table(all_rows, np.zeros(len(all_rows), np.int64), raster)
+
+
+def _raster_of(placed: PlacedStageModel, bitmap: StageBitmap, first: int, last: int) -> Raster:
+    frame = placed.body_pose
+    z = (frame.z + bitmap.z[0], frame.z + bitmap.z[1])
+    pose = (frame.x, frame.y, frame.yaw)
+    return Raster(bitmap.cells, bitmap.low, bitmap.cell_size, pose, z, first, last)
 
 
 def outline(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
