@@ -97,7 +97,8 @@ def quaternion(message: Any) -> tuple[float, float, float, float]:
     length = float(np.linalg.norm(values))
     if not length > 0.0:
         return (0.0, 0.0, 0.0, 1.0)
-    x, y, z, w = (values / length).tolist()
+    with np.errstate(invalid="ignore"):  # infinite ones are refused where they are used
+        x, y, z, w = (values / length).tolist()
     return (x, y, z, w)
 
 

@@ -47,7 +47,7 @@ def _path(message: Any) -> JointPath:
     return JointPath(
         tuple(message.joint_names),
         np.array([each.time_from_start.to_sec() for each in points], np.float64),
-        np.array([each.positions for each in points], np.float64).reshape(-1, count),
+        np.array([each.positions for each in points], np.float64).reshape(len(points), count),
         message.header.stamp.to_nsec(),
     )
 
