@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 
 import pytest
@@ -117,6 +118,68 @@ def test_a_barometers_height_is_a_point():
     with running(cube("libhector_gazebo_ros_baro.so")) as graph:
         message = first(graph, "/pressure_height", "geometry_msgs/PointStamped")
     assert message.point.z == pytest.approx(0.5)
+
+
+def test_an_altimeter_tells_altitude_and_pressure_in_hectors_message():
+    with running(cube("libhector_gazebo_ros_baro.so", elevation="10", frameId="/air")) as graph:
+        message = first(graph, "/altimeter", "hector_uav_msgs/Altimeter")
+    assert message.altitude == pytest.approx(10.5)
+    assert (message.qnh, message.header.frame_id) == (1013.25, "/air")
+    assert 1011.0 < message.pressure < 1013.25
+
+
+def test_a_sonar_tells_its_range_in_the_frame_as_it_is_written():
+    tags = plugin("libhector_gazebo_ros_sonar.so", topicName="height")
+    parameters = {"/tf_prefix": "r1"}
+    with running(
+        block(RAYS.format(plugin=tags), gravity=False), WALL, parameters=parameters
+    ) as graph:
+        message = first(graph, "/height", "sensor_msgs/Range")
+    assert message.range == pytest.approx(0.8 / math.cos(0.1), abs=1e-5)
+    assert (message.header.frame_id, message.radiation_type) == ("/sonar_link", 0)
+    assert message.field_of_view == pytest.approx(0.2)
+
+
+def test_the_errors_of_hectors_sensors_are_changed_while_they_run():
+    with running(cube("libhector_gazebo_ros_gps.so")) as graph:
+        double = load_message("dynamic_reconfigure/DoubleParameter")
+        flag = load_message("dynamic_reconfigure/BoolParameter")
+        config = load_message("dynamic_reconfigure/Config")
+        kind = "dynamic_reconfigure/Reconfigure"
+        ask = config(doubles=[double("offset", 3.0)])
+        graph.client.call("/fix/position/set_parameters", kind, config=ask)
+        ask = config(bools=[flag("STATUS_GBAS_FIX", True)])
+        graph.client.call("/fix/status/set_parameters", kind, config=ask)
+        heard = graph.client.listen("/fix", "sensor_msgs/NavSatFix")
+        wait(lambda: heard and abs(heard[-1].altitude - 3.5) < 1e-3)
+        assert heard[-1].status.status == 2
+        assert graph.client.node.get_param("/fix/position/offset") == 3.0
+
+
+def test_a_servo_turns_to_the_orientation_of_a_message():
+    tags = plugin("libhector_servo_plugin.so", firstServoName="elbow", firstServoAxis="0 1 0")
+    arm = ARM.replace("0 0 1</xyz>", "0 1 0</xyz>").replace('"stand"', '"base_link"')
+    arm = arm.replace(">stand<", ">base_link<")
+    with running(arm.format(plugin=tags)) as graph:
+        message = load_message("geometry_msgs/QuaternionStamped")()
+        message.quaternion.y, message.quaternion.w = math.sin(0.2), math.cos(0.2)
+        fields = {"header": message.header, "quaternion": message.quaternion}
+        message.header.frame_id = "base_link"
+        send(graph, "/drive", "geometry_msgs/QuaternionStamped", **fields)
+        wait(lambda: abs(graph.sim.robots["arm"].joints["elbow"].position - 0.4) < 1e-2)
+        assert first(graph, "/joint_states", "sensor_msgs/JointState").name == ["elbow"]
+
+
+def test_a_reset_is_told_once_and_nothing_else_is():
+    with running(block(plugin=plugin("libhector_gazebo_reset_plugin.so"))) as graph:
+        heard = graph.client.listen("/syscommand", "std_msgs/String")
+        wait(lambda: graph.sim.robots["cube"].outputs["syscommand"].wanted)
+        graph.client.call("pause_physics", "std_srvs/Empty")
+        graph.client.call("/gazelle/step", "gazelle_msgs/Step", steps=3)
+        graph.client.call("reset_simulation", "std_srvs/Empty")
+        wait(lambda: heard)
+        graph.client.call("/gazelle/step", "gazelle_msgs/Step", steps=3)
+        assert [message.data for message in heard] == ["reset"]
 
 
 def test_a_wrench_pushes():
