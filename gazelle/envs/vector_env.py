@@ -100,7 +100,8 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
             first, start = self.task.begin(worlds)
             self._observation[worlds] = first
             info = {name: _merged(info[name], start[name], worlds) for name in info}
-        masks = {f"_{name}": np.ones(self.num_envs, dtype=np.bool_) for name in info}
+        everywhere = np.ones(self.num_envs, dtype=np.bool_)
+        masks = {f"_{name}": everywhere.copy() for name in info}
         return (
             self._observation.copy(),
             result.reward,
@@ -156,7 +157,7 @@ def _finals(observation: Float32, info: Info, done: Bool) -> dict[str, Any]:
     final_obs[worlds] = np.fromiter(observation[worlds], dtype=np.object_, count=len(worlds))
     final_info: dict[str, Any] = {}
     for name, values in info.items():
-        kept = np.zeros_like(values)
+        kept = np.zeros(values.shape, values.dtype)
         kept[worlds] = values[worlds]
         final_info[name] = kept
         final_info[f"_{name}"] = done.copy()

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.engines.planar.native import Native, each
+from gazelle.engines.planar.native import Native, each, fused
 
-__all__ = ["Function", "each", "inner", "kernel", "part", "whole"]
+__all__ = ["Function", "each", "fused", "inner", "kernel", "part", "whole"]
 
 Function = Callable[..., Any]
 

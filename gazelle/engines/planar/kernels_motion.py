@@ -46,14 +46,16 @@ def turned(angle: float) -> tuple[float, float, float, float]:
         s, c = math.sin(angle), math.cos(angle)
         return s, c, s / angle, (1.0 - c) / angle
     q = angle * angle
-    sine = 1.0 + q / -6.0 * (
-        1.0
-        + q / -20.0 * (1.0 + q / -42.0 * (1.0 + q / -72.0 * (1.0 + q / -110.0 * (1.0 - q / 156.0))))
-    )
+    sine = 1.0 - q * (1 / 6) * (
+        1.0 - q * (1 / 20) * (
+            1.0 - q * (1 / 42) * (1.0 - q * (1 / 72) * (1.0 - q * (1 / 110) * (1.0 - q * (1 / 156))))
+        )
+    )  # fmt: skip
     versed = 0.5 * (
-        1.0
-        + q / -12.0 * (1.0 + q / -30.0 * (1.0 + q / -56.0 * (1.0 + q / -90.0 * (1.0 - q / 132.0))))
-    )
+        1.0 - q * (1 / 12) * (
+            1.0 - q * (1 / 30) * (1.0 - q * (1 / 56) * (1.0 - q * (1 / 90) * (1.0 - q * (1 / 132))))
+        )
+    )  # fmt: skip
     return angle * sine, 1.0 - q * versed, sine, angle * versed
 
 

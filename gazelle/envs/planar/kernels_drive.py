@@ -26,7 +26,7 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.planar.compiled import kernel, part, whole
 from gazelle.engines.planar.kernels_bump import statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import go
@@ -202,7 +202,7 @@ def reach_of(speeds: Floats, w: int, left: float, right: float) -> float:
     return float(max(now, abs(left), abs(right)))
 
 
-@kernel
+@whole
 def drive(  # noqa: C901  # the cases of one loop
     first: int, last: int, linear: Floats, angular: Floats, law: Floats, matrix: Floats,
     intervals: Floats, moments: Floats, speeds: Floats, epochs: Floats, paths: Floats,

@@ -41,7 +41,7 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import each, kernel, part
+from gazelle.engines.planar.compiled import each, fused, part, whole
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
 from gazelle.engines.planar.kernels_scan import aim, scan
 from gazelle.envs.planar.tables import Floats, Table, Worlds
@@ -108,7 +108,7 @@ def draw_one(
     """A segment into beams lo to hi, however near it is."""
     for k in each(lo, hi):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
-        c0, c1 = dx * y0 - dy * x0, dx * y1 - dy * x1
+        c0, c1 = fused(dx, y0, -dy * x0), fused(dx, y1, -dy * x1)
         v = (c1 - c0) * inverse
         beams[2, k] = v if (c0 * c1 <= 0.0) & (v > best) else best
 
@@ -120,10 +120,10 @@ def draw_two(beams: Floats, found: Floats, i: int, j: int) -> None:
     bx, by, bu, bv, bi = found[0, j], found[1, j], found[2, j], found[3, j], found[8, j]
     for k in each(0, beams.shape[1]):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
-        c0, c1 = dx * ay - dy * ax, dx * av - dy * au
+        c0, c1 = fused(dx, ay, -dy * ax), fused(dx, av, -dy * au)
         v = (c1 - c0) * ai
         best = v if (c0 * c1 <= 0.0) & (v > best) else best
-        c0, c1 = dx * by - dy * bx, dx * bv - dy * bu
+        c0, c1 = fused(dx, by, -dy * bx), fused(dx, bv, -dy * bu)
         v = (c1 - c0) * bi
         beams[2, k] = v if (c0 * c1 <= 0.0) & (v > best) else best
 
@@ -226,7 +226,7 @@ def look(
     return nearer == 0
 
 
-@kernel
+@whole
 def see(
     first: int, last: int, worlds: Worlds, faces: Floats, discs: Floats, found: Floats,
     turned: Floats, sensors: Floats, owners: Table, mounts: Floats, fan: Floats, kinds: Floats,
@@ -281,21 +281,16 @@ def logarithm(values: Floats, bits: Table) -> None:
         power = power + 1.0 if large else power
         f = (m - 1.0) / (m + 1.0)
         q = f * f
-        series = 1.0 + q * (
-            1.0 / 3.0
-            + q
-            * (
-                0.2
-                + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * (1.0 / 11.0 + q * (1.0 / 13.0 + q / 15.0))))
-            )
-        )
-        values[k] = power * _LN2 + 2.0 * f * series
+        series = fused(q, 1 / 15, 1 / 13)
+        series = fused(q, fused(q, fused(q, series, 1 / 11), 1 / 9), 1 / 7)
+        series = fused(q, fused(q, fused(q, series, 1 / 5), 1 / 3), 1.0)
+        values[k] = fused(power, _LN2, 2.0 * f * series)
 
 
 @part
-def uniforms(key: np.uint64, start: np.uint64, bits: Table, values: Floats) -> None:
+def uniforms(key: np.uint64, start: np.uint64, values: Floats) -> None:
     """The next numbers in [0, 1) of a world of ``gazelle.streams.Stream``."""
-    for k in each(0, bits.shape[0]):
+    for k in each(0, values.shape[0]):
         z = key + (start + np.uint64(k) + np.uint64(1)) * _GOLDEN
         z = (z ^ (z >> np.uint64(30))) * _MIX_1
         z = (z ^ (z >> np.uint64(27))) * _MIX_2
@@ -303,7 +298,9 @@ def uniforms(key: np.uint64, start: np.uint64, bits: Table, values: Floats) -> N
 
 
 @part
-def normals(key: np.uint64, start: np.uint64, values: Floats, bits: Table) -> None:
+def normals(
+    key: np.uint64, start: np.uint64, pairs: int, lanes: Floats, bits: Table, values: Floats,
+) -> None:  # fmt: skip
     """The next normal numbers of a world of ``gazelle.streams.Stream``, to 1e-13.
 
     Sines and cosines by their series about the nearest quarter turn.
@@ -311,38 +308,42 @@ def normals(key: np.uint64, start: np.uint64, values: Floats, bits: Table) -> No
     Args:
         key: Of the world.
         start: Numbers drawn before.
-        values: Comes out; its length is even.
+        pairs: Half of how many numbers.
+        lanes: Room for two rows of at least as many, best filled up to what fits vector units.
         bits: The same memory as unsigned integers.
+        values: Comes out, with room for as much more as the rows are longer.
     """
-    pairs = values.shape[0] // 2
-    uniforms(key, start, bits, values)
-    for k in each(0, pairs):
-        values[k] = 1.0 - values[k]
-    logarithm(values[:pairs], bits[:pairs])
-    for k in each(0, pairs):
-        radius = math.sqrt(max(-2.0 * values[k], 0.0))
-        t = 4.0 * values[pairs + k]
+    uniforms(key, start, lanes[0])
+    uniforms(key, start + np.uint64(pairs), lanes[1])
+    width = lanes.shape[1]
+    for k in each(0, width):
+        lanes[0, k] = 1.0 - lanes[0, k]
+    logarithm(lanes[0], bits[0])
+    for k in each(0, width):
+        radius = math.sqrt(max(-2.0 * lanes[0, k], 0.0))
+        t = 4.0 * lanes[1, k]
         quarter = math.floor(t + 0.5)
         r = (t - quarter) * (0.5 * math.pi)
         q = r * r
-        sine = r * (
-            1.0
-            - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0 * (1.0 - q / 156.0)))))
-        )  # fmt: skip
-        cosine = 1.0 - q / 2.0 * (
-            1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0 * (1.0 - q / 182.0)))))
-        )  # fmt: skip
+        sine = fused(q, fused(q, 1 / 6227020800, -1 / 39916800), 1 / 362880)
+        sine = fused(q, fused(q, fused(q, sine, -1 / 5040), 1 / 120), -1 / 6)
+        sine = fused(r * q, sine, r)
+        cosine = fused(q, fused(q, -1 / 87178291200, 1 / 479001600), -1 / 3628800)
+        cosine = fused(q, fused(q, fused(q, cosine, 1 / 40320), -1 / 720), 1 / 24)
+        cosine = fused(q, fused(q, cosine, -0.5), 1.0)
         odd = (quarter == 1.0) | (quarter == 3.0)
         a, b = (sine if odd else cosine), (cosine if odd else sine)
         a = -a if (quarter == 1.0) | (quarter == 2.0) else a
         b = -b if (quarter == 2.0) | (quarter == 3.0) else b
-        values[k], values[pairs + k] = radius * a, radius * b
+        values[k], lanes[1, k] = radius * a, radius * b
+    for k in each(0, width):
+        values[pairs + k] = lanes[1, k]
 
 
-@kernel
+@whole
 def report(
     first: int, last: int, worlds: Worlds, ranges: Floats, law: Floats, deviation: Floats,
-    keys: Table, counters: Table, values: Floats, bits: Table, cleaned: Floats,
+    keys: Table, counters: Table, lanes: Floats, bits: Table, values: Floats, cleaned: Floats,
 ) -> None:  # fmt: skip
     """What the lidar reports, fit for a policy; see ``gazelle.envs.scans.clean_ranges``.
 
@@ -355,19 +356,21 @@ def report(
         deviation: Standard deviation of the noise in each world [m].
         keys: Of the noise's stream.
         counters: Numbers drawn so far.
-        values: Room for the noise; its length is even.
+        lanes: Room, see ``normals``.
         bits: The same memory as unsigned integers.
+        values: Room for the noise, see ``normals``.
         cleaned: Comes out, a row an index.
     """
     count = ranges.shape[1]
+    pairs = (count + 1) // 2
     least, most, resolution, mean, cap = law[0], law[1], law[2], law[3], law[4]
     for i in range(first, last):
         w = worlds[i]
         noisy = deviation[w] != 0.0
         spread = deviation[w]
         if noisy:
-            normals(keys[w], counters[w], values, bits)
-            counters[w] += np.uint64(values.shape[0])
+            normals(keys[w], counters[w], pairs, lanes, bits, values)
+            counters[w] += np.uint64(2 * pairs)
         for k in each(0, count):
             true = ranges[w, k]
             measured = true + mean + spread * values[k] if noisy else true + mean

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from operator import is_
 from typing import Any, Self
 
 import numpy as np
 
 from gazelle.engines.planar import PlanarEngine
-from gazelle.envs.planar import kernels_drive, kernels_lidar
+from gazelle.engines.planar.compiled import Function
+from gazelle.envs.planar import kernels_drive
 from gazelle.envs.planar.parts import (
     Drive,
     Paths,
@@ -24,8 +25,10 @@ from gazelle.envs.planar.parts import (
 from gazelle.envs.planar.tables import Floats, Worlds
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot
+from gazelle.simulation.clock import NANOSECONDS, Clock, Schedule
 
 _SHARE = 128  # worlds that are worth a thread
+_VECTOR = 8  # numbers that are handled at once at most
 _NOTHING = np.zeros((0, 0))
 
 
@@ -44,6 +47,7 @@ class Swift:
     Attributes:
         fleet: The bodies of all worlds.
         body: Index of the robot in it.
+        angular: The yaw rates of the last step [rad/s], shape (nworld,).
         cleaned: What the lidar reports, fit for a policy [m], shape (nworld, samples).
     """
 
@@ -85,55 +89,59 @@ class Swift:
         self._fan = scanner._fan.copy()
         self._fan[2] = self._law[1]
         most = self._statics.faces.shape[1] + len(fleet.looks) * fleet.nbody + 1
-        even = 2 * ((scanner.fan.count + 1) // 2)
+        pairs = (scanner.fan.count + 1) // 2
+        wide = -(-pairs // _VECTOR) * _VECTOR
         self._rooms = [
-            (np.zeros((9, most)), np.zeros((5, most)), np.zeros(even))
+            (np.zeros((9, most)), np.zeros((5, most)), np.zeros((2, wide)), np.zeros(pairs + wide))
             for _ in range(fleet.crew.size)
         ]
         self._initial = fleet._initial.copy()
         self._speeds = np.zeros((self.nworld, 2))
         self._epochs = np.zeros((len(paths.plugins), self.nworld))
         self._last = 0.0
+        self._linear, self.angular = np.zeros((2, self.nworld))
+        self._intervals, self._moments = np.zeros((2, self._steps))
+        self._driving = self._drive_with(drive, paths)
+        self._parts: tuple[Any, ...] | None = None
+        self._seen: list[tuple[tuple[Any, ...], tuple[Any, ...]]] = []
         self._ranges = np.zeros((self.nworld, scanner.fan.count))
         self.cleaned = np.zeros_like(self._ranges)
         self.pull()
 
     # -- stepping ----------------------------------------------------------------------
 
-    def step(self, linear: Floats, angular: Floats, then: Callable[[int, int], None]) -> Floats:
-        """Make a control step everywhere, and measure.
+    def step(
+        self, linear: Floats, angular: Floats, act: Function, *others: tuple[Any, ...]
+    ) -> Floats:
+        """Make a control step everywhere, measure, and do what a task makes of that.
 
         Args:
             linear: Wanted speed in each world [m/s], shape (nworld,).
             angular: Wanted yaw rate [rad/s], shape (nworld,).
-            then: Called by each thread when the worlds first to last - 1 are measured.
+            act: A kernel called by each thread for a range of worlds: it takes the first, the
+                one after the last, what ``kernels_drive.drive``, ``kernels_lidar.see`` and
+                ``kernels_lidar.report`` take after these, as tuples, and the others.
+            others: What else it takes.
 
         Returns:
             What the lidar reports [m], shape (nworld, samples); used again by the next step.
         """
-        intervals, moments = self._timetable()
-        fleet = self.fleet
-        drive, paths, statics = self._drive, self._paths, self._statics
-        own = fleet.arguments()
-        grid, _, head, follow, cell = fleet._lists()
-
-        def work(first: int, last: int, part: int) -> None:
-            kernels_drive.drive(
-                first, last, linear, angular, drive.law, drive.matrix, intervals, moments,
-                self._speeds, self._epochs, paths.table, paths.points, paths.drift,
-                statics.room, statics.corner, fleet.time_step, fleet._command, fleet._velocity,
-                fleet.rows, fleet._goal, fleet._stalled, fleet.kinds, fleet.pieces, fleet.corners, grid, head, follow, cell,
-                fleet.scene.table.rows, statics.cells, statics.start, statics.items, _NOTHING, own,
-            )  # fmt: skip
-            self._measure(first, last, part, self._everywhere)
-            then(first, last)
-
-        fleet.crew.share(work, self.nworld, _SHARE)
+        self._linear[:], self.angular[:] = linear, angular
+        self._plan()
+        measuring = self._measuring(self._everywhere)
+        self.fleet.crew.share(
+            lambda first, last, part: act(first, last, self._driving, *measuring[part], *others),
+            self.nworld,
+            _SHARE,
+        )
         return self.cleaned
 
-    def measure(self, worlds: Worlds) -> Floats:
-        """What the lidar reports now [m], shape (n, samples); used again by the next call."""
-        self._measure(0, len(worlds), 0, worlds)
+    def measure(self, worlds: Worlds, look: Function, *others: tuple[Any, ...]) -> Floats:
+        """What the lidar reports now [m], shape (n, samples); used again by the next call.
+
+        ``look`` is a kernel like ``act`` of ``step``, without the step.
+        """
+        look(0, len(worlds), *self._measuring(worlds)[0], *others)
         return self.cleaned
 
     def begin(self, worlds: Worlds) -> None:
@@ -146,42 +154,65 @@ class Swift:
         )  # fmt: skip
         self._lidar.noise.reset(worlds)
 
-    def _measure(self, first: int, last: int, part: int, worlds: Worlds) -> None:
-        scanner = self._scanner
-        fleet, own = self.fleet, scanner.arguments(part)
+    def _drive_with(self, drive: Drive, paths: Paths) -> tuple[Any, ...]:
+        """What ``kernels_drive.drive`` takes after the range of worlds."""
+        fleet, statics = self.fleet, self._statics
+        grid, _, head, follow, cell = fleet._lists()
+        return (
+            self._linear, self.angular, drive.law, drive.matrix, self._intervals, self._moments,
+            self._speeds, self._epochs, paths.table, paths.points, paths.drift,
+            statics.room, statics.corner, fleet.time_step, fleet._command, fleet._velocity,
+            fleet.rows, fleet._goal, fleet._stalled, fleet.kinds, fleet.pieces, fleet.corners, grid,
+            head, follow, cell, fleet.scene.table.rows, statics.cells, statics.start,
+            statics.items, _NOTHING, fleet.arguments(),
+        )  # fmt: skip
+
+    def _measuring(self, worlds: Worlds) -> list[tuple[tuple[Any, ...], tuple[Any, ...]]]:
+        """What ``see`` and ``report`` of ``kernels_lidar`` take after the range, for each thread.
+
+        The same tuples as the last time, where they hold the same.
+        """
+        noise = self._lidar.noise
+        parts = (worlds, noise._stddev, noise._stream.keys, noise._stream.counters)
+        if self._parts is None or not all(map(is_, parts, self._parts)):
+            self._parts = parts
+            self._seen = [self._measure_with(room, *parts) for room in range(len(self._rooms))]
+        return self._seen
+
+    def _measure_with(
+        self, room: int, worlds: Worlds, deviation: Floats, keys: Any, counters: Any
+    ) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        scanner, fleet = self._scanner, self.fleet
+        own = scanner.arguments(room)
         own_scan = (
             *own[:3], self._fan, own[4], fleet.widest, *scanner._looks(), *own[5:],
             self._ranges, scanner.names,
         )  # fmt: skip
-        found, turned, values = self._rooms[part]
-        kernels_lidar.see(
-            first, last, worlds, self._statics.faces, self._statics.discs, found, turned,
+        found, turned, lanes, values = self._rooms[room]
+        seeing = (
+            worlds, self._statics.faces, self._statics.discs, found, turned,
             *own[:3], self._fan, fleet.kinds, fleet.looks, fleet.rows, own[5], self._ranges,
             scanner.names, own_scan,
         )  # fmt: skip
-        noise = self._lidar.noise
-        kernels_lidar.report(
-            first, last, worlds, self._ranges, self._law, noise._stddev[:, 0],
-            noise._stream.keys, noise._stream.counters, values, values.view(np.uint64),
-            self.cleaned,
+        reporting = (
+            worlds, self._ranges, self._law, deviation[:, 0], keys, counters, lanes,
+            lanes.view(np.uint64), values, self.cleaned,
         )  # fmt: skip
+        return seeing, reporting
 
-    def _timetable(self) -> tuple[Floats, Floats]:
+    def _plan(self) -> None:
         """Go on with clock and schedules by a control step; when drive and paths are due."""
         clock, drive, paths = self._simulation.clock, self._drive.entry.schedule, self._paths
-        intervals = np.full(self._steps, math.nan)
-        moments = np.full(self._steps, math.nan)
-        for step in range(self._steps):
-            if drive is not None and drive.is_due(clock.now_ns):
-                intervals[step], self._last = clock.now - self._last, clock.now
-                drive.done(clock.now_ns)
-            schedules = [entry.schedule for entry in paths.entries if entry.schedule is not None]
-            if schedules and schedules[0].is_due(clock.now_ns):
-                moments[step] = clock.now
-                for schedule in schedules:
-                    schedule.done(clock.now_ns)
-            clock.advance(1)
-        return intervals, moments
+        self._intervals[:] = self._moments[:] = math.nan
+        for step in _due(drive, clock, self._steps):
+            now = (clock.now_ns + step * clock.step_ns) / NANOSECONDS
+            self._intervals[step], self._last = now - self._last, now
+        schedules = [entry.schedule for entry in paths.entries]
+        for step in _due(schedules[0] if schedules else None, clock, self._steps):
+            self._moments[step] = (clock.now_ns + step * clock.step_ns) / NANOSECONDS
+        for schedule in schedules[1:]:
+            _due(schedule, clock, self._steps)
+        clock.advance(self._steps)
 
     # -- state -------------------------------------------------------------------------
 
@@ -205,3 +236,18 @@ class Swift:
         """Where the robots are [m], shape (n, 2), and their headings [rad], shape (n,)."""
         rows = self.fleet.rows[worlds * self.fleet.nbody + self.body]
         return rows[:, :2], rows[:, 2]
+
+
+def _due(schedule: Schedule | None, clock: Clock, steps: int) -> list[int]:
+    """The physics steps from now on at which something is due; its schedule goes on."""
+    due: list[int] = []
+    if schedule is None:
+        return due
+    step = 0
+    while step < steps:
+        step = max(step, -((clock.now_ns - schedule.due_ns) // clock.step_ns))
+        if step < steps:
+            due.append(step)
+            schedule.done(clock.now_ns + step * clock.step_ns)
+        step += 1
+    return due

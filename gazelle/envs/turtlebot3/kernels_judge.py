@@ -11,9 +11,12 @@ import numpy as np
 
 from gazelle.engines.planar.columns import YAW, X, Y
 from gazelle.engines.planar.compiled import each, kernel, part
+from gazelle.envs.planar.kernels_drive import drive
+from gazelle.envs.planar.kernels_lidar import report, see
 from gazelle.envs.planar.tables import Flags, Floats, Table, Worlds
 
 _SPLIT = 2.0**27 + 1.0
+_BLOCK = 32  # worlds whose ranges stay near the processor until they are judged
 
 # Columns of the rules.
 COLLISION_RANGE = 0
@@ -91,3 +94,32 @@ def judge(
         pay = rules[COLLISION_REWARD] if hit else pay
         reward[w] = rules[GOAL_REWARD] if there else pay
         crashed[w], arrived[w] = hit, there
+
+
+@kernel
+def act(
+    first: int, last: int, driving: Table, seeing: Table, reporting: Table, observing: Table,
+    judging: Table,
+) -> None:  # fmt: skip
+    """A control step in the worlds first to last, from commands to rewards.
+
+    Each tuple holds what a kernel takes after the range of worlds: ``drive``, ``see``,
+    ``report``, ``observe`` and ``judge``.
+    """
+    for begin in range(first, last, _BLOCK):
+        end = min(begin + _BLOCK, last)
+        drive(begin, end, *driving)
+        see(begin, end, *seeing)
+        report(begin, end, *reporting)
+        observe(begin, end, *observing)
+        judge(begin, end, *judging)
+
+
+@kernel
+def look(
+    first: int, last: int, seeing: Table, reporting: Table, observing: Table,
+) -> None:  # fmt: skip
+    """The observation of worlds[first] to worlds[last - 1], without a step; as ``act``."""
+    see(first, last, *seeing)
+    report(first, last, *reporting)
+    observe(first, last, *observing)

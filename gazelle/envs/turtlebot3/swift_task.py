@@ -37,6 +37,10 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         self._size = size
         self._distance, self._heading = np.zeros(nworld), np.zeros(nworld)
         self._nearest = np.zeros(nworld)
+        self._everywhere = np.arange(nworld)
+        self._seen, self._reward = np.zeros((nworld, size), np.float32), np.zeros(nworld)
+        self._crashed, self._arrived = np.zeros((2, nworld), np.bool_)
+        self._acts: tuple[Swift, tuple[Any, ...], tuple[Any, ...]] | None = None
 
     @property
     def swift(self) -> Swift | None:
@@ -68,9 +72,11 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         if self._swift is None:
             return super()._look(worlds)
-        cleaned = self._swift.measure(worlds)
         observation = np.zeros((len(worlds), self._size), np.float32)
-        self._observe(0, len(worlds), worlds, cleaned, observation)
+        swift = self._swift
+        cleaned = swift.measure(
+            worlds, kernels_judge.look, self._observing(swift, worlds, observation)
+        )
         seen = self._sight(cleaned, len(worlds))
         self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
@@ -81,27 +87,27 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         if swift is None:
             return super()._act(actions)
         linear, angular = self._command(actions)
-        everywhere = np.arange(self.nworld)
-        reward = np.zeros(self.nworld)
-        crashed, arrived = np.zeros((2, self.nworld), np.bool_)
-        cleaned = swift.cleaned
-        observation = np.empty((self.nworld, self._size), np.float32)
+        swift.step(linear, angular, kernels_judge.act, *self._acting(swift))
+        return self._verdict(
+            self._seen.copy(), self._reward.copy(), self._crashed.copy(), self._arrived.copy()
+        )
 
-        def judge(first: int, last: int) -> None:
-            self._observe(first, last, everywhere, cleaned, observation)
-            kernels_judge.judge(
-                first, last, self._distance, self._heading, self._nearest, angular,
-                ANGULAR_STEP, (ACTIONS - 1) / 2, self._start_distance, self._rules, reward,
-                crashed, arrived,
+    def _acting(self, swift: Swift) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """What ``kernels_judge.act`` takes besides what ``Swift.step`` hands it."""
+        if self._acts is None or self._acts[0] is not swift:
+            judging = (
+                self._distance, self._heading, self._nearest, swift.angular, ANGULAR_STEP,
+                (ACTIONS - 1) / 2, self._start_distance, self._rules, self._reward,
+                self._crashed, self._arrived,
             )  # fmt: skip
-
-        swift.step(linear, angular, judge)
-        return self._verdict(observation, reward, crashed, arrived)
+            observing = self._observing(swift, self._everywhere, self._seen)
+            self._acts = (swift, observing, judging)
+        return self._acts[1:]
 
     def _verdict(
         self, observation: Float32, reward: Floats, crashed: Bool, arrived: Bool
     ) -> Verdict:
-        seen, everywhere = self._sight(observation, self.nworld), np.arange(self.nworld)
+        seen, everywhere = self._sight(observation, self.nworld), self._everywhere
         self._goals_reached += arrived
         if self.respawn and arrived.any():
             self._next_goals(np.flatnonzero(arrived))
@@ -114,16 +120,13 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
             return super()._see_distance(worlds)
         return self._distance_at(self._swift.poses(worlds)[0], worlds)
 
-    def _observe(
-        self, first: int, last: int, worlds: Worlds, cleaned: Floats, observation: Float32
-    ) -> None:
-        swift = self._swift
-        if swift is not None:
-            kernels_judge.observe(
-                first, last, worlds, cleaned, swift.fleet.rows, swift.fleet.nbody, swift.body,
-                self.goals.points, self._goal, self._rules, observation, self._distance,
-                self._heading, self._nearest,
-            )  # fmt: skip
+    def _observing(self, swift: Swift, worlds: Worlds, observation: Float32) -> tuple[Any, ...]:
+        """What ``kernels_judge.observe`` takes after the range of worlds."""
+        return (
+            worlds, swift.cleaned, swift.fleet.rows, swift.fleet.nbody, swift.body,
+            self.goals.points, self._goal, self._rules, observation, self._distance,
+            self._heading, self._nearest,
+        )  # fmt: skip
 
     def _sight(self, ranges: NDArray[Any], count: int) -> Sight:
         """What was seen, in arrays of its own."""

@@ -27,6 +27,11 @@ def each(first: int, last: int) -> range:
     return range(first, last)
 
 
+def fused(a: float, b: float, c: float) -> float:
+    """The product of two numbers plus a third, rounded once where the processor can."""
+    return a * b + c
+
+
 def call(code: Code, function: Any, values: list[Value]) -> Value:
     """What a function gives.
 
@@ -45,6 +50,10 @@ def _own(code: Code, name: str, values: list[Value]) -> Value:
     code.declared[name] = f"declare double @{name}({', '.join(['double'] * len(values))})"
     texts = ", ".join(f"double {code.real(value).text}" for value in values)
     return code.get(REAL, f"call double @{name}({texts})")
+
+
+def _fused(code: Code, *values: Value) -> Value:
+    return _own(code, "llvm.fmuladd.f64", list(values))
 
 
 def _absolute(code: Code, value: Value) -> Value:
@@ -129,5 +138,5 @@ def _sizes(shape: Value) -> list[int]:
 _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     abs: _absolute, min: _least, max: _most, float: Code.real, bool: Code.truth, int: _whole,
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
-    len: _length, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
+    len: _length, fused: _fused, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
 }  # fmt: skip

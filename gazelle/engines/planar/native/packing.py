@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from itertools import accumulate
 from operator import is_
 from typing import Any
 
@@ -15,10 +16,12 @@ _RESULTS = 8  # words after the values, for what comes out
 
 def spread(values: tuple[Any, ...]) -> list[Any]:
     """Values with what is in tuples in the place of the tuples."""
+    if tuple not in map(type, values):
+        return list(values)
     row: list[Any] = []
     for value in values:
         if type(value) is tuple:
-            row.extend(spread(value) if tuple in map(type, value) else value)
+            row.extend(spread(value))
         else:
             row.append(value)
     return row
@@ -37,7 +40,9 @@ class Words:
 
     def __init__(self, values: tuple[Any, ...]) -> None:
         self.kinds: tuple[Kind, ...] = tuple(kind_of(value) for value in values)
-        self._values = spread(values)
+        self._given, self._values = values, spread(values)
+        sizes = [len(spread((value,))) for value in values]
+        self._ranges = list(accumulate(sizes, initial=0))
         self._kinds = [kind_of(value) for value in self._values]
         self._places, size = [], 0
         for kind in self._kinds:
@@ -52,14 +57,25 @@ class Words:
 
     def take(self, values: tuple[Any, ...]) -> bool:
         """Change to other values; False if they are of other kinds."""
-        row = spread(values) if tuple in map(type, values) else list(values)
-        if len(row) != len(self._values):
+        if len(values) != len(self._given):
             return False
-        if not all(map(is_, self._values, row)):
-            for number, same in enumerate(map(is_, self._values, row)):
-                if not same and not self._change(number, row[number]):
-                    return False
-            self._values = row
+        for number, same in enumerate(map(is_, self._given, values)):
+            if not same and not self._put(number, values[number]):
+                return False
+        self._given = values
+        return True
+
+    def _put(self, number: int, value: Any) -> bool:
+        """Change one of the values given; False if it is of another kind."""
+        first, last = self._ranges[number], self._ranges[number + 1]
+        if type(value) is not tuple:
+            return last == first + 1 and self._change(first, value)
+        row = spread(value)
+        if len(row) != last - first:
+            return False
+        for place, same in enumerate(map(is_, self._values[first:last], row), first):
+            if not same and not self._change(place, row[place - first]):
+                return False
         return True
 
     def _change(self, number: int, new: Any) -> bool:
@@ -70,6 +86,7 @@ class Words:
             if its is not kind and its != kind:
                 return False
         self._write(self._places[number], kind, new)
+        self._values[number] = new
         return True
 
     def _write(self, place: int, kind: Kind, value: Any) -> None:
