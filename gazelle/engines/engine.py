@@ -95,7 +95,8 @@ class Call:
 # Kinds of physical parameters that each world can have of its own: what they belong to, the
 # number of values, and the unit. Tensors are xx, yy, zz, xy, xz, yz about the centre of mass.
 # Joints have as many values as axes. An attachment is named ``parent>child``; it is where the
-# child is held in the frame of the parent, position and quaternion (x, y, z, w).
+# child is held in the frame of the parent, position and quaternion (x, y, z, w). Wheels, links
+# on a revolute joint, slip along their axle and about it by a velocity for each force.
 PARAMETERS: dict[str, tuple[str, int, str]] = {
     "attachment": ("attachment", 7, "m"),
     "collision_friction": ("collision", 1, ""),
@@ -109,6 +110,7 @@ PARAMETERS: dict[str, tuple[str, int, str]] = {
     "link_inertia": ("link", 6, "kg m²"),
     "link_mass": ("link", 1, "kg"),
     "motor_effort": ("motor", 1, "N or N m"),
+    "wheel_slip": ("link", 2, "m/s/N and rad/s/(N m)"),
 }
 
 # Every method of ``Engine`` that changes what it computes. All else only reads.

@@ -1,10 +1,10 @@
-"""The hand of God, wheel slip, and rays under any message."""
+"""The hand of God, and rays under any message."""
 
 import numpy as np
 import pytest
-from models import base, block, plugin, simulate
+from models import block, plugin, simulate
 
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import SimulationError
 from gazelle.sensors import LaserScan
 from gazelle.simulation import Transform, Transforms
 from gazelle.simulation.values import ChannelPoints, LaserPoints, RangeValue
@@ -68,25 +68,6 @@ def test_a_hand_follows_a_frame_through_others():
         sim.restore(state)
         sim.run(seconds=0.1)
         assert robot.position[1] == pytest.approx([0.2, -0.5, 1.0], abs=0.01)
-
-
-def slip(force="30", lateral="0"):
-    return plugin("libgazebo_ros_wheel_slip.so").replace(
-        "</plugin>",
-        f"""<wheel link_name="wheel0"><slip_compliance_lateral>{lateral}</slip_compliance_lateral>
-        <wheel_normal_force>{force}</wheel_normal_force></wheel></plugin>""",
-    )
-
-
-def test_wheels_that_shall_slip_are_checked_and_said_not_to(recwarn):
-    simulate(base(slip())).close()
-    assert not [w for w in recwarn if w.category is SimulationWarning]
-    with pytest.warns(SimulationWarning, match="slip compliance"):
-        simulate(base(slip(lateral="1")))
-    with pytest.raises(SimulationError, match="wheel_normal_force"):
-        simulate(base(slip(force="0")))
-    with pytest.raises(SimulationError, match="<wheel>"):
-        simulate(base(plugin("libgazebo_ros_wheel_slip.so")))
 
 
 RAYS = """<sensor name="eye" type="ray"><pose>0.2 0 0 0 0 0</pose><update_rate>20</update_rate>

@@ -30,6 +30,7 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
+from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tyre_name
 from gazelle.errors import EngineError, EngineWarning
 
 COLLISION_GROUP = 0
@@ -72,6 +73,7 @@ class Recipe:
         kinematic: Names of models that move only when told to.
         motors: By scoped joint name.
         attachments: Pairs of links that can be held together at run time.
+        tyres: Links whose shapes may slip in proportion to the force.
     """
 
     world: World
@@ -79,6 +81,7 @@ class Recipe:
     kinematic: frozenset[str] = frozenset()
     motors: Mapping[str, Motor] = field(default_factory=dict)
     attachments: tuple[Attachment, ...] = ()
+    tyres: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,6 +185,7 @@ def draft_world(recipe: Recipe) -> Draft:
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
+    hold_tyres(spec, builder.tyres, recipe.time_step)
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_slip(solid.collision for solid in builder.solids)
@@ -214,6 +218,8 @@ class _Builder:
         self._spec = spec
         self._time_step = recipe.time_step
         self._bodies = bodies
+        held = {b.name for parts in bodies.values() for b in parts if b.root is not None}
+        self.tyres = recipe.tyres - held
         self.shapes = ShapeBuilder(spec)
         self.geoms: dict[str, list[str]] = {}
         self._masses = {
@@ -252,7 +258,8 @@ class _Builder:
             add_joint(handle, body.joint_name, body.joint, self._time_step)
         if body.root != "kinematic":
             _set_inertial(handle, body)
-        self._add_shapes(handle, body, Pose())
+        shaped = add_tyre(handle, body) if body.name in self.tyres else handle
+        self._add_shapes(shaped, body, Pose())
         return handle
 
     def _add_shapes(self, handle: Any, body: Body, pose: Pose) -> None:
@@ -277,8 +284,14 @@ class _Builder:
         """Links of one model collide only if both say so, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
-            if not (first.self_collide and second.self_collide):
-                self._spec.add_exclude(bodyname1=first.name, bodyname2=second.name)
+            neighbours = second.name in self.tyres and second.parent == first.name
+            if neighbours or not (first.self_collide and second.self_collide):
+                one, two = self._solid_body(first), self._solid_body(second)
+                self._spec.add_exclude(bodyname1=one, bodyname2=two)
+
+    def _solid_body(self, body: Body) -> str:
+        """MuJoCo's body that has the shapes of a link."""
+        return tyre_name(body.name) if body.name in self.tyres else body.name
 
 
 def _set_inertial(handle: Any, body: Body) -> None:

@@ -123,6 +123,8 @@ class MujocoEngine(ForcedSteps):
         """Advance every world by ``count`` physics steps."""
         self._now()
         self._stale = True
+        for tyre in self._layout.tyres.values():
+            self._state.qpos[:, tyre.positions] = 0.0
         np.copyto(self._before, self._batch.state)
         failed = self._let_out(count) if self._overlaps.any else self._advance(count)
         self._placed = False
@@ -196,6 +198,7 @@ class MujocoEngine(ForcedSteps):
             motors=motors,
             kinematic=recipe.kinematic - {model},
             attachments=self._held(model),
+            tyres=frozenset(n for n in recipe.tyres if not n.startswith(f"{model}::")),
         )
         self._parameters.drop(model)
         self._change(changed)
@@ -284,10 +287,23 @@ class MujocoEngine(ForcedSteps):
         every = self._parameters.read(self._batch, layout, kind, name)
         every[rows_of(worlds)] = values
         check(kind, name, every)
+        if kind == "wheel_slip":
+            self._fit_tyre(name)
         if kind in _OFF_AXIS and self._batch.model.body_simple[layout.link(name).body]:
             self._unsimplify(kind, name, every)
         self._parameters.write(self._batch, self._layout, (kind, name), every)
         self._stale = True
+
+    def _fit_tyre(self, link: str) -> None:
+        """Let a link's shapes slip on it.
+
+        Raises:
+            EngineError: The link is no wheel.
+        """
+        if self._layout.link(link).root == "free":
+            raise EngineError(f"link '{link}' is no wheel: nothing holds it")
+        if link not in self._recipe.tyres:
+            self._change(replace(self._recipe, tyres=self._recipe.tyres | {link}))
 
     def _unsimplify(self, kind: str, name: str, values: Floats) -> None:
         """Compile a link's inertia as general as worlds need it.

@@ -13,6 +13,7 @@ from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
 from gazelle.engines.mujoco.tree import Body, Closure, RootKind
+from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
 from gazelle.errors import EngineError, did_you_mean
 
 T = TypeVar("T")
@@ -119,6 +120,7 @@ class Layout:
         limits: Of efforts on joints.
         windy: MuJoCo's bodies of the links that wind pushes, by scoped name.
         springs: Indices of MuJoCo's contact pairs that are springs.
+        tyres: Of the links that may slip, by scoped name.
     """
 
     links: Mapping[str, LinkSlot]
@@ -132,6 +134,7 @@ class Layout:
     limits: EffortLimits
     windy: Mapping[str, int]
     springs: Sequence[int]
+    tyres: Mapping[str, TyreSlot]
 
     def link(self, name: str) -> LinkSlot:
         """The slot of a link.
@@ -224,6 +227,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
         limits,
         windy,
         compiled.springs,
+        {b.name: slot for b in every if (slot := tyre_slot(model, b.name)) is not None},
     )
 
 

@@ -19,6 +19,7 @@ from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.retuning import retune
 from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
+from gazelle.engines.mujoco.tyres import set_slip
 from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
@@ -87,6 +88,11 @@ def _read_friction(target: _Target, name: str) -> Floats:
     return np.array([target.batch.model.geom_friction[geoms[0], 0]])
 
 
+def _read_slip(target: _Target, name: str) -> Floats:
+    target.layout.link(name)
+    return np.zeros(2)  # what is compiled is rigid
+
+
 _READERS: dict[str, Callable[[_Target, str], Floats]] = {
     "attachment": _read_attachment,
     "collision_friction": _read_friction,
@@ -104,6 +110,7 @@ _READERS: dict[str, Callable[[_Target, str], Floats]] = {
     "motor_effort": lambda t, n: np.array(
         [t.batch.model.actuator_forcerange[t.layout.motor(n), 1]]
     ),
+    "wheel_slip": _read_slip,
 }
 
 
@@ -194,6 +201,12 @@ def _write_attachment(target: _Target, name: str, values: Floats) -> None:
     data[:, 10] = 1.0  # how much a turn counts against a shift [m]
 
 
+def _write_slip(target: _Target, name: str, values: Floats) -> None:
+    slot = target.layout.tyres.get(name)
+    if slot is not None:  # a model that is only placed has none
+        set_slip(target.batch, slot, values)
+
+
 _WRITERS: dict[str, Callable[[_Target, str, Floats], None]] = {
     "attachment": _write_attachment,
     "collision_friction": _write_friction,
@@ -207,7 +220,10 @@ _WRITERS: dict[str, Callable[[_Target, str, Floats], None]] = {
     "link_inertia": _write_inertia,
     "link_mass": _write_mass,
     "motor_effort": _write_motor,
+    "wheel_slip": _write_slip,
 }
+
+_NOT_NEGATIVE = frozenset({"collision_friction", "joint_damping", "joint_friction", "wheel_slip"})
 
 # What MuJoCo derives other constants from, by ``mj_setConst``.
 _DERIVED_FROM = frozenset({"link_centre", "link_gravity", "link_inertia", "link_mass"})
@@ -285,7 +301,7 @@ def check(kind: str, name: str, values: Floats) -> None:
         raise EngineError(f"the {kind} of '{name}' must be finite")
     if kind in {"link_mass", "motor_effort"} and not (values > 0.0).all():
         raise EngineError(f"the {kind} of '{name}' must be positive, not {values.min():g}")
-    if kind in {"collision_friction", "joint_damping", "joint_friction"} and (values < 0.0).any():
+    if kind in _NOT_NEGATIVE and (values < 0.0).any():
         raise EngineError(f"the {kind} of '{name}' must not be negative, not {values.min():g}")
     if kind == "link_inertia" and not (np.linalg.eigvalsh(matrices(values)) > 0.0).all():
         raise EngineError(f"the inertia of '{name}' must be positive definite")
