@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.bridges.stage.cameras import CameraTopics
+from gazelle.bridges.stage.finders import FinderTopics
 from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, Publisher, Time, load_message
 from gazelle.simulation.stage import Ranger, StageRobot, StageSimulation
@@ -116,6 +117,7 @@ class RobotTopics:
         self._base = naming.frame(index, "base_link")
         self._lasers = self._open_lasers(naming)
         self._cameras = CameraTopics(simulation, robot, node, naming, world=world, metres=metres)
+        self._finders = FinderTopics(simulation, robot, node, naming, world)
 
     def _open_lasers(self, naming: Naming) -> list[_Laser]:
         index = self._robot.index
@@ -150,6 +152,7 @@ class RobotTopics:
             if laser.publisher.has_listener:
                 laser.publisher.publish(self._scan(facts, laser))
         self._cameras.publish(facts.stamp)
+        self._finders.publish(facts.stamp)
 
     def transforms(self, facts: Facts) -> list[Any]:
         """From odom to base_footprint, to base_link, to the lasers and the cameras in use."""
@@ -171,6 +174,7 @@ class RobotTopics:
     def close(self) -> None:
         """Publish no more."""
         self._cameras.close()
+        self._finders.close()
         for publisher in (self._odom, self._truth, self._stall, self._crashed):
             publisher.close()
         for laser in self._lasers:

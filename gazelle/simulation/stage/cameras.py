@@ -14,7 +14,7 @@ from gazelle.errors import SimulationError
 from gazelle.simulation.stage.scenery import scenery_of
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.senses import Senses
 
 Worlds = NDArray[np.intp]
 
@@ -57,7 +57,7 @@ class Cameras:
         models: Of all moving bodies.
     """
 
-    def __init__(self, simulation: StageSimulation, models: list[StageModel]) -> None:
+    def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
         self._simulation = simulation
         self._painter = Painter(simulation.fleet, scenery_of(simulation.stage, models))
         self._seen: dict[tuple[int, int, int], Pictures] = {}

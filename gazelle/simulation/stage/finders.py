@@ -12,6 +12,7 @@ from gazelle.description import (
     Color,
     PlacedStageModel,
     StageBlobfinder,
+    StageBumper,
     StageFiducial,
     StageModel,
     StagePose,
@@ -21,9 +22,9 @@ from gazelle.simulation.stage.scenery import color_of
 from gazelle.simulation.stage.sight import Outlines, distances, joined, outlines_of
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.senses import Senses
 
-Device = TypeVar("Device", StageFiducial, StageBlobfinder)
+Device = TypeVar("Device", StageFiducial, StageBlobfinder, StageBumper)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +79,26 @@ class Surroundings:
         simulation: Runs.
     """
 
-    def __init__(self, simulation: StageSimulation) -> None:
+    def __init__(self, simulation: Senses) -> None:
         self._simulation = simulation
         models = simulation.stage.models
         self._still = [p for model in models if model.position is None for p in model.walk()]
         self._walls = outlines_of(self._still)
         self._shapes: dict[tuple[int, int], Outlines] = {}
+
+    @property
+    def resolution(self) -> float:
+        """Side of a cell of Stage's grid [m]."""
+        return self._simulation.stage.resolution
+
+    def model(self, robot: int) -> StageModel:
+        """What the file says of a robot."""
+        return self._simulation.robots[robot].model
+
+    def place(self, robot: int, world: int) -> StagePose:
+        """Where a robot is."""
+        x, y, yaw = self._simulation.poses[world, robot].tolist()
+        return StagePose(x, y, self.model(robot).pose.z, yaw)
 
     def around(
         self, robot: int, reach: float, world: int
@@ -95,8 +110,7 @@ class Surroundings:
         near = np.flatnonzero(far <= reach + 2.0 * self._simulation.fleet.widest)
         for other in near[near != robot].tolist():
             model = self._simulation.robots[other].model
-            x, y, yaw = poses[other].tolist()
-            pose = StagePose(x, y, model.pose.z, yaw)
+            pose = self.place(other, world)
             parts.append((self._shape(model).moved(pose), len(models)))
             models += replace(model, pose=pose).walk()
         return models, joined(parts)
@@ -114,9 +128,7 @@ class Surroundings:
         Raises:
             SimulationError: It has none of this number.
         """
-        own = self._simulation.robots[robot]
-        x, y, yaw = self._simulation.poses[world, robot].tolist()
-        pose = StagePose(x, y, own.model.pose.z, yaw)
+        own, pose = self._simulation.robots[robot], self.place(robot, world)
         found = [
             Mounted(placed.pose, placed.model, placed.model.device)
             for placed in replace(own.model, pose=pose).walk()

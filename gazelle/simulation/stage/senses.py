@@ -1,15 +1,18 @@
-"""What robots of a Stage world see beside their rangers, asked for one by one."""
+"""What robots of a Stage world see and feel beside their rangers, asked for one by one."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description import StageWorld
+from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.pictures import Pictures
+from gazelle.simulation.stage.bumpers import find_bumps
 from gazelle.simulation.stage.cameras import Cameras, cameras_of
 from gazelle.simulation.stage.finders import (
     Blob,
@@ -18,56 +21,111 @@ from gazelle.simulation.stage.finders import (
     find_blobs,
     find_fiducials,
 )
+from gazelle.simulation.stage.layout import StageRobot
 
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
 
 
-class Senses:
-    """Cameras, fiducial finders and blob finders of a simulation; each is made when it is used.
+class Senses(ABC):
+    """Cameras, bumpers, fiducial and blob finders of a simulation; each is made when it is used.
 
-    Args:
-        simulation: Runs.
+    Attributes:
+        stage: What the file says.
+        robots: In file order.
+        fleet: The engine.
+        nworld: Copies.
     """
 
-    def __init__(self, simulation: StageSimulation) -> None:
-        self._simulation = simulation
-        self._cameras: Cameras | None = None
+    stage: StageWorld
+    robots: tuple[StageRobot, ...]
+    fleet: Fleet
+    nworld: int
 
-    def forget(self) -> None:
-        """Something moved."""
-        if self._cameras is not None:
-            self._cameras.forget()
+    @property
+    @abstractmethod
+    def poses(self) -> Floats:
+        """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
+
+    @abstractmethod
+    def robot(self, name: str) -> StageRobot:
+        """A robot by the name that the file gives it."""
 
     @cached_property
     def _around(self) -> Surroundings:
-        return Surroundings(self._simulation)
+        return Surroundings(self)
 
-    def fiducials(self, robot: int, finder: int, world: int) -> list[Fiducial]:
-        """See ``StageSimulation.fiducials``."""
-        return find_fiducials(self._around, robot, finder, world)
+    @cached_property
+    def _cameras(self) -> Cameras:
+        return Cameras(self, [robot.model for robot in self.robots])
 
-    def blobs(self, robot: int, finder: int, world: int) -> list[Blob]:
-        """See ``StageSimulation.blobs``."""
-        return find_blobs(self._around, robot, finder, world)
+    def forget_views(self) -> None:
+        """Something moved: pictures have to be drawn anew."""
+        if "_cameras" in self.__dict__:
+            self._cameras.forget()
 
-    def picture(self, robot: int, camera: int, world: int) -> Pictures:
-        """See ``StageSimulation.picture``."""
-        return self._pictures().picture(robot, camera, world)
+    def fiducials(self, name: str, finder: int = 0, world: int = 0) -> list[Fiducial]:
+        """What a fiducial finder of a robot sees now, nearest first.
+
+        Raises:
+            SimulationError: There is no such robot or finder.
+        """
+        return find_fiducials(self._around, self.robot(name).index, finder, world)
+
+    def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
+        """What a blob finder of a robot sees now, from left to right.
+
+        Raises:
+            SimulationError: There is no such robot or finder.
+        """
+        return find_blobs(self._around, self.robot(name).index, finder, world)
+
+    def bumps(self, name: str, bumper: int = 0, world: int = 0) -> tuple[str | None, ...]:
+        """The whole name of the model that each strip of a bumper touches now, or None.
+
+        Raises:
+            SimulationError: There is no such robot or bumper.
+        """
+        return find_bumps(self._around, self.robot(name).index, bumper, world)
+
+    def picture(self, name: str, camera: int = 0, world: int = 0) -> Pictures:
+        """What a camera of a robot sees now, drawn once a step: colours and depths.
+
+        Args:
+            name: Of the robot.
+            camera: Number of the camera on it, depth first in file order.
+            world: Which world.
+
+        Returns:
+            ``color``, shape (height, width, 4), and ``depth`` [m], shape (height, width).
+
+        Raises:
+            SimulationError: There is no such robot or camera.
+        """
+        return self._cameras.picture(self.robot(name).index, camera, world)
 
     def pictures(
-        self, robots: Sequence[int] | None, camera: int, worlds: NDArray[np.intp] | None
+        self,
+        names: Sequence[str] | None = None,
+        camera: int = 0,
+        worlds: Worlds | None = None,
     ) -> Pictures:
-        """See ``StageSimulation.pictures``."""
-        every = self._simulation.robots
-        if robots is None:
-            robots = [each.index for each in every if len(cameras_of(each.model)) > camera]
-        if worlds is None:
-            worlds = np.arange(self._simulation.nworld)
-        return self._pictures().pictures(list(robots), camera, worlds)
+        """What cameras of many robots and worlds see now, drawn by all threads.
 
-    def _pictures(self) -> Cameras:
-        if self._cameras is None:
-            models = [robot.model for robot in self._simulation.robots]
-            self._cameras = Cameras(self._simulation, models)
-        return self._cameras
+        Args:
+            names: Of the robots; all that have such a camera if None.
+            camera: As for ``picture``.
+            worlds: Which worlds; all if None.
+
+        Returns:
+            ``color``, shape (worlds, robots, height, width, 4), and ``depth`` [m].
+
+        Raises:
+            SimulationError: There is no such robot or camera, or their lenses differ.
+        """
+        if names is None:
+            robots = [r.index for r in self.robots if len(cameras_of(r.model)) > camera]
+        else:
+            robots = [self.robot(name).index for name in names]
+        every = np.arange(self.nworld) if worlds is None else worlds
+        return self._cameras.pictures(robots, camera, every)

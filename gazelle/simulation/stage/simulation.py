@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -12,14 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import StageWorld, World
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.pictures import Pictures
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage.building import no_garbage
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.pacing import run_paced
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
-from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.opening import stage_of
@@ -35,7 +33,7 @@ _PIECE = 65_536
 """Moves of robots made without a look at what other threads want."""
 
 
-class StageSimulation:
+class StageSimulation(Senses):
     """Stage's robots in the planar engine: commands in, poses, odometry and scans out.
 
     Robots are the top-level position models in file order; all arrays have the axes
@@ -98,7 +96,6 @@ class StageSimulation:
             for each in layout.noises
         ]
         self._eyes: dict[int, Eyes] = {}
-        self._senses = Senses(self)
         self._seen: dict[int, Floats] = {}
         self._odometry = Odometry(layout.robots, nworld, seed)
         positions = [robot.position for robot in self.robots]
@@ -229,60 +226,6 @@ class StageSimulation:
         self.scan(scanner)
         return self._eye(scanner).returns(place, world)
 
-    def fiducials(self, name: str, finder: int = 0, world: int = 0) -> list[Fiducial]:
-        """What a fiducial finder of a robot sees now, nearest first.
-
-        Raises:
-            SimulationError: There is no such robot or finder.
-        """
-        return self._senses.fiducials(self.robot(name).index, finder, world)
-
-    def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
-        """What a blob finder of a robot sees now, from left to right.
-
-        Raises:
-            SimulationError: There is no such robot or finder.
-        """
-        return self._senses.blobs(self.robot(name).index, finder, world)
-
-    def picture(self, name: str, camera: int = 0, world: int = 0) -> Pictures:
-        """What a camera of a robot sees now, drawn once a step: colours and depths.
-
-        Args:
-            name: Of the robot.
-            camera: Number of the camera on it, depth first in file order.
-            world: Which world.
-
-        Returns:
-            ``color``, shape (height, width, 4), and ``depth`` [m], shape (height, width).
-
-        Raises:
-            SimulationError: There is no such robot or camera.
-        """
-        return self._senses.picture(self.robot(name).index, camera, world)
-
-    def pictures(
-        self,
-        names: Sequence[str] | None = None,
-        camera: int = 0,
-        worlds: Worlds | None = None,
-    ) -> Pictures:
-        """What cameras of many robots and worlds see now, drawn by all threads.
-
-        Args:
-            names: Of the robots; all that have such a camera if None.
-            camera: As for ``picture``.
-            worlds: Which worlds; all if None.
-
-        Returns:
-            ``color``, shape (worlds, robots, height, width, 4), and ``depth`` [m].
-
-        Raises:
-            SimulationError: There is no such robot or camera, or their lenses differ.
-        """
-        robots = None if names is None else [self.robot(name).index for name in names]
-        return self._senses.pictures(robots, camera, worlds)
-
     def _eye(self, scanner: int) -> Eyes:
         if scanner not in self._eyes:
             self._eyes[scanner] = Eyes(
@@ -298,7 +241,7 @@ class StageSimulation:
     def _forget(self) -> None:
         """Something moved: what was seen is seen no longer."""
         self._seen.clear()
-        self._senses.forget()
+        self.forget_views()
 
     # -- time --------------------------------------------------------------------------
 

@@ -1,0 +1,102 @@
+"""What one robot's bumpers and finders tell, for those who listen; stage_ros has no such topics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.description import StageBlobfinder, StageBumper, StageFiducial
+from gazelle.ros import Node, Publisher, Time, load_message
+from gazelle.simulation.stage import StageRobot, StageSimulation
+
+_QUEUE = 10
+
+
+@dataclass(frozen=True, slots=True)
+class _Topic:
+    """One device that is published."""
+
+    publisher: Publisher
+    fill: Callable[[Any], None]
+
+
+class FinderTopics:
+    """Bumpers, fiducial finders and blob finders on a robot, by names like stage_ros's.
+
+    Args:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics and frames.
+        world: Which world of a batch the graph sees.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        robot: StageRobot,
+        node: Node,
+        naming: Naming,
+        world: int,
+    ) -> None:
+        self._simulation, self._name, self._world = simulation, robot.name, world
+        self._frame = naming.frame(robot.index, "base_link")
+        self._topics: list[_Topic] = []
+        devices = [placed.model.device for placed in robot.model.walk()]
+        for kind, name, message, fill in (
+            (StageBumper, "bumper", "Bumper", self._touch),
+            (StageFiducial, "fiducials", "Fiducials", self._read),
+            (StageBlobfinder, "blobs", "Blobs", self._see),
+        ):
+            found = [device for device in devices if isinstance(device, kind)]
+            for which, device in enumerate(found):
+                topic = naming.device_topic(robot.index, name, which, len(found))
+                publisher = node.advertise(topic, load_message(f"gazelle_msgs/{message}"), _QUEUE)
+                self._topics.append(_Topic(publisher, fill(which, device)))
+
+    def publish(self, stamp: Time) -> None:
+        """Publish what is listened to."""
+        for topic in self._topics:
+            if topic.publisher.has_listener:
+                message: Any = topic.publisher.message_class()
+                message.header.stamp, message.header.frame_id = stamp, self._frame
+                topic.fill(message)
+                topic.publisher.publish(message)
+
+    def close(self) -> None:
+        """Publish no more."""
+        for topic in self._topics:
+            topic.publisher.close()
+
+    def _touch(self, which: int, _device: Any) -> Callable[[Any], None]:
+        def fill(message: Any) -> None:
+            touched = self._simulation.bumps(self._name, which, self._world)
+            message.touched = [name or "" for name in touched]
+
+        return fill
+
+    def _read(self, which: int, _device: Any) -> Callable[[Any], None]:
+        kind: Any = load_message("gazelle_msgs/Fiducial")
+
+        def fill(message: Any) -> None:
+            message.fiducials = [
+                kind(each.name, each.id, each.distance, each.bearing, each.heading)
+                for each in self._simulation.fiducials(self._name, which, self._world)
+            ]
+
+        return fill
+
+    def _see(self, which: int, device: Any) -> Callable[[Any], None]:
+        kind: Any = load_message("gazelle_msgs/Blob")
+        color: Any = load_message("std_msgs/ColorRGBA")
+
+        def fill(message: Any) -> None:
+            message.width = device.image[0]
+            message.blobs = [
+                kind(color(*each.color), each.left, each.right, each.distance)
+                for each in self._simulation.blobs(self._name, which, self._world)
+            ]
+
+        return fill
