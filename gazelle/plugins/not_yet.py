@@ -38,12 +38,3 @@ class RosControl(ModelPlugin):
         """Say so."""
         del parameters
         _warn(robot.name, "ros_control's controllers are not run yet; its joints move freely")
-
-
-class Walker(ModelPlugin):
-    """An actor that finds its way: not there yet; it stands, or follows its script."""
-
-    def load(self, robot: Any, parameters: Any) -> None:
-        """Say so."""
-        del parameters
-        _warn(robot.name, "actors do not find their way yet; it stands or follows its script")

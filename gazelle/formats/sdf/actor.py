@@ -63,10 +63,15 @@ def _body(node: Parameters) -> Parameters:
     return made("link", "", visual, ghost, like=node, attributes={"name": "body"})
 
 
+def _walks(node: Parameters) -> bool:
+    """Whether a plugin leads the actor, which then follows no script."""
+    files = (plugin.attributes.get("filename", "") for plugin in node.find_all("plugin"))
+    return any(_WALKER in file for file in files)
+
+
 def _stance(node: Parameters, factor: float) -> Pose:
     """Where the feet are in the frame that moves."""
-    files = (plugin.attributes.get("filename", "") for plugin in node.find_all("plugin"))
-    if any(_WALKER in file for file in files):
+    if _walks(node):
         return Pose(y=-_HIP * factor, roll=-math.pi / 2.0)
     return Pose()
 
@@ -94,7 +99,7 @@ def _ghost(name: str, pose: Parameters | None, shape: Parameters) -> Parameters:
 def _script(node: Parameters) -> Parameters | None:
     """The plugin that moves the actor; None if it has no trajectory, or does not start."""
     script = node.find("script")
-    if script is None or not values.flag(script, "auto_start", default=True):
+    if script is None or _walks(node) or not values.flag(script, "auto_start", default=True):
         return None
     trajectories = list(_trajectories(script))
     if not trajectories:
