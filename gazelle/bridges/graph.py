@@ -36,8 +36,7 @@ class Graph:
     def stamp(self, nanoseconds: int) -> Time:
         """A simulated time as the graph sees it."""
         self._last_ns = max(self._last_ns, nanoseconds)
-        total = nanoseconds + self._offset_ns
-        return Time(total // _SECOND, total % _SECOND)
+        return Time(nsecs=nanoseconds + self._offset_ns)
 
     def seconds(self, time: Time) -> float:
         """A time of the graph as simulated time [s]."""

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 
 from gazelle.simulation import Simulation
 
+ACCEPTED = "a positive number or max"
+"""What ``read_factor`` takes, for people."""
+
 # Wall time between two looks at the clock, and at the pause [s].
 _SLICE = 0.002
 _REST = 0.002
+
+
+def read_factor(text: str) -> float | None:
+    """A real-time factor; infinity for ``max`` or ``inf``, None if the text is none.
+
+    >>> read_factor(" max "), read_factor("0.5"), read_factor("-1"), read_factor("fast")
+    (inf, 0.5, None, None)
+    """
+    try:
+        factor = math.inf if text.strip() == "max" else float(text)
+    except ValueError:
+        return None
+    return factor if factor > 0.0 else None
 
 
 class Pacer:

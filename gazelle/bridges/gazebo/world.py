@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
-
-import numpy as np
 
 from gazelle.bridges.conversions import point, set_point
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import Error
 
 _MOST_STEPS = 10_000_000
@@ -128,15 +128,13 @@ class WorldServices:
 
     def set_real_time_factor(self, request: Any) -> Answer:
         """``/gazelle/set_real_time_factor``: a number, or ``max``."""
-        text = request.real_time_factor.strip()
-        try:
-            factor = 0.0 if text == "max" else float(text)
-        except ValueError:
-            factor = -1.0
-        if not (np.isfinite(factor) and (factor > 0.0 or text == "max")):
-            return no(f"SetRealTimeFactor: expected a positive number or max, not '{text}'")
+        factor = read_factor(request.real_time_factor)
+        if factor is None:
+            said = f"expected {ACCEPTED}, not '{request.real_time_factor}'"
+            return no(f"SetRealTimeFactor: {said}")
         physics = self._simulation.physics
-        self.change_physics(update_rate=factor / physics.time_step)
+        rate = factor / physics.time_step
+        self.change_physics(update_rate=rate if math.isfinite(rate) else 0.0)
         return yes("SetRealTimeFactor: done")
 
 

@@ -16,7 +16,6 @@ from gazelle.ros import Node, Time, load_message
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.stage import StageSimulation
 
-_SECOND = 1_000_000_000
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
 _LATE = 0.1  # what is later than this is not caught up with in a burst [s]
@@ -96,8 +95,7 @@ class StageDoor:
 
     def now(self) -> Time:
         """The simulated time."""
-        nanoseconds = self._simulation.clock.now_ns
-        return Time(nanoseconds // _SECOND, nanoseconds % _SECOND)
+        return Time(nsecs=self._simulation.clock.now_ns)
 
     def publish(self) -> None:
         """Publish what is true now, and the time, to all who listen."""

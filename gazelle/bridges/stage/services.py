@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.bridges.stage.robot import heading_of
 from gazelle.errors import SimulationError
 from gazelle.ros import Node, Time, load_service
@@ -122,14 +123,10 @@ class Services:
 
     def set_rate(self, request: Any) -> Answer:
         """Simulated seconds a wall second to keep to: a number, or ``max``."""
-        text = request.real_time_factor.strip()
-        try:
-            rate = math.inf if text == "max" else float(text)
-        except ValueError:
-            rate = math.nan
-        if not rate > 0.0:
-            said = f"SetRealTimeFactor: expected a positive number or max, not '{text}'"
-            return {"success": False, "status_message": said}
+        rate = read_factor(request.real_time_factor)
+        if rate is None:
+            said = f"expected {ACCEPTED}, not '{request.real_time_factor}'"
+            return {"success": False, "status_message": f"SetRealTimeFactor: {said}"}
         self._door.rate = rate if math.isfinite(rate) else None
         return {"success": True, "status_message": "SetRealTimeFactor: done"}
 

@@ -97,7 +97,7 @@ class BufferCore:
 
     def _message(self, found: Transform, target: str, source: str) -> Any:
         result: Any = self._make()
-        result.header.stamp = Time(found.stamp // _SECOND, found.stamp % _SECOND)
+        result.header.stamp = Time(nsecs=found.stamp)
         result.header.frame_id, result.child_frame_id = target, source
         place, turn = result.transform.translation, result.transform.rotation
         place.x, place.y, place.z = found.translation
@@ -165,7 +165,7 @@ class BufferCore:
             TransformException: There is none; its class says why.
         """
         stamp = self.tree.latest_common_time(target_frame, source_frame)
-        return Time(stamp // _SECOND, stamp % _SECOND)
+        return Time(nsecs=stamp)
 
     def clear(self) -> None:
         """Forget all transforms but static ones."""

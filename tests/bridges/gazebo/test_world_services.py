@@ -94,10 +94,12 @@ def test_the_real_time_factor_is_a_number_or_max(graph):
 
     assert ask("2.5")
     assert graph.sim.physics.update_rate == pytest.approx(2500.0)
-    assert ask("max")
-    assert graph.sim.physics.update_rate == 0.0
-    assert not ask("fast")
-    assert not ask("-1")
+    for unlimited in ("max", "inf"):
+        assert ask("1")
+        assert ask(unlimited)
+        assert graph.sim.physics.update_rate == 0.0
+    for no_factor in ("fast", "-1", "0", "nan", ""):
+        assert not ask(no_factor)
 
 
 def test_the_same_seed_gives_the_same_noise(graph):

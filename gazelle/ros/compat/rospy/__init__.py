@@ -7,6 +7,7 @@ from gazelle.ros.compat.rospy import (
     core,
     exceptions,
     impl,
+    logs,
     msg,
     names,
     rostime,
@@ -48,34 +49,7 @@ from gazelle.ros.compat.rospy.exceptions import (
     TransportInitError,
     TransportTerminated,
 )
-from gazelle.ros.compat.rospy.logs import (
-    DEBUG,
-    ERROR,
-    FATAL,
-    INFO,
-    WARN,
-    logdebug,
-    logdebug_once,
-    logdebug_throttle,
-    logdebug_throttle_identical,
-    logerr,
-    logerr_once,
-    logerr_throttle,
-    logerr_throttle_identical,
-    logfatal,
-    logfatal_once,
-    logfatal_throttle,
-    logfatal_throttle_identical,
-    loginfo,
-    loginfo_once,
-    loginfo_throttle,
-    loginfo_throttle_identical,
-    logout,
-    logwarn,
-    logwarn_once,
-    logwarn_throttle,
-    logwarn_throttle_identical,
-)
+from gazelle.ros.compat.rospy.logs import *  # noqa: F403  levels and functions, listed there
 from gazelle.ros.compat.rospy.msg import AnyMsg
 from gazelle.ros.compat.rospy.msproxy import MasterProxy
 from gazelle.ros.compat.rospy.names import (
@@ -95,11 +69,6 @@ from gazelle.ros.messages import Message, load_message
 Header = load_message("std_msgs/Header")
 
 __all__ = [
-    "DEBUG",
-    "ERROR",
-    "FATAL",
-    "INFO",
-    "WARN",
     "AnyMsg",
     "Duration",
     "Header",
@@ -144,27 +113,6 @@ __all__ = [
     "impl",
     "init_node",
     "is_shutdown",
-    "logdebug",
-    "logdebug_once",
-    "logdebug_throttle",
-    "logdebug_throttle_identical",
-    "logerr",
-    "logerr_once",
-    "logerr_throttle",
-    "logerr_throttle_identical",
-    "logfatal",
-    "logfatal_once",
-    "logfatal_throttle",
-    "logfatal_throttle_identical",
-    "loginfo",
-    "loginfo_once",
-    "loginfo_throttle",
-    "loginfo_throttle_identical",
-    "logout",
-    "logwarn",
-    "logwarn_once",
-    "logwarn_throttle",
-    "logwarn_throttle_identical",
     "msg",
     "myargv",
     "names",
@@ -184,3 +132,4 @@ __all__ = [
     "wait_for_message",
     "wait_for_service",
 ]
+__all__ += logs.__all__

@@ -8,31 +8,9 @@ from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlparse
 
+from gazelle.ros.compat.rospy import logs
 from gazelle.ros.compat.rospy.exceptions import ROSException, ROSInitException
-from gazelle.ros.compat.rospy.logs import (
-    logdebug,
-    logdebug_once,
-    logdebug_throttle,
-    logdebug_throttle_identical,
-    logerr,
-    logerr_once,
-    logerr_throttle,
-    logerr_throttle_identical,
-    logerror,
-    logfatal,
-    logfatal_once,
-    logfatal_throttle,
-    logfatal_throttle_identical,
-    loginfo,
-    loginfo_once,
-    loginfo_throttle,
-    loginfo_throttle_identical,
-    logout,
-    logwarn,
-    logwarn_once,
-    logwarn_throttle,
-    logwarn_throttle_identical,
-)
+from gazelle.ros.compat.rospy.logs import *  # noqa: F403  levels and functions, listed there
 from gazelle.ros.compat.rospy.names import (
     SERVICE_ANYTYPE,
     TOPIC_ANYTYPE,
@@ -60,28 +38,6 @@ __all__ = [
     "is_initialized",
     "is_shutdown",
     "is_shutdown_requested",
-    "logdebug",
-    "logdebug_once",
-    "logdebug_throttle",
-    "logdebug_throttle_identical",
-    "logerr",
-    "logerr_once",
-    "logerr_throttle",
-    "logerr_throttle_identical",
-    "logerror",
-    "logfatal",
-    "logfatal_once",
-    "logfatal_throttle",
-    "logfatal_throttle_identical",
-    "loginfo",
-    "loginfo_once",
-    "loginfo_throttle",
-    "loginfo_throttle_identical",
-    "logout",
-    "logwarn",
-    "logwarn_once",
-    "logwarn_throttle",
-    "logwarn_throttle_identical",
     "parse_rosrpc_uri",
     "resolve_name",
     "rospydebug",
@@ -92,9 +48,11 @@ __all__ = [
     "signal_shutdown",
     "xmlrpcapi",
 ]
+__all__ += logs.__all__
 
 ROSRPC = "rosrpc://"
-rospydebug, rospyinfo, rospywarn, rospyerr = logdebug, loginfo, logwarn, logerr
+rospydebug, rospyinfo = logs.logdebug, logs.loginfo
+rospywarn, rospyerr = logs.logwarn, logs.logerr
 
 
 def is_initialized() -> bool:

@@ -23,6 +23,36 @@ from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.messages import load_message
 
 DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
+__all__ = [
+    "DEBUG",
+    "ERROR",
+    "FATAL",
+    "INFO",
+    "WARN",
+    "logdebug",
+    "logdebug_once",
+    "logdebug_throttle",
+    "logdebug_throttle_identical",
+    "logerr",
+    "logerr_once",
+    "logerr_throttle",
+    "logerr_throttle_identical",
+    "logerror",
+    "logfatal",
+    "logfatal_once",
+    "logfatal_throttle",
+    "logfatal_throttle_identical",
+    "loginfo",
+    "loginfo_once",
+    "loginfo_throttle",
+    "loginfo_throttle_identical",
+    "logout",
+    "logwarn",
+    "logwarn_once",
+    "logwarn_throttle",
+    "logwarn_throttle_identical",
+]
+
 LEVELS = {DEBUG: logging.DEBUG, INFO: logging.INFO, WARN: logging.WARNING}
 LEVELS |= {ERROR: logging.ERROR, FATAL: logging.CRITICAL}
 """Levels of ROS, and those of Python's logging."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -82,11 +82,9 @@ class Transformer:
         fixed_frame: str,
     ) -> bool:
         """Whether there is a transform from one time to another."""
-        names = _plain(target_frame, source_frame, fixed_frame)
-        found = self._buffer.can_transform_full(
-            names[0], target_time, names[1], source_time, names[2]
-        )
-        return bool(found)
+        target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
+        asked = (target, target_time, source, source_time, fixed)
+        return bool(self._buffer.can_transform_full(*asked))
 
     def waitForTransform(
         self,
@@ -102,9 +100,9 @@ class Transformer:
             TransformException: It does not come in time.
         """
         del polling_sleep_duration
-        self._check_thread()
         target, source = _plain(target_frame, source_frame)
-        _demand(self._buffer.can_transform(target, source, time, timeout, True), target, source)
+        asked = (target, source, time, timeout, True)
+        self._demand(lambda: self._buffer.can_transform(*asked), target, source)
 
     def waitForTransformFull(
         self,
@@ -122,19 +120,19 @@ class Transformer:
             TransformException: It does not come in time.
         """
         del polling_sleep_duration
-        self._check_thread()
-        names = _plain(target_frame, source_frame, fixed_frame)
-        answer = self._buffer.can_transform_full(
-            names[0], target_time, names[1], source_time, names[2], timeout, True
-        )
-        _demand(answer, names[0], names[1])
+        target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
+        asked = (target, target_time, source, source_time, fixed, timeout, True)
+        self._demand(lambda: self._buffer.can_transform_full(*asked), target, source)
 
-    def _check_thread(self) -> None:
+    def _demand(self, wait: Callable[[], tuple[bool, str]], target: str, source: str) -> None:
         if not self._using_dedicated_thread:
             raise TransformException(
                 "cannot wait for transform without a dedicated thread that listens to incoming TF "
                 "messages"
             )
+        found, why = wait()
+        if not found:
+            raise TransformException(why or f'no such transformation: "{target}" -> "{source}"')
 
     def chain(
         self,
@@ -192,11 +190,9 @@ class Transformer:
         Raises:
             TransformException: There is none; its class says why.
         """
-        names = _plain(target_frame, source_frame, fixed_frame)
-        found = self._buffer.lookup_transform_full(
-            names[0], target_time, names[1], source_time, names[2]
-        )
-        return _pair(found)
+        target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
+        asked = (target, target_time, source, source_time, fixed)
+        return _pair(self._buffer.lookup_transform_full(*asked))
 
     def lookupTwist(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any
@@ -260,11 +256,6 @@ class Transformer:
         return ""
 
 
-def _demand(answer: tuple[bool, str], target: str, source: str) -> None:
-    if not answer[0]:
-        raise TransformException(answer[1] or f'no such transformation: "{target}" -> "{source}"')
-
-
 def _pair(found: Any) -> Pair:
     place, turn = found.transform.translation, found.transform.rotation
     return [place.x, place.y, place.z], [turn.x, turn.y, turn.z, turn.w]
@@ -287,18 +278,18 @@ class TransformerROS(Transformer):
 
     def transformPoint(self, target_frame: str, ps: Any) -> Any:
         """A ``PointStamped`` in another frame."""
-        result = _made("PointStamped", target_frame, ps)
-        point = ps.point
-        moved = self.asMatrix(target_frame, ps.header) @ (point.x, point.y, point.z, 1.0)
-        result.point.x, result.point.y, result.point.z = moved[:3].tolist()
-        return result
+        return self._move("PointStamped", "point", 1.0, target_frame, ps)
 
     def transformVector3(self, target_frame: str, v3s: Any) -> Any:
         """A ``Vector3Stamped`` in another frame."""
-        result = _made("Vector3Stamped", target_frame, v3s)
-        vector = v3s.vector
-        turned = self.asMatrix(target_frame, v3s.header) @ (vector.x, vector.y, vector.z, 0.0)
-        result.vector.x, result.vector.y, result.vector.z = turned[:3].tolist()
+        return self._move("Vector3Stamped", "vector", 0.0, target_frame, v3s)
+
+    def _move(self, kind: str, field: str, weight: float, target_frame: str, stamped: Any) -> Any:
+        """Turn three numbers, and move them if they weigh something."""
+        result, three = _made(kind, target_frame, stamped), getattr(stamped, field)
+        moved = self.asMatrix(target_frame, stamped.header) @ (three.x, three.y, three.z, weight)
+        put = getattr(result, field)
+        put.x, put.y, put.z = moved[:3].tolist()
         return result
 
     def transformQuaternion(self, target_frame: str, ps: Any) -> Any:
