@@ -24,7 +24,8 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
-_BLOCK = 64  # primitives and bodies that are prepared at once; more than make a grid worth it
+_BLOCK = 64  # primitives that are prepared at once; more than make a grid worth it
+_CROWD = 128  # bodies that are sorted at once
 _SHARE = 4000  # beams that are worth a thread
 
 
@@ -95,7 +96,7 @@ class _Scratch:
     stamp: NDArray[np.int64]
     begins: Floats
     walls: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
-    others: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
+    others: Floats = field(default_factory=lambda: np.zeros((18, _CROWD)))
     going: Floats = field(default_factory=lambda: np.zeros(LANES))
 
 
@@ -288,11 +289,11 @@ def _middles_of(fan: Fan) -> Floats:
 def _outline(fan: Fan) -> Floats:
     """Corners of a convex polygon around all that a fan can see, in the sensor's frame."""
     span = fan.step * (fan.count - 1)
-    if span >= math.pi:
+    if span > math.pi + _ANGLES:
         angles = np.arange(8) * (math.pi / 4.0)
         far = fan.reach / math.cos(math.pi / 8.0)
         return np.stack((far * np.cos(angles), far * np.sin(angles)), axis=1)
-    pieces = max(1, math.ceil(span / (math.pi / 3.0)))
+    pieces = max(1, math.ceil(span / (math.pi / 3.0) - _ANGLES))
     angles = fan.start + np.linspace(0.0, span, pieces + 1)
     far = fan.reach / math.cos(span / pieces / 2.0)
     arc = np.stack((far * np.cos(angles), far * np.sin(angles)), axis=1)

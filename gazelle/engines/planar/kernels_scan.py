@@ -36,6 +36,8 @@ from gazelle.engines.planar.kernels_find import draw_found, draw_statics, find_l
 from gazelle.engines.planar.kernels_grid import place_in, stretch
 from gazelle.engines.planar.tables import Cells, Floats, Indices
 
+RINGS = 16  # by which bodies are sorted
+
 
 @part
 def put_view(view: Floats, outline: Floats, sensors: Floats, m: int, share: float) -> None:
@@ -86,6 +88,34 @@ def cells_of(view: Floats, grid: Floats, widest: float, r: int) -> tuple[int, in
 
 
 @part
+def sort_found(found: Floats, n: int, reach: float) -> None:
+    """Copy the bodies found to the lower half of the rows, about the nearest first.
+
+    Then those that are hidden by others need not be drawn.
+    """
+    for ring in range(RINGS):
+        found[8, ring] = 0.0
+    share = RINGS / reach
+    for i in range(np.uint64(n)):
+        x, y = found[0, i], found[1, i]
+        found[6, i] = min(math.sqrt(x * x + y * y) * share, RINGS - 1.0)
+    for i in range(n):
+        found[8, int(found[6, i])] += 1.0
+    before = 0.0
+    for ring in range(RINGS):
+        here = found[8, ring]
+        found[8, ring] = before
+        before += here
+    for i in range(n):
+        ring = int(found[6, i])
+        to = int(found[8, ring])
+        found[8, ring] += 1.0
+        for row in range(5):
+            found[9 + row, to] = found[row, i]
+        found[16, to] = found[7, i]
+
+
+@part
 def draw_view(  # a call for each cell would cost more than what it does
     beams: Floats, fan: Floats, sensors: Floats, m: int, view: Floats, widest: float,
     grid: Floats, statics: Floats, start: Cells, items: Cells, lanes: Floats, stamp: Indices,
@@ -120,13 +150,17 @@ def draw_view(  # a call for each cell would cost more than what it does
                 if kinds[k, FAMILY] != me:
                     q = find_body(others, q, fan, sensors, m, kinds, pose, k, b)
                     if q == others.shape[1]:
-                        draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
+                        sort_found(others, q, fan[REACH])
+                        draw_bodies(
+                            beams, fan, others[9:], q, sensors, m, kinds, looks, pose, world
+                        )
                         q = 0 * q
                 b = int(follow[b])
     if n > 0:
         draw_found(beams, fan, walls, n)
     if q > 0:
-        draw_bodies(beams, fan, others, q, sensors, m, kinds, looks, pose, world)
+        sort_found(others, q, fan[REACH])
+        draw_bodies(beams, fan, others[9:], q, sensors, m, kinds, looks, pose, world)
 
 
 @part
