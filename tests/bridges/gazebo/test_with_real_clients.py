@@ -141,6 +141,59 @@ assert weld.type == 0 and not weld.damping and math.isnan(weld.position[0]) and 
 say(call("apply_joint_effort", "ApplyJointEffort", joint_name="weld", effort=1.0))
 say(call("set_joint_properties", "SetJointProperties", joint_name="weld"))
 """
+OWN_AND_TOPICS = """
+import rospy
+from gazelle_msgs.srv import *
+from gazebo_msgs.msg import LinkState, ModelState
+from gazebo_msgs.srv import GetModelState
+from geometry_msgs.msg import Pose
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty
+rospy.init_node("real", anonymous=True)
+def call(name, kind, **fields):
+    rospy.wait_for_service(name, 5.0)
+    return rospy.ServiceProxy(name, kind)(**fields)
+def say(answer): print(answer.success, "|", answer.status_message, flush=True)
+def x(): return call("/gazebo/get_model_state", GetModelState, model_name="r1").pose.position.x
+assert rospy.wait_for_message("/clock", Clock, 5.0).clock.to_sec() > 0.0
+say(call("/gazelle/step", Step, steps=1))
+call("/gazebo/pause_physics", Empty)
+before = call("/gazelle/step", Step, steps=0).time
+stepped = call("/gazelle/step", Step, steps=25)
+say(stepped)
+assert abs((stepped.time - before).to_sec() - 0.025) < 1e-9
+taken = call("/gazelle/snapshot", Snapshot)
+say(taken)
+for topic, kind, fields in (
+    ("/gazebo/set_model_state", ModelState, {"model_name": "r1"}),
+    ("/gazebo/set_link_state", LinkState, {"link_name": "r1::base_footprint"}),
+):
+    state = kind(**fields); state.pose.orientation.w = 1.0; state.pose.position.x = x() + 0.5
+    said = rospy.Publisher(topic, kind, queue_size=1, latch=True); said.publish(state)
+    for _ in range(200):
+        if abs(x() - state.pose.position.x) < 1e-6: break
+        rospy.rostime.wallsleep(0.01)
+    print(topic, abs(x() - state.pose.position.x) < 1e-6, flush=True)
+    said.unregister()
+say(call("/gazelle/restore", Restore, state=taken.state))
+assert abs(x()) < 0.1, x()
+say(call("/gazelle/restore", Restore, state=b"nonsense"))
+say(call("/gazelle/set_real_time_factor", SetRealTimeFactor, real_time_factor="inf"))
+say(call("/gazelle/set_real_time_factor", SetRealTimeFactor, real_time_factor="quick"))
+say(call("/gazelle/seed", Seed, seed=5))
+"""
+OWN_ANSWERS = """
+False | Step: the simulation is not paused
+True | Step: steps made
+True | Snapshot: taken
+/gazebo/set_model_state True
+/gazebo/set_link_state True
+True | Restore: done
+False | Restore: ...
+True | SetRealTimeFactor: done
+False | SetRealTimeFactor: expected a positive number or max, not 'quick'
+True | Seed: the simulation is reset
+"""
 ODD_ENDS = """
 False | SetModelState: model does not exist
 False | SetModelState: specified reference frame entity does not exist
@@ -196,6 +249,17 @@ def test_a_real_client_gets_gazebos_answers_to_what_cannot_be_done(background, c
     said = run(background.master.uri, classes, PYTHON, "-c", ODD_CALLS, calls)
     expected = [f"False | {text}" for _, _, text in ODD] + ODD_ENDS.strip().splitlines()
     assert said.strip().splitlines() == expected
+
+
+def test_a_real_client_uses_what_gazebo_does_not_have(background, classes):
+    said = run(background.master.uri, classes, PYTHON, "-c", OWN_AND_TOPICS)
+    lines = said.strip().splitlines()
+    lines = [
+        f"{head}: ..." if "False | Restore" in head else line
+        for line in lines
+        for head in [line.partition(": ")[0]]
+    ]
+    assert lines == OWN_ANSWERS.strip().splitlines()
 
 
 def test_the_real_tools_see_the_types_of_services_and_topics(background, classes):
