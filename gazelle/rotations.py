@@ -55,10 +55,25 @@ _FROM_PRODUCTS = _from_products()
 
 def multiply(a: Floats, b: Floats) -> Floats:
     """Hamilton products of quaternions (x, y, z, w), shape (..., 4): first b, then a."""
+    if a.size == 4 and b.size == 4:
+        return _multiply_one(a, b)
     av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]
     vector = aw * bv + bw * av + cross(av, bv)
     scalar = aw * bw - (av * bv).sum(axis=-1, keepdims=True)
     return np.concatenate((vector, scalar), axis=-1)
+
+
+def _multiply_one(p: Floats, q: Floats) -> Floats:
+    """The same for a single pair, to the bit, without the overhead of arrays."""
+    x, y, z, w = p.ravel().tolist()
+    a, b, c, d = q.ravel().tolist()
+    product = (
+        w * a + d * x + (y * c - z * b),
+        w * b + d * y + (z * a - x * c),
+        w * c + d * z + (x * b - y * a),
+        w * d - (x * a + y * b + z * c),
+    )
+    return np.array(product).reshape((1,) * (max(p.ndim, q.ndim) - 1) + (4,))
 
 
 def conjugate(q: Floats) -> Floats:
@@ -72,6 +87,8 @@ _BACK = np.array([-1.0, -1.0, -1.0, 1.0])
 
 def cross(a: Floats, b: Floats) -> Floats:
     """Cross products, shape (..., 3), without the overhead of ``numpy.cross`` and ``stack``."""
+    if a.size == 3 and b.size == 3:
+        return _cross_one(a, b)
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     x = ay * bz - az * by
@@ -80,6 +97,14 @@ def cross(a: Floats, b: Floats) -> Floats:
     product[..., 1] = az * bx - ax * bz
     product[..., 2] = ax * by - ay * bx
     return product
+
+
+def _cross_one(a: Floats, b: Floats) -> Floats:
+    """The same for a single pair, to the bit."""
+    x, y, z = a.ravel().tolist()
+    i, j, k = b.ravel().tolist()
+    product = np.array((y * k - z * j, z * i - x * k, x * j - y * i))
+    return product.reshape((1,) * (max(a.ndim, b.ndim) - 1) + (3,))
 
 
 def yaw_of(q: Floats) -> Floats:

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from gazelle.rotations import rotate, turns
+from gazelle.rotations import cross, multiply, rotate, turns
 
 numbers = st.floats(-10.0, 10.0)
 quaternions = arrays(np.float64, 4, elements=numbers).filter(lambda q: np.linalg.norm(q) > 0.1)
@@ -17,6 +17,16 @@ def test_one_vector_is_turned_to_the_bit_as_one_of_many(q, v):
     many = rotate(np.stack((q, q)), np.stack((v, v)))
     assert np.array_equal(rotate(q[None], v[None]), many[:1])
     assert np.array_equal(rotate(q, v), many[0])
+
+
+@given(quaternions, quaternions)
+def test_one_product_is_to_the_bit_that_of_one_among_many(p, q):
+    for operation, a, b in ((multiply, p, q), (cross, p[:3], q[1:])):
+        many = operation(np.stack((a, a, b)), np.stack((b, b, a)))
+        assert np.array_equal(operation(a[None], b[None]), many[:1])
+        assert np.array_equal(operation(a, b), many[0])
+        assert np.array_equal(operation(a[None], b), many[:1])
+        assert operation(a[None, None], b[None]).shape == (1, 1, len(a))
 
 
 @given(quaternions, arrays(np.float64, 3, elements=numbers))

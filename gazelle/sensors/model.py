@@ -64,12 +64,14 @@ class NoisySensor:
         return tuple(self._noises)
 
     def noisy(self, values: Floats, interval: float, worlds: Worlds | None) -> Floats:
-        """True values with noise, shape (n, channels)."""
+        """True values with noise, shape (n, channels); the same array where there is none."""
+        if not any(model.active for model in self._noises):
+            return values
         columns = [
             model.apply(values[:, i : i + 1], interval, worlds)
             for i, model in enumerate(self._noises)
         ]
-        return np.concatenate(columns, axis=1) if columns else values
+        return np.concatenate(columns, axis=1)
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
         """Use the random numbers of another seed, from their start."""

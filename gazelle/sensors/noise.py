@@ -43,6 +43,11 @@ class NoiseModel:
         self._draw_bias(None)
 
     @property
+    def active(self) -> bool:
+        """Whether it changes values."""
+        return self._active
+
+    @property
     def stddev(self) -> Floats:
         """Standard deviation of the white noise in each world, shape (nworld,); settable."""
         return self._stddev[:, 0].copy()

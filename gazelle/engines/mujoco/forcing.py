@@ -29,7 +29,7 @@ class ForcedSteps(ForceAccess):
 
     def _advance(self, count: int) -> set[int]:
         """Step all worlds; returns those in which MuJoCo gave up."""
-        if not self._layout.limits.govern(self._state) and not self._is_windy():
+        if not self._is_forced():
             return self._step_batch(count)
         failed: set[int] = set()
         for _ in range(count):
@@ -37,6 +37,9 @@ class ForcedSteps(ForceAccess):
                 failed |= self._step_batch(1)
             self._stale = True
         return failed
+
+    def _is_forced(self) -> bool:
+        return self._layout.limits.govern(self._state) or self._is_windy()
 
     def _step_batch(self, count: int) -> set[int]:
         try:
@@ -48,6 +51,9 @@ class ForcedSteps(ForceAccess):
     @contextmanager
     def _forced(self) -> Iterator[None]:
         """Let the forces of this moment act while it lasts; the state keeps what was commanded."""
+        if not self._is_forced():
+            yield
+            return
         with self._layout.limits.held_back(self._state), self._blown():
             yield
 
