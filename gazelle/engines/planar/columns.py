@@ -1,6 +1,6 @@
 """What the columns of the arrays mean that kernels work on.
 
-A row of a primitive, of a body or of a piece is 64 bytes: one line of a processor's cache.
+A row of a primitive, of a body or of a piece is as large as a line of a processor's cache.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ LAST_LOOK: Final = 2
 FIRST_PIECE: Final = 3
 LAST_PIECE: Final = 4
 RADIUS: Final = 5  # of all of it about the body's origin [m]
-KIND_OF_BODY: Final = 8
+KIND_OF_BODY: Final = 6
 
 # A sensor's place in its world: position, cosine and sine of its heading, height.
 S_X: Final = 0

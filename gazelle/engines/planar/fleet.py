@@ -110,7 +110,7 @@ class Fleet:
         heights = np.array([body.z for body in bodies], np.float64)
         if not (np.isfinite(first).all() and np.isfinite(heights).all()):
             raise EngineError("a pose must be finite")
-        self._initial = _rows_of(first, heights)
+        self._start = np.column_stack((first, heights))
         extent = first[:, :2] if len(bodies) else np.zeros((1, 2))
         side = max(cell, 2.0 * self._widest)
         self.scene = scene_of(statics, extent, side, nbody=self.nbody, nworld=nworld)
@@ -128,6 +128,8 @@ class Fleet:
             if body.drive not in drives:
                 drives[body.drive] = _drive_row(body.drive)
             self.drives[k] = drives[body.drive]
+        if len(drives) == 1:
+            self.drives = self.drives[:1].copy()  # kernels take it as that of all
         tables = [primitives_of(parts) for parts in shapes]
         pieces = [pieces_of(parts) for parts in shapes]
         looks = np.cumsum([0, *(len(table.rows) for table in tables)])
@@ -148,8 +150,8 @@ class Fleet:
 
     def _make_state(self) -> None:
         total = self.nworld * self.nbody
-        self.rows = np.tile(self._initial, (self.nworld, 1))
-        self._goal = self.rows.copy()
+        self.rows = _rows_of(np.tile(self._start, (self.nworld, 1)))
+        self._goal = self.rows[:, : c.Z + 1].copy()
         self._command = np.zeros((total, 3))
         self._velocity = np.zeros((total, 3))
         self._state = np.zeros(total, np.int8)
@@ -158,6 +160,11 @@ class Fleet:
         self.follow = np.full(total, -1, np.int32)
         self.cell = np.full(total, -1, np.int32)
         self._relink(slice(None))
+
+    @property
+    def _initial(self) -> Floats:
+        """The rows of a world's bodies as they were made."""
+        return _rows_of(self._start)
 
     # -- state -------------------------------------------------------------------------
 
@@ -223,7 +230,7 @@ class Fleet:
         flat = np.asarray(pose, np.float64).reshape(-1, 3)
         if not np.isfinite(flat).all():
             raise EngineError("a pose must be finite")
-        self.rows[:] = _rows_of(flat, np.asarray(heights, np.float64).ravel())
+        self.rows[:] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
         self._relink(slice(None))
 
     def take_over(self, body: int, other: Fleet, its: int) -> None:
@@ -304,10 +311,11 @@ class Fleet:
         self.crew.close()
 
 
-def _rows_of(pose: Floats, heights: Floats) -> Floats:
-    rows = np.zeros((len(pose), c.BODY))
-    rows[:, c.X], rows[:, c.Y], rows[:, c.YAW] = pose.T
-    rows[:, c.COS], rows[:, c.SIN], rows[:, c.Z] = np.cos(pose[:, 2]), np.sin(pose[:, 2]), heights
+def _rows_of(placed: Floats) -> Floats:
+    """Rows of bodies at x, y, heading and height, shape (n, 4)."""
+    rows = np.zeros((len(placed), c.BODY))
+    rows[:, c.X], rows[:, c.Y], rows[:, c.YAW], rows[:, c.Z] = placed.T
+    rows[:, c.COS], rows[:, c.SIN] = np.cos(placed[:, 2]), np.sin(placed[:, 2])
     return rows
 
 
