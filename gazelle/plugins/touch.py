@@ -1,0 +1,99 @@
+"""Whether a model touches one thing alone for a time: what ``libTouchPlugin.so`` does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.sensors import ContactModel
+from gazelle.simulation import Input, ModelPlugin, Output, Robot, absolute
+from gazelle.simulation.values import Flags
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+class Touch(ModelPlugin):
+    """Tells when some contact sensors have touched the target, and nothing else, long enough.
+
+    It tells once, and waits then to be enabled again, in every world by itself.
+    """
+
+    update_rate = 50.0
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the sensors, open the topics."""
+        self._engine, self._clock = robot.simulation.engine, robot.simulation.clock
+        self._collisions: list[str] = []
+        for tag in parameters.find_all("sensor"):
+            model = robot.sensors[tag.text].model
+            if not isinstance(model, ContactModel):
+                raise SimulationError(f"'{tag.text}' is no contact sensor", source=tag.source)
+            self._collisions.extend(model.collisions)
+        if not self._collisions:
+            raise SimulationError("a <sensor> is required here", source=parameters.source)
+        self._target = parameters.require("target", str)
+        self._time = parameters.require("time", float)
+        namespace = parameters.require("namespace", str)
+        self._starts_enabled = parameters.get("enabled", False)
+        nworld = robot.simulation.nworld
+        self._enabled = np.full(nworld, self._starts_enabled)
+        self._touched = np.zeros(nworld, np.bool_)
+        self._since: Floats = np.full(nworld, np.nan)
+        robot.inputs[f"{namespace} enable"] = Input(
+            absolute("", f"{namespace}/enable"), bool, self._enable
+        )
+        self._output = robot.outputs[f"{namespace} touched"] = Output(
+            absolute("", f"{namespace}/touched"),
+            Flags,
+            lambda: Flags(self._touched.copy()),
+            event=True,
+        )
+
+    def _enable(self, wanted: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
+        rows = slice(None) if worlds is None else worlds
+        self._enabled[rows] = wanted
+        if wanted:
+            self._since[rows], self._touched[rows] = np.nan, False
+
+    @property
+    def active(self) -> bool:
+        """Whether it is enabled anywhere."""
+        return bool(self._enabled.any())
+
+    def on_update(self, time: float) -> None:
+        """Look at what is touched."""
+        # The engine lists contacts of one world at a time.
+        for world in np.flatnonzero(self._enabled):
+            others = self._engine.contacts(self._collisions, int(world)).others
+            if not others or not all(self._target in name for name in others):
+                self._since[world] = np.nan
+            elif np.isnan(self._since[world]):
+                self._since[world] = time
+        done = self._enabled & (time - self._since > self._time)
+        if done.any():
+            self._touched[done], self._enabled[done] = True, False
+            self._output.publish()
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Start as the file says."""
+        rows = slice(None) if worlds is None else worlds
+        self._enabled[rows], self._touched[rows] = self._starts_enabled, False
+        self._since[rows] = np.nan
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Since when it touches, and where it told."""
+        return {
+            "enabled": self._enabled.copy(),
+            "touched": self._touched.copy(),
+            "since": self._since.copy(),
+        }
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._enabled[:], self._touched[:] = state["enabled"], state["touched"]
+        self._since[:] = state["since"]
