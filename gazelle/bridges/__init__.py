@@ -1,5 +1,5 @@
 """Doors: a simulation on a ROS 1 graph."""
 
-from gazelle.bridges.serving import RosDoor, serve_ros
+from gazelle.bridges.serving import RosDoor, refuse_twin, serve_ros
 
-__all__ = ["RosDoor", "serve_ros"]
+__all__ = ["RosDoor", "refuse_twin", "serve_ros"]

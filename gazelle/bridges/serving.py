@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 from types import TracebackType
 from typing import Self
 
 from gazelle.bridges.gazebo import GazeboDoor
 from gazelle.bridges.pacing import Pacer
+from gazelle.errors import RosError
 from gazelle.ros import Master, Node, net
-from gazelle.ros.errors import MasterUnreachableError
+from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
+from gazelle.ros.master.proxy import value_of
+from gazelle.ros.tools.graph import Graph
+from gazelle.ros.xmlrpc.client import BlockingClient
 from gazelle.simulation import Simulation
+
+_PATIENCE_S = 2.0
 
 
 class RosDoor:
@@ -103,6 +110,41 @@ def serve_ros(
         if master is not None:
             master.close()
         raise
+
+
+def refuse_twin(name: str, master_uri: str | None = None) -> None:
+    """Make sure that no simulator of a name is on the graph, for a second would end the first.
+
+    One that does not answer any more is no obstacle.
+
+    Args:
+        name: Of the node.
+        master_uri: Of the master; by default ``ROS_MASTER_URI``, else this machine's port 11311.
+
+    Raises:
+        RosError: There is one.
+    """
+    with Graph("gazelle", master_uri) as graph, contextlib.suppress(UnreachableError, ApiError):
+        node = graph.resolve(name)
+        uri = graph.node_uri(node)
+        process = _process_at(uri) if uri is not None else None
+        if process is None:
+            return
+        raise RosError(
+            f"a simulator is on this graph already: {node}, process {process}",
+            hint="end it, or put another port into ROS_MASTER_URI, such as http://localhost:11312",
+        )
+
+
+def _process_at(uri: str) -> int | None:
+    """The process of the node at an address; None if it does not answer."""
+    client = BlockingClient(uri, timeout=_PATIENCE_S)
+    try:
+        return int(value_of("getPid", client.call("getPid", "/gazelle")))
+    except (UnreachableError, ApiError, OSError):
+        return None
+    finally:
+        client.close()
 
 
 def join_graph(

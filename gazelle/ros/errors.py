@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import traceback
+from pathlib import Path
 
 from gazelle.errors import RosError
 
@@ -26,6 +27,8 @@ __all__ = [
     "UnreachableError",
     "report",
 ]
+
+_HERE = str(Path(__file__).parents[1])
 
 
 class InvalidNameError(RosError, ValueError):
@@ -124,13 +127,22 @@ def report(what: str, error: BaseException) -> None:
 
     Args:
         what: What was being done, such as ``callback of /scan``.
-        error: What went wrong; its traceback goes along.
+        error: What went wrong; its traceback goes along, unless it is one of ours that code of
+            ours raised: a peer that refuses needs no traceback.
     """
     import logging
 
-    lines = traceback.format_exception(error)
+    lines = [] if _expected(error) else traceback.format_exception(error)
+    text = "\n".join([f"{what}: {error}", "".join(lines)]).rstrip()
     logger = logging.getLogger("gazelle.ros")
     if logger.hasHandlers():
-        logger.error("%s: %s\n%s", what, error, "".join(lines))
+        logger.error("%s", text)
     elif sys.stderr is not None:
-        sys.stderr.write(f"[ERROR] {what}: {error}\n{''.join(lines)}")
+        sys.stderr.write(f"[ERROR] {text}\n")
+
+
+def _expected(error: BaseException) -> bool:
+    """Whether an error is ours, and no code of users is on the way to it."""
+    frames = traceback.walk_tb(error.__traceback__)
+    ours = all(frame.f_code.co_filename.startswith(_HERE) for frame, _ in frames)
+    return isinstance(error, RosError) and ours

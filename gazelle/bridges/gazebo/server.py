@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle import assets
-from gazelle.bridges.serving import RosDoor
+from gazelle.bridges.serving import RosDoor, refuse_twin
 from gazelle.errors import ResolveError
+from gazelle.ros import names
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
@@ -30,6 +31,8 @@ def main(arguments: Sequence[str]) -> int:
     """Run a world on the graph until it is told to end; returns the exit code."""
     found = parse_arguments(arguments, "gazebo")
     options = _options(found.plain)
+    place = names.as_namespace(found.options["namespace"])
+    refuse_twin(names.join(place, found.options["name"]), found.options.get("master_uri"))
     with found.start() as node, Simulation(find_world(options.world), seed=options.seed) as sim:
         if options.paused:
             sim.pause()

@@ -56,9 +56,10 @@ class MasterProxy:
         try:
             return self._client.call(method, self.caller, *params)
         except UnreachableError as error:
+            reason = error.message.removeprefix(f"{self.uri} does not answer: ")
             raise MasterUnreachableError(
-                f"the ROS master at {self.uri} does not answer",
-                hint=f"start one with 'gazelle master', or set ROS_MASTER_URI ({error.message})",
+                f"the ROS master at {self.uri} does not answer ({reason})",
+                hint="start one with 'gazelle master', or set ROS_MASTER_URI",
             ) from None
 
     def close(self) -> None:

@@ -91,3 +91,21 @@ def type_at(message_class: type[Message], steps: Sequence[Step]) -> str:
         if step is not steps[-1] or step.index is not None:
             kind = kind.partition("[")[0]
     return kind
+
+
+def texts_as_texts(message: Message, arguments: Sequence[Any]) -> list[Any]:
+    """Values of a command line, where a number that is meant for a field of text is text.
+
+    ``2.0`` and ``max`` are both words for people; YAML makes a number of the first.
+    """
+    kinds = dict(zip(message.__slots__, message._slot_types, strict=True))  # noqa: SLF001  # genpy's name
+    if len(arguments) == 1 and isinstance(arguments[0], dict):
+        return [{name: _text(kinds.get(name), each) for name, each in arguments[0].items()}]
+    if len(arguments) != len(kinds):
+        return list(arguments)
+    return [_text(kind, each) for kind, each in zip(kinds.values(), arguments, strict=True)]
+
+
+def _text(kind: str | None, value: Any) -> Any:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return str(value) if kind == "string" and number else value

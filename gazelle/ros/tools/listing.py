@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TextIO
 from urllib.parse import urlsplit
 
+from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.messages import load_message
 from gazelle.ros.tools.errors import ToolError
@@ -150,6 +151,16 @@ def _may_have(kind: str, path: str) -> bool:
     return True
 
 
+def closest_topic(graph: Graph, name: str) -> str | None:
+    """A hint for a topic that is not there: one with nearly that name, or with such fields."""
+    types = graph.types()
+    for topic, kind in types.items():
+        if name.startswith(f"{topic}/") and not _may_have(kind, name.removeprefix(topic)):
+            return f"the topic {topic} is there, but {kind} has no {name.removeprefix(topic)[1:]}"
+    hint = did_you_mean(name, types)
+    return hint if hint.startswith("did you mean") else None
+
+
 def topic_type(graph: Graph, name: str) -> str:
     """The type of a topic; for a field of its messages, the type, the field and the field's type.
 
@@ -159,7 +170,7 @@ def topic_type(graph: Graph, name: str) -> str:
     wanted = graph.resolve(name)
     found = find_topic(graph, wanted)
     if found is None:
-        raise ToolError(f"unknown topic type [{wanted}]")
+        raise ToolError(f"unknown topic type [{wanted}]", hint=closest_topic(graph, wanted))
     _, kind, path = found
     if not path:
         return kind

@@ -15,6 +15,7 @@ from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
 from gazelle.ros.time import Time
 from gazelle.ros.tools.errors import ToolError
+from gazelle.ros.tools.fields import texts_as_texts
 from gazelle.ros.tools.graph import Graph
 from gazelle.ros.tools.watching import tool_node
 
@@ -138,7 +139,7 @@ class MessagePublisher:
         now = Time(nsecs=self._node.clock.now() if self._ros_time else time.time_ns())
         keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
         try:
-            fill_message_args(message, arguments, keys=keys)
+            fill_message_args(message, texts_as_texts(message, arguments), keys=keys)
         except (MessageException, ValueError) as error:
             known = get_printable_message_args(message)
             raise ToolError(f"{error}", hint=f"Args are: [{known}]") from None

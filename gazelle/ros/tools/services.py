@@ -15,6 +15,7 @@ from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.service_links import ServiceChannel
 from gazelle.ros.time import Time
 from gazelle.ros.tools.errors import ToolError
+from gazelle.ros.tools.fields import texts_as_texts
 from gazelle.ros.tools.graph import Graph
 
 _PATIENCE_S = 5.0
@@ -152,7 +153,7 @@ class Caller:
         now = Time(nsecs=self._node.clock.now())
         keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
         try:
-            fill_message_args(made, arguments, keys=keys)
+            fill_message_args(made, texts_as_texts(made, arguments), keys=keys)
         except (MessageException, ValueError) as error:
             given = "\n".join(f" * {each} (type {type(each).__name__})" for each in arguments)
             known = get_printable_message_args(made)

@@ -13,7 +13,7 @@ from gazelle.ros import names
 from gazelle.ros.names import ANY_TYPE
 from gazelle.ros.node import Node
 from gazelle.ros.tools.graph import Graph
-from gazelle.ros.tools.listing import find_topic
+from gazelle.ros.tools.listing import closest_topic, find_topic
 
 NODE_NAME = "GAZELLE_ROS_NODE"
 """Environment variable with the name that a tool's node is to have."""
@@ -31,6 +31,9 @@ def wait_for_topic(graph: Graph, name: str, stop: threading.Event) -> tuple[str,
         if not said:
             said = True
             sys.stderr.write(f"WARNING: topic [{wanted}] does not appear to be published yet\n")
+            hint = closest_topic(graph, wanted)
+            if hint is not None:
+                sys.stderr.write(f"  hint: {hint}\n")
         stop.wait(_POLL_S)
     return None
 

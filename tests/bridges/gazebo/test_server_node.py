@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import signal
 import subprocess
 import sys
@@ -10,10 +11,12 @@ import pytest
 from door_client import Client
 from ros.graph import until
 
+from gazelle.bridges import refuse_twin
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.bridges.gazebo.server import main as serve
-from gazelle.errors import ResolveError
-from gazelle.ros import Master
+from gazelle.errors import ResolveError, RosError
+from gazelle.ros import Master, Node, load_message
+from gazelle.ros.master.proxy import MasterProxy
 
 WORLD = """<sdf version="1.6"><world name="w"><model name="here"><static>true</static>
 <link name="l"/></model></world></sdf>"""
@@ -77,3 +80,21 @@ def test_a_flag_that_gzserver_does_not_have_is_refused(master, world):
     with pytest.raises(SystemExit) as caught:
         serve(["--no-such-flag", str(world)])
     assert caught.value.code == 2
+
+
+def test_a_second_simulator_is_refused_and_the_first_stays(master, world):
+    with Node("gazebo", master_uri=master.uri) as first:
+        first.advertise("/clock", load_message("rosgraph_msgs/Clock"))
+        with pytest.raises(RosError, match="a simulator is on this graph already: /gazebo"):
+            serve([str(world)])
+        assert not first.closed
+        refuse_twin("/other/gazebo")
+
+
+def test_what_does_not_answer_any_more_is_no_obstacle(master):
+    refuse_twin("gazebo")
+    dead = "http://127.0.0.1:9"
+    with contextlib.closing(MasterProxy(master.uri, "/gazebo")) as proxy:
+        proxy.call("registerPublisher", "/clock", "rosgraph_msgs/Clock", dead)
+    refuse_twin("gazebo")
+    refuse_twin("gazebo", dead)
