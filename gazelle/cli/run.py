@@ -84,7 +84,12 @@ def run(args: argparse.Namespace) -> int:
 
     sys.path[:0] = args.plugins
     world = formats.load(args.file)
-    if world.stage is not None and args.engine in {None, "planar"}:
+    fleet = world.stage is not None and args.engine in {None, "planar"}
+    if args.ros:
+        from gazelle.bridges import refuse_twin
+
+        refuse_twin("stageros" if fleet else "gazebo")
+    if world.stage is not None and fleet:
         return _run_fleet(world.stage, args)
     from gazelle.simulation import Simulation
 
