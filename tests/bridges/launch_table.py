@@ -11,6 +11,13 @@ def _under(names, topics):
     return " ".join(f"/{name}{topic}" for name in names for topic in topics.split())
 
 
+def _tuned(topic, *names):
+    """The topics of dynamic_reconfigure servers below a topic."""
+    return " ".join(
+        f"{topic}/{name}/parameter_{what}" for name in names for what in ("descriptions", "updates")
+    )
+
+
 def _links(prefix, text):
     """``parent>child`` with a prefix before both."""
     return " ".join(
@@ -138,7 +145,10 @@ HUSKY_INCLUDES = {
 HUSKY = Expected(
     "husky_gazebo empty_world.launch",
     models="ground_plane husky",
-    topics="/imu/data /imu/data/bias /joint_states /navsat/fix /navsat/vel /tf /tf_static",
+    topics="/imu/data /imu/data/bias /joint_states /navsat/fix /navsat/vel /tf /tf_static "
+    + _tuned("/imu/data", "accel", "rate", "yaw")
+    + " "
+    + _tuned("/navsat/fix", "position", "velocity", "status"),
     frames="base_link>base_footprint base_link>front_bumper_link base_link>imu_link "
     "base_link>inertial_link base_link>rear_bumper_link base_link>top_chassis_link "
     "base_link>top_plate_link base_link>user_rail_link top_plate_link>top_plate_front_link "
