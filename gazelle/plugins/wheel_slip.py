@@ -95,13 +95,10 @@ class WheelSlip(ModelPlugin):
         """Let wheels slip by their speeds."""
         engine = self._simulation.engine
         self._slips = any(any(wheel.compliance) for wheel in self._wheels)
-        for wheel in self._wheels:
-            axle = rotate(wheel.link.placement().quaternion, wheel.axle[None])
-            spin = np.einsum("ni,ni->n", wheel.link.motion().angular, axle)
-            slip = wheel.radius * np.abs(spin)[:, None] / wheel.force * np.array(wheel.compliance)
-            # About the axle: the force acts at the radius, and so does the velocity.
-            slip[:, 1] /= wheel.radius**2
-            engine.set_parameter("wheel_slip", wheel.link.name, slip)
+        # All are looked at before one is changed: the engine computes where links are once.
+        slips = [(wheel.link.name, _slip(wheel)) for wheel in self._wheels]
+        for name, slip in slips:
+            engine.set_parameter("wheel_slip", name, slip)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """The compliances."""
@@ -118,6 +115,16 @@ class WheelSlip(ModelPlugin):
         for name, value in zip(self._tuned, state["tuned"], strict=True):
             self._tuned[name] = float(value)
         self._slips = bool(state["slips"])
+
+
+def _slip(wheel: _Wheel) -> Floats:
+    """Velocities for each unit of force, along the axle and about it, shape (nworld, 2)."""
+    axle = rotate(wheel.link.placement().quaternion, wheel.axle[None])
+    spin = np.einsum("ni,ni->n", wheel.link.motion().angular, axle)
+    slip = wheel.radius * np.abs(spin)[:, None] / wheel.force * np.array(wheel.compliance)
+    # About the axle: the force acts at the radius, and so does the velocity.
+    slip[:, 1] /= wheel.radius**2
+    return slip
 
 
 def _wheel(robot: Robot, tag: Parameters) -> _Wheel:
