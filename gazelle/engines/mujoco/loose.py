@@ -16,6 +16,9 @@ _MANY = 16
 # by a hundredth of a radian would stop where it turns back.
 SLEEP_SPEED = 1e-4
 
+# Up to this step wheels creep no more on a cone than on a pyramid [s].
+_FINE = 0.001
+
 # Speed that a loose body may well have [m/s]: a ball thrown or shot.
 _FAST = 20.0
 
@@ -39,6 +42,22 @@ def looks_ahead(world: World, time_step: float) -> bool:
         return wanted
     reach = _FAST * time_step
     return any(_is_loose(model) and _half_thickness(model) <= reach for model in world.models)
+
+
+def rubs_alike(world: World, time_step: float) -> bool:
+    """Whether friction is to be the same in all directions.
+
+    What lies about loose slips in any direction: a cone is right there, and faster than a
+    pyramid. Robots whose wheels roll drive as well on a pyramid, which costs them less; at
+    large steps they drive better on it.
+    """
+    moving = [model for model in world.models if not model.static]
+    loose = any(_is_loose(model) and _collides(model) for model in moving)
+    return loose and (time_step <= _FINE or all(_is_loose(model) for model in moving))
+
+
+def _collides(model: Model) -> bool:
+    return any(link.collisions for placed in model.walk() for link in placed.model.links)
 
 
 def keep_awake(model: mujoco.MjModel, world: World) -> None:

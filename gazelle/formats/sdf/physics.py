@@ -51,7 +51,7 @@ def read_ode(node: Parameters | None) -> Ode:
         iters=values.whole(node, "solver/iters", 50),
         precon_iters=values.whole(node, "solver/precon_iters", 0),
         sor=values.real(node, "solver/sor", 1.3),
-        friction_model=values.word(node, "solver/friction_model", "pyramid_model"),
+        friction_model=values.word(node, "solver/friction_model") or None,
         cfm=values.real(node, "constraints/cfm", 0.0),
         erp=values.real(node, "constraints/erp", 0.2),
         contact_max_correcting_vel=values.real(
