@@ -170,7 +170,10 @@ def test_what_is_not_there_yet_says_so(filename):
         simulate(block(plugin=plugin(filename)))
 
 
-@pytest.mark.parametrize("filename", ["libgazebo_ros_template.so", "libgazebo_ros_api_plugin.so"])
+@pytest.mark.parametrize(
+    "filename",
+    ["libgazebo_ros_template.so", "libgazebo_ros_api_plugin.so", "gz-sim-physics-system"],
+)
 def test_what_has_nothing_to_do_is_silent(filename, recwarn):
     simulate(block(plugin=plugin(filename)), plugin(filename)).close()
     assert [str(w.message) for w in recwarn if w.category is SimulationWarning] == []

@@ -17,7 +17,7 @@ def rows():
     """The rows of all tables: file names, and the text of the tags."""
     for line in PAGE.read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        files = re.findall(r"`lib(\w+)\.so`", cells[0])
+        files = re.findall(r"`lib([\w-]+)\.so`", cells[0])
         if files and len(cells) == 4:
             yield set(files), cells[2]
 
