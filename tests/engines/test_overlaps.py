@@ -160,3 +160,75 @@ def test_a_nested_model_that_is_static_holds_what_hangs_on_it():
     assert engine.link_placement("place::arm::link").position[0, 2] < 0.99
     arm_at = engine.link_placement("place::arm::link").position[0]
     assert np.linalg.norm(arm_at - (3.0, 0.0, 1.0)) == pytest.approx(0.5, abs=1e-9)
+
+
+def test_what_is_placed_into_the_ground_comes_out_at_max_vel_in_its_world():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.0, max_vel=0.1)
+    engine = make_engine("mujoco", scenes.world(ground(), body), nworld=3)
+    engine.step(50)
+    engine.set_model_placement("box", (0.0, 0.0, 0.05), UP, np.array([1]))
+    engine.set_model_placement("box", (0.0, 0.0, 0.07), UP, np.array([2]))
+    engine.step(200)
+    rising = engine.model_placement("box").position[:, 2]
+    assert rising == pytest.approx([0.1, 0.07, 0.09], abs=2e-3)
+    assert engine.link_motion("box::link").linear[:, 2] == pytest.approx([0.0, 0.1, 0.1], abs=0.06)
+    engine.step(500)
+    assert engine.model_placement("box").position[:, 2] == pytest.approx(0.1, abs=5e-4)
+
+
+def test_what_is_placed_into_another_body_is_not_thrown():
+    boxes = [scenes.box(name, pose=Pose(x, z=0.1)) for name, x in (("a", 0.0), ("b", 1.0))]
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), *boxes))
+    engine.step(50)
+    engine.set_model_placement("b", (0.1, 0.02, 0.1), UP)
+    for _ in range(100):
+        engine.step(10)
+        for name in "ab":
+            # Meanwhile it sinks as deep into the ground, too.
+            motion = engine.link_motion(f"{name}::link").linear[0]
+            assert max(np.abs(motion[:2]).max(), motion[2]) < 0.15
+    engine.step(9000)
+    a, b = (engine.model_placement(name).position[0] for name in "ab")
+    assert b[0] - a[0] > 0.19
+    assert (a[2], b[2]) == pytest.approx((0.1, 0.1), abs=1e-3)
+
+
+def test_what_a_placed_body_strikes_at_speed_is_no_overlap():
+    box = scenes.box(pose=Pose(z=0.5))
+    tracks = []
+    for places in (False, True):
+        other = scenes.box("other", pose=Pose(5.0, z=0.1))
+        engine = make_engine("mujoco", scenes.world(ground(), box, other, step=0.005))
+        track = []
+        for _ in range(80):
+            engine.step()
+            track.append(engine.model_placement("box").position[0, 2])
+            if places:
+                engine.set_model_placement("other", (6.0, 0.0, 0.05), UP)
+        tracks.append(track)
+    assert min(tracks[0]) < 0.1 - 1e-3
+    np.testing.assert_allclose(tracks[0], tracks[1], atol=1e-6)
+
+
+def test_a_state_saved_after_placing_goes_on_alike():
+    body = sunk(scenes.box(pose=Pose(z=0.1)), 0.0, max_vel=0.1)
+    engine = make_engine("mujoco", scenes.world(ground(), body), nworld=2)
+    engine.set_model_placement("box", (0.0, 0.0, 0.05), UP)
+    saved = engine.snapshot()
+    engine.step(100)
+    after = engine.snapshot()
+    engine.restore(saved)
+    engine.step(100)
+    np.testing.assert_array_equal(engine.snapshot(), after)
+
+
+def test_what_is_moved_on_purpose_still_pushes():
+    wall = replace(scenes.box("wall", size=(0.1, 1.0, 1.0), pose=Pose(-0.2, z=0.5)))
+    engine = make_engine(
+        "mujoco", scenes.world(scenes.ground(), wall, scenes.box(pose=Pose(z=0.1)))
+    )
+    engine.make_kinematic("wall")
+    for i in range(500):
+        engine.set_model_placement("wall", (-0.2 + 0.001 * i, 0.0, 0.5), UP)
+        engine.step()
+    assert engine.model_placement("box").position[0, 0] > 0.4

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Pose
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
@@ -52,6 +52,8 @@ class StateAccess(ABC):
     """Whether the placement of links that are not roots has to be computed."""
     _placed: bool
     """Whether something was put elsewhere since the last step."""
+    _dropped: dict[int, NDArray[np.bool_]]
+    """MuJoCo's loose bodies that were put elsewhere since the last step, and in which worlds."""
 
     @property
     @abstractmethod
@@ -202,6 +204,7 @@ class StateAccess(ABC):
             self._state.mocap_pos[rows, slot.mocap] = position
             self._state.mocap_quat[rows, slot.mocap] = wxyz
         elif slot.free is not None:
+            self._dropped.setdefault(slot.body, np.zeros(self._nworld, np.bool_))[rows] = True
             start = slot.free.position.start
             self._state.qpos[rows, start : start + 3] = position
             self._state.qpos[rows, start + 3 : start + 7] = wxyz

@@ -20,7 +20,7 @@ from gazelle.engines.mujoco.directions import warn_of_slip
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.loose import tumbling
 from gazelle.engines.mujoco.native import Extras, finish, prepare
-from gazelle.engines.mujoco.options import add_force_probe, set_options
+from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
@@ -154,7 +154,7 @@ def compile_world(recipe: Recipe) -> Compiled:
         EngineError: Something in the description cannot be simulated.
     """
     draft = draft_world(recipe)
-    add_force_probe(draft.spec)
+    add_probes(draft.spec)
     prepare(draft.spec, draft.extras)
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()

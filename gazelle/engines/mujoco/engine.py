@@ -86,7 +86,7 @@ class MujocoEngine(ForcedSteps):
         self._batch, self._layout = batch, layout
         self._overlaps = Overlaps(compiled, recipe.world, self._nworld)
         self._overlaps.begin(batch)
-        self._placed = False
+        self._placed, self._dropped = False, {}
         self._state = StateViews.of(batch)
         self._stale = True
 
@@ -123,6 +123,7 @@ class MujocoEngine(ForcedSteps):
         """Advance every world by ``count`` physics steps."""
         self._now()
         self._stale = True
+        self._find_dropped()
         for tyre in self._layout.tyres.values():
             self._state.qpos[:, tyre.positions] = 0.0
         np.copyto(self._before, self._batch.state)
@@ -133,6 +134,12 @@ class MujocoEngine(ForcedSteps):
             bad = np.asarray(self._state.faults.any(axis=1))
             bad[sorted(failed)] = True
             self._give_up(np.flatnonzero(bad), count)
+
+    def _find_dropped(self) -> None:
+        """Let out slowly, too, what loose bodies were put into since the last step."""
+        if self._dropped:
+            self._overlaps.drop(self._batch, self._dropped)
+            self._dropped = {}
 
     def _let_out(self, count: int) -> set[int]:
         """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
@@ -352,6 +359,7 @@ class MujocoEngine(ForcedSteps):
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
         self._now()
+        self._find_dropped()
         state: Floats = np.hstack((self._batch.state, self._overlaps.saved()))
         if self._sleepy:
             # Who sleeps is not in the state; all awake, this future and a restored one agree.
@@ -371,6 +379,7 @@ class MujocoEngine(ForcedSteps):
         if self._sleepy:
             self._batch.reset(stage=_NO_STAGE)
         self._batch.state[:] = state[:, :width]
+        self._dropped = {}
         self._overlaps.take(self._batch, state[:, width:])
         self._stale = True
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import mujoco
 
 from gazelle.description import World
-from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead
+from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead, rubs_alike
 from gazelle.errors import EngineError, did_you_mean
 
 _LINE_SEARCH_ITERATIONS = 20
@@ -19,8 +19,10 @@ _INTEGRATORS = {
     "rk4": mujoco.mjtIntegrator.mjINT_RK4,
 }
 
-# SDF's friction models. A pyramid's sides bear more or less than a cone by the direction.
-_CONES = {"cone_model": mujoco.mjtCone.mjCONE_ELLIPTIC}
+
+# Name of the sensor of the least distance of any contact [m], and how it reduces many to one.
+DEEPEST = "deepest"
+_LEAST = 1
 
 SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 
@@ -30,7 +32,7 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     option = spec.option
     option.timestep = time_step
     option.integrator = _integrator(world.profile.integrator)
-    option.cone = _CONES.get(world.profile.ode.friction_model, mujoco.mjtCone.mjCONE_PYRAMIDAL)
+    option.cone = _cone(world, time_step)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
     option.iterations = max(1, world.profile.ode.iters)
@@ -48,6 +50,13 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     spec.compiler.fusestatic = False
 
 
+def _cone(world: World, time_step: float) -> mujoco.mjtCone:
+    """MuJoCo's form of friction for SDF's friction models, or what suits the world."""
+    wanted = world.profile.ode.friction_model
+    round_ = rubs_alike(world, time_step) if wanted is None else wanted == "cone_model"
+    return mujoco.mjtCone.mjCONE_ELLIPTIC if round_ else mujoco.mjtCone.mjCONE_PYRAMIDAL
+
+
 def _integrator(name: str | None) -> mujoco.mjtIntegrator:
     """MuJoCo's integrator of a name.
 
@@ -62,12 +71,17 @@ def _integrator(name: str | None) -> mujoco.mjtIntegrator:
     return _INTEGRATORS[known]
 
 
-def add_force_probe(spec: mujoco.MjSpec) -> None:
-    """Let the forces between bodies be computed on demand.
+def add_probes(spec: mujoco.MjSpec) -> None:
+    """Let the depth of the deepest contact, and the forces between bodies, be read on demand.
 
-    MuJoCo does so only for sensors that need them; this one stands for all, and sensors are
-    switched off in every step.
+    MuJoCo computes forces between bodies only for sensors that need them; one stands for all.
+    Sensors are switched off in every step.
     """
+    spec.add_sensor(
+        name=DEEPEST,
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        intprm=[1 << int(mujoco.mjtConDataField.mjCONDATA_DIST), _LEAST, 1],
+    )
     spec.add_sensor(
         type=mujoco.mjtSensor.mjSENS_FRAMELINACC,
         objtype=mujoco.mjtObj.mjOBJ_BODY,

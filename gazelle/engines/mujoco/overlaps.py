@@ -1,14 +1,16 @@
-"""What overlaps at first is let out slowly, as SDF's ``max_vel`` says.
+"""What is put into something else is let out slowly, as SDF's ``max_vel`` says.
 
 A contact corrects its depth within some steps, however deep it is: a box that a file puts
 1 m into the ground would leave it at 90 m/s. ODE limits the velocity of the correction. Here
 the surface of what overlaps starts as deep as it is and rises at that velocity: a contact
-margin below zero, that grows to zero.
+margin below zero, that grows to zero. That holds for what a file, a spawn or the placing of a
+loose body at run time lets overlap; what strikes or pushes is left to the contact.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from collections.abc import Set as AbstractSet
 
 import mujoco
 import numpy as np
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 from gazelle.description import Contact, World
 from gazelle.engines.engine import Floats, Worlds
 from gazelle.engines.mujoco.compiler import Compiled
+from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
 
 # Physics steps between two rises of a surface, at most.
 PIECE = 10
@@ -26,6 +29,7 @@ PIECE = 10
 _SHALLOW = 2e-4
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION.value
+_POSITION_STAGE = mujoco.mjtStage.mjSTAGE_POS.value
 
 
 class Overlaps:
@@ -40,7 +44,8 @@ class Overlaps:
     def __init__(self, compiled: Compiled, world: World, nworld: int) -> None:
         model = self._model = compiled.model
         ode = world.profile.ode
-        self._allowed = np.full(model.ngeom, max(ode.contact_surface_layer, _SHALLOW))
+        self._shallow = max(ode.contact_surface_layer, _SHALLOW)
+        self._allowed = np.full(model.ngeom, self._shallow)
         self._speed = np.zeros(model.ngeom)
         for geom, contact in _contacts_of(compiled):
             self._allowed[geom] = max(self._allowed[geom], contact.min_depth)
@@ -76,6 +81,37 @@ class Overlaps:
         """Forget what does not overlap any more, because it was put elsewhere."""
         np.maximum(self._margins, self._find(batch), out=self._margins)
         self._show(batch)
+
+    def drop(self, batch: Batch, placed: Mapping[int, NDArray[np.bool_]]) -> None:
+        """Take up what loose bodies were put into.
+
+        Args:
+            batch: The worlds.
+            placed: MuJoCo's bodies that were, and in which worlds.
+        """
+        worlds = np.flatnonzero(np.logical_or.reduce(list(placed.values())))
+        deep = worlds[self._deepest(batch, worlds) < -self._shallow]
+        for world in deep.tolist():
+            bodies = {body for body, where in placed.items() if where[world]}
+            depths = self._depths(batch.state[world], bodies)
+            np.minimum(self._margins[world], depths, out=self._margins[world])
+        if deep.size:
+            self._show(batch)
+
+    def _deepest(self, batch: Batch, worlds: Worlds) -> Floats:
+        """The least distance of any contact in worlds [m]."""
+        column = int(self._model.sensor(DEEPEST).adr[0])
+        found = batch.bind("sensordata")
+        flags = batch.expand("opt.disableflags")
+        state = batch.state[worlds]
+        flags &= ~SENSORS_OFF
+        try:
+            batch.forward(worlds, stage=_POSITION_STAGE)
+        finally:
+            flags |= SENSORS_OFF
+            batch.state[worlds] = state
+        least: Floats = found[worlds, column]
+        return least
 
     def _find(self, batch: Batch) -> Floats:
         """Margins at which nothing is too deep now, shape (nworld or 1, geoms + pairs)."""
@@ -121,8 +157,13 @@ class Overlaps:
             if self._pairs:
                 batch.expand("pair_margin")[:] = self._margins[:, ngeom:]
 
-    def _depths(self, state: Floats) -> Floats:
-        """Margins at which nothing of a state is too deep, shape (geoms + pairs,)."""
+    def _depths(self, state: Floats, placed: AbstractSet[int] | None = None) -> Floats:
+        """Margins at which nothing of a state is too deep, shape (geoms + pairs,).
+
+        Args:
+            state: Of a world.
+            placed: The roots of the bodies that matter; None for all.
+        """
         model, margins = self._model, np.zeros_like(self._rates)
         if not model.nv:
             return margins
@@ -133,7 +174,11 @@ class Overlaps:
         for (one, two), distance in zip(ends.tolist(), data.contact.dist.tolist(), strict=True):
             if -distance <= max(self._allowed[one], self._allowed[two]):
                 continue
-            column = self._column(one, two)
+            roots = [int(model.body_rootid[model.geom_bodyid[geom]]) for geom in (one, two)]
+            if placed is not None and not placed & set(roots):
+                continue
+            turned = placed is not None and roots[1] not in placed
+            column = self._column(two, one) if turned else self._column(one, two)
             if column - model.ngeom in self._springs:
                 continue
             margins[column] = min(margins[column], distance)
