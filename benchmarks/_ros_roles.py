@@ -7,6 +7,7 @@ roles that serve until they are terminated.
 from __future__ import annotations
 
 import json
+import os
 import sys
 import threading
 import time
@@ -231,6 +232,34 @@ def crowd_in(count: str, seconds: str) -> None:
     tell(share=100 * share, threads=_threads())
 
 
+def fleet_in(count: str, seconds: str, pid: str) -> None:
+    """A subscriber to the scans of each robot of a fleet, which the process ``pid`` runs."""
+    rospy.init_node("fleet_in")
+    got = [0] * int(count)
+
+    def take(_message: Any, robot: int) -> None:
+        got[robot] += 1
+
+    for robot in range(int(count)):
+        rospy.Subscriber(f"/robot_{robot}/base_scan", LaserScan, take, robot)
+    deadline = time.monotonic() + _PATIENCE_S
+    while min(got) == 0:
+        if time.monotonic() > deadline:
+            raise SystemExit("the fleet is not heard")
+        time.sleep(0.05)
+    before, cpu, begin = list(got), _processor(pid), time.monotonic()
+    time.sleep(float(seconds))
+    took = time.monotonic() - begin
+    heard = min(now - then for now, then in zip(got, before, strict=True))
+    tell(rate=heard / took, share=100 * (_processor(pid) - cpu) / took)
+
+
+def _processor(pid: str) -> float:
+    """Processor time that a process has taken [s]."""
+    fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def _threads() -> int:
     tasks = Path("/proc/self/task")
     return len(list(tasks.iterdir())) if tasks.is_dir() else threading.active_count()
@@ -294,6 +323,7 @@ ROLES: tuple[Callable[..., None], ...] = (
     caller,
     crowd_out,
     crowd_in,
+    fleet_in,
     start,
     within,
     within_calls,

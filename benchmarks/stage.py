@@ -11,8 +11,10 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
@@ -37,6 +39,7 @@ SIZES = (
     (100_000, 405.0, 4, 1, None),
 )
 BATCHES = (64, 1024, 4096)
+PARTS = ("fleets", "batches", "worlds", "graph")
 
 
 def main() -> None:
@@ -45,13 +48,25 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1, help="default 1")
     parser.add_argument("--largest", type=int, default=100_000, help="most robots (100000)")
     parser.add_argument("--windows", type=int, default=3, help="of which the best (default 3)")
+    parser.add_argument("--worlds", type=Path, help="a folder with Stage's own worlds")
+    parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")
     began = time.process_time()
     roam(8, 16.0, None, 1)
     print(f"kernels ready after {time.process_time() - began:.1f} s of processor time")
-    fleets(args)
-    batches(args)
+    if args.only in {None, "fleets"}:
+        fleets(args)
+    if args.only in {None, "batches"}:
+        batches(args)
+    if args.only in {None, "worlds", "graph"}:
+        sys.path.insert(0, str(Path(__file__).resolve().parent))
+        import _stage_worlds
+
+        if args.only != "graph":
+            _stage_worlds.worlds(args.threads, args.worlds)
+        if args.only != "worlds":
+            _stage_worlds.graph()
 
 
 def fleets(args: argparse.Namespace) -> None:
