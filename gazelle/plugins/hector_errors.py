@@ -67,6 +67,11 @@ class SensorErrors:
         self._begin(None)
 
     @property
+    def bias(self) -> Floats:
+        """The error without noise, shape (nworld, axes)."""
+        return self.offset + self._drifted
+
+    @property
     def variance(self) -> Floats:
         """Of drift and noise together, shape (axes,)."""
         return self._drift**2 + self.spread**2

@@ -11,11 +11,12 @@ from gazelle.description import Imu, Parameters, Pose
 from gazelle.plugins.hector_errors import Interval, SensorErrors
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
-from gazelle.rotations import from_yaw, multiply
+from gazelle.rotations import from_yaw, multiply, rotate
 from gazelle.sensors import ImuModel, ImuReading
 from gazelle.simulation import Output, Robot, Service, absolute, namespace_of
 from gazelle.simulation.values import Bias, UnsureImu
 
+Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 
@@ -79,7 +80,6 @@ class HectorImu(Noisy, Publishing):
 
     def _calibrate(self, _request: None, worlds: Worlds | None) -> None:
         self._rate.set_drift(0.0, worlds)
-        self._yaw.set_drift(0.0, worlds)
 
     def _measure(self) -> UnsureImu:
         now = self._simulation.clock
@@ -87,25 +87,36 @@ class HectorImu(Noisy, Publishing):
         interval = self._interval.since(now.now)
         rates = self._rate.apply(true.angular_velocity, interval)
         accelerations = self._accel.apply(true.linear_acceleration, interval)
-        turned = self._yaw.apply(np.zeros((self._simulation.nworld, 1)), interval)
-        orientation = multiply(from_yaw(turned[:, 0]), true.orientation)
+        self._yaw.apply(np.zeros((self._simulation.nworld, 1)), interval)
+        orientation = multiply(self._misled(true.orientation), true.orientation)
         reading = ImuReading(now.now_ns, orientation, rates, accelerations)
         # Roll and pitch come from the accelerometer, heading from its own errors.
-        level = float(self._accel.variance[:2].sum()) / (2.0 * 9.8065**2)
+        level = (self._accel.spread[:2] / self._gravity) ** 2 if self._gravity > 0.0 else (-1, -1)
         return UnsureImu(
             reading,
-            np.array([level, level, float(self._yaw.variance[0])]),
-            self._rate.variance,
-            self._accel.variance,
+            np.array([*level, self._yaw.spread[0] ** 2]),
+            self._rate.spread**2,
+            self._accel.spread**2,
         )
 
+    def _misled(self, orientation: Floats) -> Floats:
+        """By how much the biases turn what is believed to be up and ahead."""
+        heading = from_yaw(self._yaw.bias[:, 0])
+        if self._gravity <= 0.0:
+            return heading
+        pull = rotate(orientation, self._accel.bias) / (2.0 * self._gravity)
+        tilt = np.stack((pull[:, 1], -pull[:, 0], np.zeros(len(pull)), np.ones(len(pull))), axis=1)
+        return multiply(heading, tilt / np.linalg.norm(tilt, axis=1, keepdims=True))
+
+    @property
+    def _gravity(self) -> float:
+        """How strong it is [m/s²]."""
+        return float(np.linalg.norm(self._simulation.physics.gravity))
+
     def _biases(self) -> ImuReading:
-        return ImuReading(
-            self._simulation.clock.now_ns,
-            from_yaw(self._yaw.error[:, 0]),
-            self._rate.error,
-            self._accel.error,
-        )
+        now_ns = self._simulation.clock.now_ns
+        true = self._model.reading(self._model.measure(), now_ns).orientation
+        return ImuReading(now_ns, self._misled(true), self._rate.bias, self._accel.bias)
 
 
 def rate_of(parameters: Parameters, default: float) -> float:

@@ -14,7 +14,7 @@ from gazelle.plugins.hector_body import OnBody
 from gazelle.plugins.hector_imu import rate_of
 from gazelle.plugins.hector_status import FLAGS, flags_of, status_of
 from gazelle.rotations import conjugate, rotate
-from gazelle.sensors.geodesy import EQUATORIAL_RADIUS, FLATTENING, TangentPlane
+from gazelle.sensors.geodesy import EQUATORIAL_RADIUS, FLATTENING
 from gazelle.simulation import Output, Robot, Service, Tuning
 from gazelle.simulation.values import Fix, GeoReference, MagneticValue, VectorValue
 
@@ -22,6 +22,16 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
 _E2 = FLATTENING * (2.0 - FLATTENING)  # first eccentricity squared
+
+
+def _origin(robot: Robot, parameters: Parameters) -> GeoReference:
+    """Where on Earth the world's origin is, if the tags do not say."""
+    if not parameters.get("useWorldSphericalCoordinates", False):
+        return GeoReference(49.9, 8.9, 0.0, 0.0)
+    origin = robot.simulation.world.spherical_coordinates or SphericalCoordinates()
+    # SDF counts the heading from east to north, a compass from north to east.
+    heading = math.pi / 2.0 - math.radians(origin.heading)
+    return GeoReference(origin.latitude, origin.longitude, origin.elevation, heading)
 
 
 class HectorGps(OnBody):
@@ -36,12 +46,13 @@ class HectorGps(OnBody):
         """Read the tags, find the body, open the ports."""
         self.hold(robot, parameters, "hector_gps")
         nworld = robot.simulation.nworld
-        self._spherical = parameters.get("useWorldSphericalCoordinates", False)
+        origin = _origin(robot, parameters)
+        heading = parameters.get("referenceHeading", math.degrees(origin.heading))
         given = [
-            parameters.get("referenceLatitude", 49.9),
-            parameters.get("referenceLongitude", 8.9),
-            parameters.get("referenceAltitude", 0.0),
-            math.radians(parameters.get("referenceHeading", 0.0)),
+            parameters.get("referenceLatitude", origin.latitude),
+            parameters.get("referenceLongitude", origin.longitude),
+            parameters.get("referenceAltitude", origin.altitude),
+            math.radians(heading),
         ]
         self._reference: Floats = np.tile(given, (nworld, 1))
         self._status = parameters.get("status", 0)
@@ -106,8 +117,6 @@ class HectorGps(OnBody):
         return Fix(now_ns, latitude, longitude, altitude, variance, self._status, self._service)
 
     def _on_earth(self, place: Floats) -> tuple[Floats, Floats, Floats]:
-        if self._spherical:
-            return self._plane().geodetic(place)
         latitude, longitude, altitude, heading = self._reference.T
         curved = 1.0 / (1.0 - _E2 * np.sin(np.radians(latitude)) ** 2)
         across = EQUATORIAL_RADIUS * np.sqrt(curved)
@@ -119,16 +128,9 @@ class HectorGps(OnBody):
             altitude + place[:, 2],
         )
 
-    def _plane(self) -> TangentPlane:
-        origin = self._simulation.world.spherical_coordinates
-        return TangentPlane(origin or SphericalCoordinates())
-
     def _move(self) -> VectorValue:
         now_ns = self._simulation.clock.now_ns
         _, velocity = self._sample or self._measure()
-        if self._spherical:
-            east, north, up = self._plane().east_north_up(velocity).T
-            return VectorValue(now_ns, np.stack((north, -east, up), axis=1))
         heading = self._reference[:, 3]
         x, y, z = velocity.T
         north = np.cos(heading) * x + np.sin(heading) * y
@@ -153,10 +155,8 @@ class HectorMagnetic(OnBody):
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the body, open the port."""
         body = self.hold(robot, parameters, "hector_magnetic")
-        heading = math.radians(parameters.get("referenceHeading", 0.0))
-        if parameters.get("useWorldSphericalCoordinates", False):
-            origin = robot.simulation.world.spherical_coordinates or SphericalCoordinates()
-            heading = math.radians(origin.heading)
+        given = parameters.get("referenceHeading", math.degrees(_origin(robot, parameters).heading))
+        heading = math.radians(given)
         turn = heading - math.radians(parameters.get("declination", 0.0))
         dip = math.radians(parameters.get("inclination", 60.0))
         level = math.cos(dip)

@@ -35,9 +35,38 @@ def test_an_imus_noise_and_variance_are_those_of_its_file():
         value = sim.robots["cube"].outputs["imu"].last
         assert value.reading.angular_velocity.std() == pytest.approx(0.05, rel=0.1)
         assert value.rate_variance == pytest.approx([0.0025] * 3)
-        yaw = 2.0 * value.reading.orientation[:, 2]
-        assert yaw.std() == pytest.approx(0.02, rel=0.15)
-        assert value.orientation_variance[2] == pytest.approx(4e-4)
+        level = (0.05 / 9.8) ** 2
+        assert value.orientation_variance == pytest.approx([level, level, 4e-4], rel=1e-3)
+
+
+def test_biases_of_an_imu_mislead_its_orientation():
+    tags = {"accelOffset": "0.98 0 0", "yawOffset": "0.2", "rateOffset": "0.1 0 0"}
+    with cube(IMU, nworld=2, rateGaussianNoise="0.3", **tags) as sim:
+        robot = sim.robots["cube"]
+        wrong = robot.outputs["imu/bias"].last
+        # What seems to pull to x looks like a pitch down of a tenth, and the heading is off.
+        pitched = math.atan(0.05)
+        assert wrong.orientation[0] == pytest.approx(
+            [
+                math.sin(0.1) * math.sin(pitched),
+                -math.cos(0.1) * math.sin(pitched),
+                math.sin(0.1) * math.cos(pitched),
+                math.cos(0.1) * math.cos(pitched),
+            ],
+            abs=1e-6,
+        )
+        # Biases have no noise.
+        assert wrong.angular_velocity == pytest.approx(np.tile([0.1, 0.0, 0.0], (2, 1)))
+        turned = robot.outputs["imu"].last.reading.orientation
+        assert turned == pytest.approx(wrong.orientation)
+
+
+def test_without_gravity_an_imu_does_not_know_what_is_level():
+    with cube(IMU, accelOffset="1 0 0", accelGaussianNoise="0.1") as sim:
+        sim.physics.gravity = (0.0, 0.0, 0.0)
+        value = sim.robots["cube"].outputs["imu"].last
+        assert value.orientation_variance == pytest.approx([-1.0, -1.0, 0.0])
+        assert value.reading.orientation[0] == pytest.approx([0.0, 0.0, 0.0, 1.0])
 
 
 def test_an_imus_bias_is_set_and_calibrated_away():
@@ -107,6 +136,7 @@ def test_the_errors_of_an_imu_can_be_tuned():
 
 
 GPS = "libhector_gazebo_ros_gps.so"
+MAGNETIC = "libhector_gazebo_ros_magnetic.so"
 
 
 def test_a_gps_counts_from_its_reference():
@@ -175,15 +205,43 @@ def test_a_gps_says_of_itself_what_it_is_tuned_to():
         assert {"fix/position", "fix/velocity"} < set(robot.tunings)
 
 
+WORLD = """<spherical_coordinates><surface_model>EARTH_WGS84</surface_model>
+<latitude_deg>10</latitude_deg><longitude_deg>20</longitude_deg><elevation>30</elevation>
+<heading_deg>0</heading_deg></spherical_coordinates>"""
+
+
+def on_earth(filename, **tags):
+    tags = {"bodyName": "core", "useWorldSphericalCoordinates": "true", **tags}
+    return simulate(WORLD, block(plugin=plugin(filename, **tags), gravity=False), ground=False)
+
+
+def test_a_gps_may_stand_where_the_world_does():
+    with on_earth(GPS, referenceAltitude="5") as sim:
+        robot = sim.robots["cube"]
+        robot.set_pose((110.57, 0.0, 0.0))
+        robot.set_twist((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        fix = robot.outputs["fix"].last
+        # The world's x axis points east there, and tags count more.
+        assert fix.latitude[0] == pytest.approx(10.0, abs=1e-7)
+        assert fix.longitude[0] > 20.0005
+        assert fix.altitude[0] == pytest.approx(5.0)
+        velocity = robot.outputs["fix_velocity"].last.values[0]
+        assert velocity == pytest.approx([0.0, -1.0, 0.0], abs=1e-9)
+
+
+def test_a_magnetometer_may_take_the_worlds_heading():
+    with on_earth(MAGNETIC) as sim:
+        # North is along y.
+        values = sim.robots["cube"].outputs["magnetic"].last.values[0]
+        assert values[:2] == pytest.approx([0.0, 0.5], abs=1e-9)
+
+
 def test_a_gps_publishes_four_times_a_second():
     with cube(GPS) as sim:
         heard = []
         sim.robots["cube"].outputs["fix"].subscribe(heard.append)
         sim.run(seconds=2.0)
         assert len(heard) == pytest.approx(8, abs=1)
-
-
-MAGNETIC = "libhector_gazebo_ros_magnetic.so"
 
 
 def test_the_earths_field_is_felt_in_the_body():
