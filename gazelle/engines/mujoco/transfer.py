@@ -11,7 +11,7 @@ _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
 
 
 def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -> None:
-    """Copy the state of every joint, kinematic body, motor and attachment that both batches have."""
+    """Copy the state of all joints, kinematic bodies, motors, attachments and tyres of both."""
     new.time[:] = old.time
     for name, slots in new_layout.joints.items():
         for here, there in zip(slots, old_layout.joints.get(name, ()), strict=False):
@@ -20,12 +20,22 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
         former = old_layout.links.get(name)
         if former is not None:
             _copy_link(old, former, new, link)
+    _copy_tyres(old, old_layout, new, new_layout)
     for name, column in new_layout.motors.items():
         if name in old_layout.motors:
             new.ctrl[:, column] = old.ctrl[:, old_layout.motors[name]]
     for name, column in new_layout.attachments.items():
         if name in old_layout.attachments:
             new.eq_active[:, column] = old.eq_active[:, old_layout.attachments[name]]
+
+
+def _copy_tyres(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -> None:
+    for name, tyre in new_layout.tyres.items():
+        former = old_layout.tyres.get(name)
+        if former is not None:
+            for field in _BY_DOF:
+                there = getattr(old, field)[:, list(former.dofs)]
+                getattr(new, field)[:, list(tyre.dofs)] = there
 
 
 def _copy_link(old: Batch, there: LinkSlot, new: Batch, here: LinkSlot) -> None:
