@@ -5,6 +5,7 @@
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
+  gazelle run fleet --view
 
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
 Gazebo has them. A master is started where ROS_MASTER_URI names none that
@@ -20,6 +21,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.cli.parsing import positive_float
 from gazelle.cli.spawning import spawn, wanted
+from gazelle.cli.viewing import add_view, viewing
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -56,6 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    add_view(parser)
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
     parser.add_argument(
         "--spawn",
@@ -101,7 +104,8 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.writelines(f"{line}\n" for line in said if line)
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {engine}\n")
         sys.stdout.flush()
-        return _serve(sim, args) if args.ros else _go(sim, args)
+        with viewing(sim, args):
+            return _serve(sim, args) if args.ros else _go(sim, args)
 
 
 def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:
@@ -115,7 +119,8 @@ def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:
         sys.stdout.write(f"Stage world '{world.name}': {count} robot{'s' * (count != 1)}\n")
         sys.stdout.write(f"step {sim.clock.step_ns / 1e6:g} ms, in the plane\n")
         sys.stdout.flush()
-        return _serve_fleet(sim, args) if args.ros else _go(sim, args)
+        with viewing(sim, args):
+            return _serve_fleet(sim, args) if args.ros else _go(sim, args)
 
 
 def _go(sim: Running, args: argparse.Namespace) -> int:
@@ -157,16 +162,17 @@ class _Status:
 
 def _advance(sim: Running, seconds: float | None, rate: float | None, status: _Status) -> None:
     """Step in slices of wall time, so that the status and Ctrl-C are prompt."""
-    piece = _SLICE * (rate or 1.0)
+    least = sim.clock.step_ns / 1e9
+    piece = max(_SLICE * (rate or 1.0), least)
     end = float("inf") if seconds is None else seconds
     left = end
-    while left > 1e-9:
+    while left > 0.5 * least:
         began = time.monotonic()
-        sim.run(min(piece, left), rate=rate)
+        sim.run(max(min(piece, left), least), rate=rate)
         left = end - sim.time
         if rate is None:
             took = max(time.monotonic() - began, 1e-4)
-            piece = min(max(piece * _SLICE / took, sim.clock.step_ns / 1e9), 2 * piece)
+            piece = min(max(piece * _SLICE / took, least), 2 * piece)
         status.show()
 
 

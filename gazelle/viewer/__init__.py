@@ -2,7 +2,7 @@
 
 from gazelle.viewer.picture import take_picture
 
-__all__ = ["TopView", "film_plan", "take_picture", "take_plan"]
+__all__ = ["LiveView", "TopView", "film_plan", "take_picture", "take_plan"]
 
 
 def __getattr__(name: str) -> object:
@@ -11,6 +11,10 @@ def __getattr__(name: str) -> object:
         from gazelle.viewer import film
 
         return getattr(film, name)
+    if name == "LiveView":
+        from gazelle.viewer.live import LiveView
+
+        return LiveView
     if name == "TopView":
         from gazelle.viewer.plan import TopView
 

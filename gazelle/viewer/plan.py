@@ -67,7 +67,7 @@ class TopView:
             raise Error(f"there is no world {world}; there are {fleet.nworld}")
         if min(size) < 1:
             raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
-        self._frame = _Frame(extent or _extent(fleet, world), size)
+        self._frame = _Frame(extent or extent_of(fleet, world), size)
         self._been: list[Floats] = []
         self._scanners: tuple[Fleet | None, list[PictureScanner]] = (None, [])
 
@@ -120,10 +120,10 @@ class TopView:
             return
         for body, way in enumerate(np.moveaxis(np.array(self._been), 1, 0)):
             if np.ptp(way[:, :2], axis=0).any():
-                draw.line(self._frame.path(way[:, :2]), fill=_pale(_colour(body)), width=_FINER)
+                draw.line(self._frame.path(way[:, :2]), fill=_pale(colour_of(body)), width=_FINER)
 
     def _draw_body(self, draw: ImageDraw.ImageDraw, fleet: Fleet, body: int, pose: Floats) -> None:
-        kind, colour = fleet.kinds[body], _colour(body)
+        kind, colour = fleet.kinds[body], colour_of(body)
         cos, sin = np.cos(pose[2]), np.sin(pose[2])
         turn = np.array([[cos, sin], [-sin, cos]])
         for piece in fleet.pieces[int(kind[c.FIRST_PIECE]) : int(kind[c.LAST_PIECE])]:
@@ -197,7 +197,7 @@ def rays_of(scanner: PictureScanner, world: int) -> tuple[Floats, Floats, NDArra
     return np.stack((x, y), axis=1), ends, ranges < scanner.fan.reach
 
 
-def _extent(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
+def extent_of(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
     """All that stands or drives, with some room around."""
     rows = fleet.scene.table.rows
     circle = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
@@ -213,7 +213,8 @@ def _extent(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
     return (*(low - margin).tolist(), *(high + margin).tolist())
 
 
-def _colour(body: int) -> Colour:
+def colour_of(body: int) -> Colour:
+    """Red, green and blue of a body, from 0 to 255."""
     return _BODIES[body % len(_BODIES)]
 
 

@@ -136,3 +136,12 @@ def test_run_of_a_stage_file_spawns_nothing_else(cli, tmp_path):
     code, _, err = cli("run", file, "--spawn", "turtlebot3_burger", "--for", 1)
     assert code == 2
     assert "--spawn puts robots into worlds in space" in err
+
+
+def test_run_says_where_its_view_is(cli):
+    code, out, _ = cli("run", "fleet", "--for", 0.2, "--view")
+    assert code == 0
+    assert re.search(r"view http://127\.0\.0\.1:\d+/\n", out)
+    code, _, err = cli("run", "empty", "--for", 0.1, "--view")
+    assert code == 1
+    assert "in the plane" in err

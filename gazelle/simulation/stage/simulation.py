@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
@@ -15,7 +16,6 @@ from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage.building import no_garbage
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.pacing import run_paced
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
 from gazelle.simulation.stage.layout import StageRobot, layout_of
@@ -305,7 +305,15 @@ class StageSimulation(Senses):
             seconds: How long [s].
             rate: Simulated seconds a wall second at most; None for as fast as possible.
         """
-        run_paced(lambda piece: self.step(self.clock.steps_in(piece)), seconds, rate)
+        count, start = self.clock.steps_in(seconds), time.monotonic()
+        if rate is None:
+            self.step(count)
+            return
+        for done in range(1, count + 1):  # steps are long: each has a time of its own
+            self.step()
+            ahead = start + done * self.time_step / rate - time.monotonic()
+            if ahead > 0.0:
+                time.sleep(ahead)
 
     def pause(self) -> None:
         """Let those who keep it running wait; ``step`` still steps."""

@@ -2,6 +2,7 @@
 
 import math
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -404,3 +405,11 @@ def test_a_fleet_is_the_same_at_any_number_of_threads(tmp_path):
             sim.step(50)
             found.append((sim.poses.tobytes(), sim.scan(0).tobytes()))
     assert found[0] == found[1]
+
+
+def test_running_at_a_rate_keeps_to_it_though_steps_are_long(start):
+    sim = start("position ( )")
+    begin = time.monotonic()
+    sim.run(1.0, rate=4.0)
+    assert sim.time == pytest.approx(1.0)
+    assert 0.24 < time.monotonic() - begin < 2.0
