@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.engines.planar.native import Native, each, fused
+from gazelle.engines.planar.native import Native, each, fused, lesser
 
-__all__ = ["Function", "each", "fused", "inner", "kernel", "part", "whole"]
+__all__ = ["Function", "each", "fused", "inner", "kernel", "lesser", "part", "whole"]
 
 Function = Callable[..., Any]
 

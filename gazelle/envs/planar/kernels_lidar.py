@@ -5,7 +5,7 @@ than beams begin, it may begin inside something; that scan is made anew by the e
 kernel, which knows. Both give the same ranges.
 """
 
-# ruff: noqa: FBT001  # kernels take their arguments in order
+# kernels take their arguments in order
 
 from __future__ import annotations
 
@@ -14,17 +14,9 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import (
-    CIRCLE,
     COS,
     FAMILY,
-    FIRST_LOOK,
-    GLOW,
-    HIGH,
-    KIND,
-    LAST_LOOK,
-    LOW,
     NEAR,
-    OPEN,
     RADIUS,
     REACH,
     S_COS,
@@ -33,10 +25,6 @@ from gazelle.engines.planar.columns import (
     S_Y,
     S_Z,
     SIN,
-    X0,
-    X1,
-    Y0,
-    Y1,
     X,
     Y,
     Z,
@@ -44,7 +32,7 @@ from gazelle.engines.planar.columns import (
 from gazelle.engines.planar.compiled import each, fused, part, whole
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
 from gazelle.engines.planar.kernels_scan import aim, scan
-from gazelle.envs.planar.tables import Floats, Table, Worlds
+from gazelle.envs.planar.tables import Floats, Indices, Table, Worlds
 
 _TURN = 2.0 * math.pi
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
@@ -60,44 +48,42 @@ _SQRT2 = math.sqrt(2.0)
 
 
 @part
-def face(
-    found: Floats, n: int, reach: float, x0: float, y0: float, x1: float, y1: float, open_: bool
-) -> int:
-    """Write down a segment in the lidar's frame if its front is seen; returns how many."""
-    cross = x0 * y1 - x1 * y0
-    ex, ey = x1 - x0, y1 - y0
-    if cross * cross > reach * reach * (ex * ex + ey * ey) or cross == 0.0:
-        return n
-    if cross > 0.0 and not open_:
-        return n
-    found[0, n], found[1, n], found[2, n], found[3, n] = x0, y0, x1, y1
-    found[4, n], found[8, n] = 0.0, 1.0 / cross
-    return n + 1
-
-
-@part
 def find_faces(
-    found: Floats, turned: Floats, faces: Floats, reach: float, x: float, y: float, cos: float,
-    sin: float,
+    turned: Floats, order: Indices, n: int, base: int, faces: Floats, first: int, last: int,
+    reach: float, height: float, x: float, y: float, cos: float, sin: float,
 ) -> int:  # fmt: skip
-    """The sides of statics that can be seen from (x, y); returns how many."""
-    total = faces.shape[1]
-    for i in each(0, total):
-        ax, ay, bx, by = faces[0, i] - x, faces[1, i] - y, faces[2, i] - x, faces[3, i] - y
-        cross = ax * by - bx * ay
-        ex, ey = bx - ax, by - ay
+    """Turn sides into the lidar's frame, and list those that can be seen; returns how many.
+
+    Args:
+        turned: Comes out: both ends, and one over twice the area that a side spans with the
+            lidar, in column ``base`` + i for side i.
+        order: Comes out from the n-th on: columns of sides that can be seen.
+        n: How many are listed.
+        base: Where columns begin.
+        faces: Sides in their own frame, see ``parts``.
+        first: Of the sides.
+        last: The one after the last.
+        reach: How far the lidar sees [m].
+        height: Of the lidar above their frame [m].
+        x: Their frame in that of the lidar: origin [m], cosine and sine of its heading.
+        y: See x.
+        cos: See x.
+        sin: See x.
+    """
+    for i in each(first, last):
+        ax, ay, bx, by = faces[0, i], faces[1, i], faces[2, i], faces[3, i]
+        x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
+        x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
+        cross, ex, ey = x0 * y1 - x1 * y0, x1 - x0, y1 - y0
         near = cross * cross <= reach * reach * (ex * ex + ey * ey)
         front = (cross < 0.0) | ((faces[4, i] > 0.0) & (cross != 0.0))
-        turned[0, i], turned[1, i] = cos * ax + sin * ay, cos * ay - sin * ax
-        turned[2, i], turned[3, i] = cos * bx + sin * by, cos * by - sin * bx
-        turned[4, i] = 1.0 / cross if near & front else 0.0
-    n = 0
-    for i in range(total):
-        if turned[4, i] != 0.0:
-            for row in range(4):
-                found[row, n] = turned[row, i]
-            found[4, n], found[8, n] = 0.0, turned[4, i]
-            n += 1
+        level = (height >= faces[5, i]) & (height <= faces[6, i])
+        k = base + i
+        turned[0, k], turned[1, k], turned[2, k], turned[3, k] = x0, y0, x1, y1
+        turned[4, k] = 1.0 / cross if near & front & level else 0.0
+    for k in range(base + first, base + last):
+        order[n] = k
+        n += 1 if turned[4, k] != 0.0 else 0
     return n
 
 
@@ -114,10 +100,10 @@ def draw_one(
 
 
 @part
-def draw_two(beams: Floats, found: Floats, i: int, j: int) -> None:
+def draw_two(beams: Floats, turned: Floats, i: int, j: int) -> None:
     """Two segments into all beams."""
-    ax, ay, au, av, ai = found[0, i], found[1, i], found[2, i], found[3, i], found[8, i]
-    bx, by, bu, bv, bi = found[0, j], found[1, j], found[2, j], found[3, j], found[8, j]
+    ax, ay, au, av, ai = turned[0, i], turned[1, i], turned[2, i], turned[3, i], turned[4, i]
+    bx, by, bu, bv, bi = turned[0, j], turned[1, j], turned[2, j], turned[3, j], turned[4, j]
     for k in each(0, beams.shape[1]):
         dx, dy, best = beams[0, k], beams[1, k], beams[2, k]
         c0, c1 = fused(dx, ay, -dy * ax), fused(dx, av, -dy * au)
@@ -141,17 +127,24 @@ def draw_disc(beams: Floats, x: float, y: float, radius: float, outside: float) 
 
 
 @part
-def draw_faces(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
-    """Draw the segments found."""
+def draw_faces(
+    beams: Floats, fan: Floats, found: Floats, turned: Floats, order: Indices, n: int
+) -> None:
+    """Draw the segments listed."""
     count = beams.shape[1]
     if count <= FEW:
         for i in range(0, n - 1, 2):
-            draw_two(beams, found, i, i + 1)
+            draw_two(beams, turned, order[i], order[i + 1])
         if n % 2 == 1:
-            i = n - 1
-            x0, y0, x1, y1 = found[0, i], found[1, i], found[2, i], found[3, i]
-            draw_one(beams, 0, count, x0, y0, x1, y1, found[8, i])
+            k = order[n - 1]
+            x0, y0, x1, y1 = turned[0, k], turned[1, k], turned[2, k], turned[3, k]
+            draw_one(beams, 0, count, x0, y0, x1, y1, turned[4, k])
         return
+    for i in range(n):
+        k = order[i]
+        for row in range(4):
+            found[row, i] = turned[row, k]
+        found[4, i], found[8, i] = 0.0, turned[4, k]
     cover(found, n, fan)
     for i in range(n):
         for turn in range(2):
@@ -162,15 +155,19 @@ def draw_faces(beams: Floats, fan: Floats, found: Floats, n: int) -> None:
 
 
 @part
-def see_bodies(
-    beams: Floats, fan: Floats, found: Floats, sensors: Floats, m: int, base: int, me: float,
-    kinds: Floats, looks: Floats, pose: Floats,
+def find_bodies(
+    beams: Floats, fan: Floats, turned: Floats, order: Indices, base: int, sides: Floats,
+    rounds: Floats, spans: Indices, sensors: Floats, m: int, owner: int, kinds: Floats,
+    pose: Floats,
 ) -> int:  # fmt: skip
-    """Draw other bodies: discs at once, sides are written down; how many, -1 from inside a disc."""
+    """Draw round bodies other than the owner's family, and list sides; -1 from inside a disc."""
     n = 0
+    nbody = kinds.shape[0]
+    world = owner - owner % nbody
+    me = kinds[owner - world, FAMILY]
     c, s = sensors[m, S_COS], sensors[m, S_SIN]
-    for k in range(kinds.shape[0]):
-        b = base + k
+    for k in range(nbody):
+        b = world + k
         ox, oy = pose[b, X] - sensors[m, S_X], pose[b, Y] - sensors[m, S_Y]
         far = fan[REACH] + kinds[k, RADIUS]
         if kinds[k, FAMILY] == me or ox * ox + oy * oy > far * far:
@@ -179,29 +176,27 @@ def see_bodies(
         x, y = c * ox + s * oy, c * oy - s * ox
         cos = c * pose[b, COS] + s * pose[b, SIN]
         sin = c * pose[b, SIN] - s * pose[b, COS]
-        for p in range(int(kinds[k, FIRST_LOOK]), int(kinds[k, LAST_LOOK])):
-            if looks[p, GLOW] < 0.0 or height < looks[p, LOW] or height > looks[p, HIGH]:
+        n = find_faces(
+            turned, order, n, base + spans[k, 4], sides, spans[k, 0], spans[k, 1], fan[REACH], height, x, y,
+            cos, sin,
+        )  # fmt: skip
+        for p in range(spans[k, 2], spans[k, 3]):
+            if height < rounds[p, 3] or height > rounds[p, 4]:
                 continue
-            ax, ay, bx, by = looks[p, X0], looks[p, Y0], looks[p, X1], looks[p, Y1]
+            ax, ay, radius = rounds[p, 0], rounds[p, 1], rounds[p, 2]
             x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
-            kind = int(looks[p, KIND])
-            if (kind & int(CIRCLE)) != 0:
-                outside = x0 * x0 + y0 * y0 - bx * bx
-                if outside <= 0.0:
-                    return -1
-                draw_disc(beams, x0, y0, bx, outside)
-                continue
-            x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-            n = face(found, n, fan[REACH], x0, y0, x1, y1, (kind & int(OPEN)) != 0)
-            if n == found.shape[1]:
+            outside = x0 * x0 + y0 * y0 - radius * radius
+            if outside <= 0.0:
                 return -1
+            draw_disc(beams, x0, y0, radius, outside)
     return n
 
 
 @part
 def look(
-    m: int, base: int, me: float, sensors: Floats, fan: Floats, faces: Floats, discs: Floats,
-    kinds: Floats, looks: Floats, pose: Floats, beams: Floats, found: Floats, turned: Floats,
+    m: int, owner: int, sensors: Floats, fan: Floats, faces: Floats, discs: Floats,
+    sides: Floats, rounds: Floats, spans: Indices, kinds: Floats, pose: Floats, beams: Floats,
+    found: Floats, turned: Floats, order: Indices,
 ) -> bool:  # fmt: skip
     """Scan from outside of everything; False if that is not sure."""
     nothing = 1.0 / fan[REACH]
@@ -209,17 +204,23 @@ def look(
         beams[2, k] = nothing
     c, s = sensors[m, S_COS], sensors[m, S_SIN]
     x, y = sensors[m, S_X], sensors[m, S_Y]
-    n = see_bodies(beams, fan, found, sensors, m, base, me, kinds, looks, pose)
+    total = faces.shape[1]
+    n = find_bodies(
+        beams, fan, turned, order, total, sides, rounds, spans, sensors, m, owner, kinds, pose
+    )
     if n < 0:
         return False
-    draw_faces(beams, fan, found, n)
     for i in range(discs.shape[0]):
         ox, oy, radius = discs[i, 0] - x, discs[i, 1] - y, discs[i, 2]
         outside = ox * ox + oy * oy - radius * radius
         if outside <= 0.0:
             return False
         draw_disc(beams, c * ox + s * oy, c * oy - s * ox, radius, outside)
-    draw_faces(beams, fan, found, find_faces(found, turned, faces, fan[REACH], x, y, c, s))
+    n = find_faces(
+        turned, order, n, 0, faces, 0, total, fan[REACH], sensors[m, S_Z],
+        -c * x - s * y, s * x - c * y, c, -s,
+    )  # fmt: skip
+    draw_faces(beams, fan, found, turned, order, n)
     nearer = 0
     for k in each(0, beams.shape[1]):
         nearer += 1 if beams[2, k] > fan[NEAR] else 0
@@ -228,9 +229,10 @@ def look(
 
 @whole
 def see(
-    first: int, last: int, worlds: Worlds, faces: Floats, discs: Floats, found: Floats,
-    turned: Floats, sensors: Floats, owners: Table, mounts: Floats, fan: Floats, kinds: Floats,
-    looks: Floats, pose: Floats, beams: Floats, ranges: Floats, names: Floats, own: Table,
+    first: int, last: int, worlds: Worlds, faces: Floats, discs: Floats, sides: Floats,
+    rounds: Floats, spans: Indices, found: Floats, turned: Floats, order: Indices,
+    sensors: Floats, owners: Table, mounts: Floats, fan: Floats, kinds: Floats,
+    pose: Floats, beams: Floats, ranges: Floats, names: Floats, own: Table,
 ) -> None:  # fmt: skip
     """Scan in worlds[first] to worlds[last - 1].
 
@@ -238,14 +240,14 @@ def see(
     infinite where a beam begins inside something. The rest is what ``kernels_scan.scan`` takes,
     with ``names`` of one row a world.
     """
-    nbody = kinds.shape[0]
     nothing = 1.0 / fan[REACH]
     for i in range(first, last):
         w = worlds[i]
-        base = w * nbody
-        me = kinds[owners[w] - base, FAMILY]
         aim(sensors, w, owners, mounts, pose)
-        if look(w, base, me, sensors, fan, faces, discs, kinds, looks, pose, beams, found, turned):
+        if look(
+            w, owners[w], sensors, fan, faces, discs, sides, rounds, spans, kinds, pose, beams,
+            found, turned, order,
+        ):  # fmt: skip
             for k in each(0, beams.shape[1]):
                 best = beams[2, k]
                 ranges[w, k] = 1.0 / best if best > nothing else np.inf

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.engines.planar import Fleet, PlanarEngine
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.kernels_grid import list_statics
+from gazelle.engines.planar.clearing import listed
 from gazelle.engines.planar.rays import Caster
 from gazelle.envs.planar.kernels_drive import measure_room
 from gazelle.envs.planar.tables import (
@@ -44,6 +44,7 @@ _CELL = 0.3  # side of the cells that statics are listed in [m]
 _MOST_CELLS = 500  # along a side
 _MAP = 480  # cells along the longer side of the map of distances
 _SAME = 1e-12
+_MARGIN = 1e-9  # by which cells are larger than they are [m]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +88,8 @@ class Statics:
     """What stands still, for the lidar and for the base.
 
     Attributes:
-        faces: Sides that the lidar sees: both ends, and whether from both sides, shape (5, n).
+        faces: Sides that the lidar sees: both ends, whether from both sides, and their lowest
+            and highest height [m], shape (7, n).
         discs: Discs it sees: middle and radius, shape (m, 3).
         room: Map of lower bounds of the distance to anything static [m].
         corner: Of the map: x, y [m], cells a metre.
@@ -103,6 +105,22 @@ class Statics:
     cells: Floats
     start: NDArray[np.int32]
     items: NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class Looks:
+    """What can be seen of bodies, in their own frames.
+
+    Attributes:
+        sides: As ``Statics.faces``, shape (7, n).
+        rounds: Discs: middle, radius, lowest and highest height [m], shape (m, 5).
+        spans: Of each body the first side and the one after the last, and so for discs, and
+            how much farther its sides come in a list of all bodies' sides, shape (nbody, 5).
+    """
+
+    sides: Floats
+    rounds: Floats
+    spans: NDArray[np.int64]
 
 
 def drive_of(simulation: Simulation, robot: Robot) -> Drive | None:
@@ -191,9 +209,8 @@ def statics_of(fleet: Fleet, height: float) -> Statics:
     kind = rows[:, c.KIND].astype(int)
     disc = (kind & int(c.CIRCLE)) != 0
     level = (rows[:, c.LOW] <= height) & (height <= rows[:, c.HIGH]) & (rows[:, c.GLOW] >= 0.0)
-    open_ = ((kind & int(c.OPEN)) != 0).astype(np.float64)
     ends = rows[:, [c.X0, c.Y0, c.X1, c.Y1]]
-    faces = np.column_stack((ends, open_))[level & ~disc].T.copy()
+    faces = _sides(rows)[level & ~disc].T.copy()
     low, high = _extent(rows, disc)
     per_metre = _MAP / max(float((high - low).max()), 1e-3)
     corner = np.array([*low, per_metre])
@@ -204,6 +221,28 @@ def statics_of(fleet: Fleet, height: float) -> Statics:
     return Statics(faces, ends[level & disc][:, :3].copy(), room, corner, cells, start, items)
 
 
+def looks_of(fleet: Fleet) -> Looks:
+    """What a lidar sees of the bodies of a fleet."""
+    rows = fleet.looks
+    disc = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
+    seen = rows[:, c.GLOW] >= 0.0
+    flat, round_ = seen & ~disc, seen & disc
+    ends = fleet.kinds[:, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
+    spans = [np.concatenate(([0], np.cumsum(which)))[ends] for which in (flat, round_)]
+    discs = rows[:, [c.X0, c.Y0, c.X1, c.LOW, c.HIGH]][round_]
+    counts = np.diff(spans[0], axis=1)
+    spans.append(np.cumsum(counts)[:, None] - counts - spans[0][:, :1])
+    table = np.ascontiguousarray(np.hstack(spans), np.int64)
+    return Looks(_sides(rows)[flat].T.copy(), discs.copy(), table)
+
+
+def _sides(rows: Floats) -> Floats:
+    """Both ends of segments, whether they are seen from both sides, and their heights."""
+    open_ = ((rows[:, c.KIND].astype(int) & int(c.OPEN)) != 0).astype(np.float64)
+    ends = rows[:, [c.X0, c.Y0, c.X1, c.Y1]]
+    return np.column_stack((ends, open_, rows[:, c.LOW], rows[:, c.HIGH]))
+
+
 def _grid_over(
     rows: Floats, low: Floats, high: Floats
 ) -> tuple[Floats, NDArray[np.int32], NDArray[np.int32]]:
@@ -211,13 +250,7 @@ def _grid_over(
     side = max(_CELL, float((high - low).max()) / _MOST_CELLS)
     columns, lines = np.ceil((high - low) / side)
     cells = np.array([*low, side, columns, lines])
-    start = np.zeros(int(columns * lines) + 1, np.int32)
-    list_statics(rows, cells, start, np.zeros(0, np.int32))
-    start[1:] = np.cumsum(start[:-1].copy())
-    start[0] = 0
-    items = np.zeros(int(start[-1]), np.int32)
-    if len(items):
-        list_statics(rows, cells, start[:-1].copy(), items)
+    start, items = listed(rows, cells, _MARGIN)
     return cells, start, items
 
 

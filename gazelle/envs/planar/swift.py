@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from operator import is_
 from typing import Any, Self
 
@@ -19,10 +20,11 @@ from gazelle.envs.planar.parts import (
     Statics,
     caster_of,
     drive_of,
+    looks_of,
     paths_of,
     statics_of,
 )
-from gazelle.envs.planar.tables import Floats, Worlds
+from gazelle.envs.planar.tables import Floats, Indices, Worlds
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot
 from gazelle.simulation.clock import NANOSECONDS, Clock, Schedule
@@ -30,6 +32,17 @@ from gazelle.simulation.clock import NANOSECONDS, Clock, Schedule
 _SHARE = 128  # worlds that are worth a thread
 _VECTOR = 8  # numbers that are handled at once at most
 _NOTHING = np.zeros((0, 0))
+
+
+@dataclass(frozen=True, slots=True)
+class _Room:
+    """What a thread writes on; see ``kernels_lidar``."""
+
+    found: Floats
+    turned: Floats
+    order: Indices
+    lanes: Floats
+    values: Floats
 
 
 class Swift:
@@ -88,11 +101,19 @@ class Swift:
         self._statics: Statics = statics_of(fleet, height)
         self._fan = scanner._fan.copy()
         self._fan[2] = self._law[1]
-        most = self._statics.faces.shape[1] + len(fleet.looks) * fleet.nbody + 1
+        self._looks = looks_of(fleet)
+        spans = self._looks.spans
+        most = self._statics.faces.shape[1] + int((spans[:, 1] - spans[:, 0]).sum()) + 1
         pairs = (scanner.fan.count + 1) // 2
         wide = -(-pairs // _VECTOR) * _VECTOR
         self._rooms = [
-            (np.zeros((9, most)), np.zeros((5, most)), np.zeros((2, wide)), np.zeros(pairs + wide))
+            _Room(
+                np.zeros((9, most)),
+                np.zeros((5, most)),
+                np.zeros(most, np.int64),
+                np.zeros((2, wide)),
+                np.zeros(pairs + wide),
+            )
             for _ in range(fleet.crew.size)
         ]
         self._initial = fleet._initial.copy()
@@ -170,10 +191,13 @@ class Swift:
     def _measuring(self, worlds: Worlds) -> list[tuple[tuple[Any, ...], tuple[Any, ...]]]:
         """What ``see`` and ``report`` of ``kernels_lidar`` take after the range, for each thread.
 
-        The same tuples as the last time, where they hold the same.
+        For all worlds the same tuples as the last time, where they hold the same; for some
+        worlds those for one thread.
         """
         noise = self._lidar.noise
         parts = (worlds, noise._stddev, noise._stream.keys, noise._stream.counters)
+        if worlds is not self._everywhere:
+            return [self._measure_with(0, *parts)]
         if self._parts is None or not all(map(is_, parts, self._parts)):
             self._parts = parts
             self._seen = [self._measure_with(room, *parts) for room in range(len(self._rooms))]
@@ -188,15 +212,16 @@ class Swift:
             *own[:3], self._fan, own[4], fleet.widest, *scanner._looks(), *own[5:],
             self._ranges, scanner.names,
         )  # fmt: skip
-        found, turned, lanes, values = self._rooms[room]
+        space, looks = self._rooms[room], self._looks
         seeing = (
-            worlds, self._statics.faces, self._statics.discs, found, turned,
-            *own[:3], self._fan, fleet.kinds, fleet.looks, fleet.rows, own[5], self._ranges,
+            worlds, self._statics.faces, self._statics.discs, looks.sides, looks.rounds,
+            looks.spans, space.found, space.turned, space.order,
+            *own[:3], self._fan, fleet.kinds, fleet.rows, own[5], self._ranges,
             scanner.names, own_scan,
         )  # fmt: skip
         reporting = (
-            worlds, self._ranges, self._law, deviation[:, 0], keys, counters, lanes,
-            lanes.view(np.uint64), values, self.cleaned,
+            worlds, self._ranges, self._law, deviation[:, 0], keys, counters,
+            space.lanes, space.lanes.view(np.uint64), space.values, self.cleaned,
         )  # fmt: skip
         return seeing, reporting
 

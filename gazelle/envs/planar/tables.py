@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Worlds = NDArray[np.intp]
+Indices = NDArray[np.int64]
 Table = Any  # what the planar engine's kernels take; only compiled code reads it
 
 # A path that a body follows: its body, the first and last of its way-points, whether it goes

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from gazelle.engines.planar.columns import YAW, X, Y
-from gazelle.engines.planar.compiled import each, kernel, part
+from gazelle.engines.planar.compiled import each, kernel, lesser, part
 from gazelle.envs.planar.kernels_drive import drive
 from gazelle.envs.planar.kernels_lidar import report, see
 from gazelle.envs.planar.tables import Flags, Floats, Table, Worlds
@@ -63,10 +63,7 @@ def observe(
         for k in each(0, count):
             value = cleaned[i, k]
             observation[i, k] = value
-            least = min(least, value)
-        ray = 0
-        while cleaned[i, ray] != least:
-            ray += 1
+            least = lesser(least, value)
         gx, gy = goals[goal[worlds[i]], 0], goals[goal[worlds[i]], 1]
         dx, dy = gx - pose[b, X], gy - pose[b, Y]
         angle = math.atan2(dy, dx) - pose[b, YAW]
@@ -75,6 +72,9 @@ def observe(
         distances[i], headings[i], nearest[i] = round2(math.hypot(dx, dy)), round2(angle), least
         observation[i, count], observation[i, count + 1] = headings[i], distances[i]
         if rules[SEES_OBSTACLE] != 0.0:
+            ray = 0
+            while ray + 1 < count and cleaned[i, ray] != least:
+                ray += 1
             observation[i, count + 2], observation[i, count + 3] = round2(least), ray
 
 

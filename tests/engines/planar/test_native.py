@@ -128,6 +128,23 @@ def test_a_call_sees_new_values_of_the_same_kind():
     assert [double(x) for x in (1.0, 2.0, 2.0, 1)] == [2.0, 4.0, 4.0, 2]
 
 
+def test_a_call_that_was_refused_leaves_nothing_behind():
+    sums, first, second = Native(summed), np.ones(3), np.zeros((2, 50))
+    for _ in range(2):
+        assert sums(first, first) == 6.0
+        with pytest.raises(EngineError, match="contiguous"):
+            sums(np.zeros(50), second[:, ::2])
+
+
+def summed(a, b):
+    total = 0.0
+    for k in range(len(a)):
+        total += a[k]
+    for k in range(len(b)):
+        total += b[k]
+    return total
+
+
 def doubled(a):
     return 2 * a
 

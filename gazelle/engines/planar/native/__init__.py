@@ -7,7 +7,7 @@ conditions, calls of other such functions and of what ``calls`` lists. Arrays ar
 indices are neither negative nor checked, as in C.
 """
 
-from gazelle.engines.planar.native.calls import each, fused
+from gazelle.engines.planar.native.calls import each, fused, lesser
 from gazelle.engines.planar.native.function import Native
 
-__all__ = ["Native", "each", "fused"]
+__all__ = ["Native", "each", "fused", "lesser"]

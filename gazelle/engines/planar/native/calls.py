@@ -32,6 +32,11 @@ def fused(a: float, b: float, c: float) -> float:
     return a * b + c
 
 
+def lesser(a: float, b: float) -> float:
+    """The lesser of two numbers, both of which are numbers; many at once in a loop over ``each``."""
+    return min(a, b)
+
+
 def call(code: Code, function: Any, values: list[Value]) -> Value:
     """What a function gives.
 
@@ -54,6 +59,12 @@ def _own(code: Code, name: str, values: list[Value]) -> Value:
 
 def _fused(code: Code, *values: Value) -> Value:
     return _own(code, "llvm.fmuladd.f64", list(values))
+
+
+def _lesser(code: Code, a: Value, b: Value) -> Value:
+    name, a, b = "llvm.minnum.f64", code.real(a), code.real(b)
+    code.declared[name] = f"declare double @{name}(double, double)"
+    return code.get(REAL, f"call nnan nsz double @{name}(double {a.text}, double {b.text})")
 
 
 def _absolute(code: Code, value: Value) -> Value:
@@ -138,5 +149,5 @@ def _sizes(shape: Value) -> list[int]:
 _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     abs: _absolute, min: _least, max: _most, float: Code.real, bool: Code.truth, int: _whole,
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
-    len: _length, fused: _fused, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
+    len: _length, fused: _fused, lesser: _lesser, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
 }  # fmt: skip

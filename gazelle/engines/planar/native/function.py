@@ -48,11 +48,11 @@ class Native:
         """Call it; what it returns."""
         own = self._own
         words: Words | None = getattr(own, "words", None)
+        own.words = None  # where an error comes up, they may be half changed
         if words is None or not words.take(values):
-            own.words = None  # it may be half changed
             words = Words(values)
             own.call, own.result = self._entry(words.kinds)
-            own.words = words
+        own.words = words
         own.call(words.address)
         return None if own.result is None else words.result(own.result)
 
