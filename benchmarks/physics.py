@@ -35,7 +35,7 @@ from gazelle.description import (
 from gazelle.engines.mujoco.compiler import Recipe, compile_world
 
 STEP = 0.001
-WINDOWS = 5
+WINDOWS = 20
 COUNTS = (1, 3, 10, 30, 100, 300, 1000)
 BY_HAND = Path(__file__).parent / "turtlebot3_world.xml"
 CORPUS = Path(os.environ.get("GAZELLE_CORPUS", Path(__file__).parents[2] / "shared" / "corpus"))
