@@ -74,7 +74,7 @@ WORLDS = {
     "test/test_worlds/elevator.world": (
         "ground_plane elevator elevator_shaft floor0 floor1",
         "",
-        "libSimEventsPlugin.so",
+        "",
     ),
     "test/test_worlds/gazebo_ros_block_laser.world": (
         "model_1 camera_model finger_model object1 chair1_model",
