@@ -70,7 +70,8 @@ class OdometryOutputs:
     @property
     def wanted(self) -> bool:
         """Whether anybody listens to either."""
-        return any(output is not None and output.wanted for output in (self._odom, self._frame))
+        odom, frame = self._odom, self._frame
+        return (odom is not None and odom.wanted) or (frame is not None and frame.wanted)
 
     def publish(self) -> None:
         """Compute the odometry and hand it to all who listen, if anybody does."""
