@@ -9,7 +9,7 @@ from gazelle.engines.planar.shapes import Part
 
 
 def compile_ahead() -> None:
-    """Use every kernel once, so that Numba keeps it for all later runs on this machine."""
+    """Use every kernel once, so that it is kept for all later runs on this machine."""
     disc = (Part.circle(0.0, 0.0, 0.1),)
     for threads, count in ((1, 1), (2, 200)):
         bodies = [Body(disc, (0.5 * i, 0.0, 0.0), drive=Drive()) for i in range(count)]

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import functools
+import logging
 import threading
+import time
+from typing import Final
 
 from gazelle.errors import MissingExtraError
 
@@ -13,6 +16,8 @@ try:
 except ImportError as error:
     raise MissingExtraError("llvmlite", "planar") from error
 
+_LOG: Final = logging.getLogger(__name__)
+_PATIENCE: Final = 2.0  # [s]
 LOCK = threading.RLock()
 
 
@@ -43,17 +48,24 @@ class Machine:
         self._engine = llvm.create_mcjit_compiler(module, self._target)
         self._layout = str(self._engine.target_data)
         self._triple = triple
+        self._spent = 0.0
         self.name = f"{triple}\n{cpu}\n{features}\n{llvmlite.__version__}"
 
     def compile(self, text: str) -> bytes:
-        """Machine code of a module."""
+        """Machine code of a module; where that takes long on the whole, one line says so."""
+        began = time.monotonic()
         module = llvm.parse_assembly(text)
         module.triple, module.data_layout = self._triple, self._layout
         options = llvm.create_pipeline_tuning_options(speed_level=3)
         options.loop_vectorization, options.slp_vectorization = True, False
         builder = llvm.create_pass_builder(self._target, options)
         builder.getModulePassManager().run(module, builder)
-        return bytes(self._target.emit_object(module))
+        code = bytes(self._target.emit_object(module))
+        patient = self._spent < _PATIENCE
+        self._spent += time.monotonic() - began
+        if patient and self._spent >= _PATIENCE:
+            _LOG.warning("native code is compiled for this machine, which is done once")
+        return code
 
     def load(self, code: bytes) -> None:
         """Take machine code into memory; what it calls is found later."""
