@@ -9,7 +9,9 @@ from pathlib import Path
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, ResolveError, did_you_mean
 from gazelle.formats import sdf, stage, urdf, xacro, xml
+from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
+from gazelle.formats.occupancy import load_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 
@@ -17,6 +19,7 @@ PathLike = str | os.PathLike[str]
 
 _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
+_MAP_SUFFIXES = (".yaml", ".yml")
 
 
 def load(
@@ -26,10 +29,11 @@ def load(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> World:
-    """The world in a file: SDF, URDF, xacro, Stage, or the folder of a model.
+    """The world in a file: SDF, URDF, xacro, Stage, a map, or the folder of a model.
 
-    A file of a robot or model gives a world that holds just that. What kind of file it is
-    is decided by its content.
+    A file of a robot or model gives a world that holds just that; a map of ``map_server``
+    (``.yaml``) one with a wall on each occupied cell. What kind any other file is is decided by
+    its content.
 
     Args:
         path: File, model folder, URI (``model://``, ``package://``, ``file://``), or the
@@ -188,6 +192,8 @@ def read_path(file: Path, reading: Reading) -> World:
     Raises:
         FormatError: It cannot be read, or says something that cannot be.
     """
+    if file.suffix.lower() in _MAP_SUFFIXES:
+        return map_world(load_map(file))
     with reading.inside(file):
         data = xml.read_bytes(file)
         if stage.is_stage(data, file.suffix):
@@ -213,5 +219,6 @@ def read_root(root: Parameters, reading: Reading) -> World:
     raise FormatError(
         f"expected <sdf> or <robot>, found <{root.tag}>",
         source=root.source,
-        hint="readable are SDF, URDF, xacro and Stage files, and folders with a model.config",
+        hint="readable are SDF, URDF, xacro and Stage files, maps (.yaml), and folders with a "
+        "model.config",
     )
