@@ -303,6 +303,19 @@ class Engine(Protocol):
             EngineError: There is no such collision.
         """
 
+    def touching(
+        self, collisions: Sequence[str], worlds: Worlds | None = None
+    ) -> tuple[Worlds, Contacts]:
+        """The same in many worlds: which world each contact is in, and all, world by world.
+
+        Args:
+            collisions: Scoped names, ``model::link::collision``.
+            worlds: Which worlds, in this order; all if None.
+
+        Raises:
+            EngineError: There is no such collision.
+        """
+
     def add_motor(self, joint: str, max_effort: float) -> None:
         """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""
 

@@ -67,13 +67,14 @@ class Touch(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Look at what is touched."""
-        # The engine lists contacts of one world at a time.
-        for world in np.flatnonzero(self._enabled):
-            others = self._engine.contacts(self._collisions, int(world)).others
-            if not others or not all(self._target in name for name in others):
-                self._since[world] = np.nan
-            elif np.isnan(self._since[world]):
-                self._since[world] = time
+        where, found = self._engine.touching(self._collisions, np.flatnonzero(self._enabled))
+        hits = np.array([self._target in name for name in found.others], np.bool_)
+        touches = np.zeros(len(self._enabled), np.bool_)
+        touches[where] = True
+        touches[where[~hits]] = False
+        self._since[self._enabled & ~touches] = np.nan
+        begins = touches & np.isnan(self._since)
+        self._since[begins] = time
         done = self._enabled & (time - self._since > self._time)
         if done.any():
             self._touched[done], self._enabled[done] = True, False

@@ -1,13 +1,16 @@
 """Forces in joints and contacts against statics and dynamics."""
 
 import math
+from dataclasses import replace
 
+import mujoco
 import numpy as np
 import pytest
 import scenes
 
 from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Model, Pose
 from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
 from gazelle.errors import EngineError
 
 G = 9.8
@@ -262,3 +265,39 @@ def test_a_ring_welded_shut_hands_on_force_and_torque():
     ball_at, weld_at, load_at = np.zeros(3), np.array([0.3, 0.0, 0.2]), np.array([0.7, 0.0, 0.0])
     moment = np.cross(ball_at, ball.force[0]) + np.cross(weld_at, weld.force[0]) + weld.torque[0]
     np.testing.assert_allclose(moment, np.cross(load_at, weight), rtol=1e-3, atol=1e-2)
+
+
+def test_contacts_of_many_worlds_are_those_of_each():
+    models = scenes.ground(), scenes.burger(), scenes.box(pose=Pose(2.0, z=0.1))
+    engine = make_engine("mujoco", scenes.world(*models), nworld=4)
+    engine.set_model_placement("burger", (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0), np.array([2]))
+    engine.step(50)
+    names = [n for n in engine._layout.collisions if n.startswith(("burger", "box"))]
+    worlds = np.array([3, 2, 0])
+    where, every = engine.touching(names, worlds)
+    assert len(set(where.tolist())) == 3
+    for world in worlds.tolist():
+        rows, alone = np.flatnonzero(where == world), engine.contacts(names, world)
+        assert [every.others[i] for i in rows] == list(alone.others)
+        assert [every.collisions[i] for i in rows] == list(alone.collisions)
+        for field in ("position", "normal", "depth", "force", "torque"):
+            np.testing.assert_array_equal(getattr(every, field)[rows], getattr(alone, field))
+    assert (where == 2).sum() < (where == 0).sum()
+    assert len(engine.touching(names, np.array([], np.intp))[1]) == 0
+
+
+@pytest.mark.parametrize("model", ["pyramid_model", "cone_model"])
+def test_contact_forces_are_those_that_mujoco_tells(model):
+    slab = scenes.box("slab", size=(0.3, 0.2, 0.1), pose=Pose(2.0, z=0.05, yaw=0.4), mu=0.7)
+    world = scenes.world(scenes.ground(), slab, scenes.burger(), gravity=(2.0, 1.0, -9.8))
+    ode = replace(world.profile.ode, friction_model=model)
+    engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
+    engine.step(100)
+    found = engine.contacts(list(engine._layout.collisions))
+    known, data = engine._probe(0)
+    forces = np.zeros((data.ncon, 6))
+    for index, row in enumerate(forces):
+        mujoco.mj_contactForce(known, data, index, row)
+    turned = np.einsum("kij,ki->kj", data.contact.frame.reshape(-1, 3, 3), forces[:, :3])
+    assert len(found) == data.ncon > 4
+    np.testing.assert_allclose(np.abs(found.force), np.abs(turned), atol=1e-9)

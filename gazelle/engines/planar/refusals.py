@@ -41,6 +41,12 @@ class Refusals:
         """Refused."""
         raise self.refuse("contact points")
 
+    def touching(
+        self, collisions: Sequence[str], worlds: Worlds | None = None
+    ) -> tuple[Worlds, Contacts]:
+        """Refused."""
+        raise self.refuse("contact points")
+
     def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
         """Refused."""
         raise self.refuse(f"a joint between '{parent}' and '{child}'")
