@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
+from gazelle.plugins.publishing import Publisher
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply
 from gazelle.sensors import ImuReading, NoiseModel
 from gazelle.simulation import Output, SensorPlugin, SensorUnit, absolute, namespace_of
 
 
-class ImuSensor(Noisy, SensorPlugin):
+class ImuSensor(Noisy, Publisher, SensorPlugin):
     """Publishes an IMU sensor's readings at a rate of its own, gravity included."""
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
@@ -31,21 +32,13 @@ class ImuSensor(Noisy, SensorPlugin):
         self._from_start = parameters.get("initialOrientationAsReference", False)
         self._start = self._orientation()
         topic = parameters.get("topicName", "imu_data")
-        self._output = robot.outputs[topic.strip("/")] = Output(
+        output = robot.outputs[topic.strip("/")] = Output(
             absolute(namespace_of(robot, parameters, robot.name), topic),
             ImuReading,
             self._measure,
             frame=parameters.get("frameName", sensor.description.name),
         )
-
-    @property
-    def active(self) -> bool:
-        """Whether anybody listens."""
-        return self._output.wanted
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the reading has its stamp
-        """Publish."""
-        self._output.publish()
+        self._published.append(output)
 
     def _orientation(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
         values = self._sensor.measure()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from gazelle.simulation import ModelPlugin
+from gazelle.simulation import ModelPlugin, Plugin
 
 
 class Published(Protocol):
@@ -18,7 +18,7 @@ class Published(Protocol):
         """Hand a new value to all who listen."""
 
 
-class Publishing(ModelPlugin):
+class Publisher(Plugin):
     """Publishes its outputs at its rate, and needs no updates while nobody listens."""
 
     def __init__(self) -> None:
@@ -36,3 +36,7 @@ class Publishing(ModelPlugin):
         """Publish."""
         for output in self._published:
             output.publish()
+
+
+class Publishing(Publisher, ModelPlugin):
+    """A publisher of a model."""
