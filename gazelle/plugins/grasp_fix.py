@@ -71,59 +71,69 @@ class GraspFix(ModelPlugin):
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it counts its updates
         """Look at what the fingers touch; hold or let go."""
-        # The engine lists contacts of one world at a time.
-        for world in range(self._simulation.nworld):
-            for arm in self._arms:
-                if world in arm.held:
-                    self._let_go_if_open(arm, world)
-                else:
-                    self._count(arm, world)
+        for arm in self._arms:
+            free = [world for world in range(self._simulation.nworld) if world not in arm.held]
+            self._let_go_if_open(arm)
+            if free:
+                self._count(arm, np.array(free))
 
-    def _count(self, arm: _Arm, world: int) -> None:
-        squeezed = self._squeezed(self._simulation.engine.contacts(arm.collisions, world))
-        for key in [key for key in arm.counts if key[0] == world and key[1] not in squeezed]:
+    def _count(self, arm: _Arm, worlds: Worlds) -> None:
+        squeezed = self._squeezed(*self._simulation.engine.touching(arm.collisions, worlds))
+        looked_at = set(worlds.tolist())
+        for key in [key for key in arm.counts if key[0] in looked_at and key not in squeezed]:
             arm.counts[key] -= 1
             if arm.counts[key] <= 0:
                 del arm.counts[key]
-        for link in sorted(squeezed):
+        taken: dict[int, str] = {}
+        for world, link in sorted(squeezed):
             count = min(arm.counts.get((world, link), 0) + 1, self._most_count)
             arm.counts[world, link] = count
-            if count > self._threshold and world not in arm.held:
-                self._simulation.engine.attach(arm.palm.name, link, np.array([world]))
-                arm.held[world] = (link, self._gaps(arm, link, world))
+            if count > self._threshold:
+                taken.setdefault(world, link)
+        for link, rows in _by_link(taken).items():
+            self._simulation.engine.attach(arm.palm.name, link, rows)
+            gaps = self._gaps(arm, link, rows)
+            arm.held |= {world: (link, gap) for world, gap in zip(rows.tolist(), gaps, strict=True)}
 
-    def _squeezed(self, contacts: Contacts) -> set[str]:
-        """Links of other, movable models that are pushed from opposite sides."""
-        pushes: dict[str, list[Floats]] = {}
-        for name, force in zip(contacts.others, -contacts.force, strict=True):
-            size = float(np.linalg.norm(force))
-            if size > _LEAST_FORCE and self._can_be_held(name.partition("::")[0]):
-                pushes.setdefault(name.rpartition("::")[0], []).append(force / size)
+    def _squeezed(self, where: Worlds, contacts: Contacts) -> set[tuple[int, str]]:
+        """Worlds, and links of other, movable models in them, pushed from opposite sides."""
+        pushes: dict[tuple[int, str], list[Floats]] = {}
+        sizes = np.linalg.norm(contacts.force, axis=1)
+        directions = -contacts.force / np.maximum(sizes, _LEAST_FORCE)[:, None]
+        for index in np.flatnonzero(sizes > _LEAST_FORCE):
+            name = contacts.others[index]
+            if self._can_be_held(name.partition("::")[0]):
+                key = int(where[index]), name.rpartition("::")[0]
+                pushes.setdefault(key, []).append(directions[index])
         return {
-            link
-            for link, directions in pushes.items()
-            if (np.array(directions) @ np.array(directions).T).min() < self._most_cosine
+            key
+            for key, pushing in pushes.items()
+            if (np.array(pushing) @ np.array(pushing).T).min() < self._most_cosine
         }
 
     def _can_be_held(self, model: str) -> bool:
         robot = self._simulation.robots.get(model)
         return robot is not None and robot is not self._robot and not robot.description.static
 
-    def _gaps(self, arm: _Arm, link: str, world: int) -> Floats:
-        """How far each finger is from an object [m], shape (fingers,)."""
-        worlds = np.array([world])
+    def _gaps(self, arm: _Arm, link: str, worlds: Worlds) -> Floats:
+        """How far each finger is from an object [m], shape (n, fingers)."""
         place = self._simulation.engine.link_placement(link, worlds).position
         away = [finger.placement(worlds).position - place for finger in arm.fingers]
-        return np.asarray(np.linalg.norm(np.concatenate(away), axis=1), np.float64)
+        return np.asarray(np.linalg.norm(np.stack(away, axis=1), axis=2), np.float64)
 
-    def _let_go_if_open(self, arm: _Arm, world: int) -> None:
-        link, gaps = arm.held[world]
-        if link not in self._simulation.engine.link_names:
-            del arm.held[world]
-        elif (self._gaps(arm, link, world) > gaps + self._release).any():
-            self._simulation.engine.detach(arm.palm.name, link, np.array([world]))
-            del arm.held[world]
-            arm.counts.pop((world, link), None)
+    def _let_go_if_open(self, arm: _Arm) -> None:
+        engine = self._simulation.engine
+        for link, rows in _by_link({world: link for world, (link, _) in arm.held.items()}).items():
+            if link not in engine.link_names:
+                arm.held = {world: each for world, each in arm.held.items() if each[0] != link}
+                continue
+            before = np.array([arm.held[world][1] for world in rows.tolist()])
+            opened = rows[(self._gaps(arm, link, rows) > before + self._release).any(axis=1)]
+            if opened.size:
+                engine.detach(arm.palm.name, link, opened)
+            for world in opened.tolist():
+                del arm.held[world]
+                arm.counts.pop((world, link), None)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Hold nothing; the engine's reset let go."""
@@ -155,6 +165,14 @@ class GraspFix(ModelPlugin):
             arm.held = {
                 int(world): (str(link), np.asarray(gaps, np.float64)) for world, link, gaps in held
             }
+
+
+def _by_link(links: Mapping[int, str]) -> dict[str, Worlds]:
+    """The worlds of each link, in order."""
+    return {
+        link: np.array(sorted(world for world, each in links.items() if each == link))
+        for link in sorted(set(links.values()))
+    }
 
 
 def _arm(robot: Robot, tags: Parameters) -> _Arm:

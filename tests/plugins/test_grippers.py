@@ -167,6 +167,17 @@ def test_what_is_not_squeezed_falls_and_a_reset_forgets():
         assert sim.robots["cube"].position[0, 2] == pytest.approx(height[0], abs=0.005)
 
 
+def test_every_world_holds_and_lets_go_by_itself():
+    with simulate(hand(), CUBE, ground=False, nworld=3) as sim:
+        cube = sim.robots["cube"]
+        squeeze(sim, [10.0, 10.0, -1.0])
+        sim.run(seconds=0.3)
+        squeeze(sim, [0.0, -2.0, 0.0])
+        sim.run(seconds=0.5)
+        assert cube.position[0, 2] > 0.85
+        assert (cube.position[1:, 2] < 0.7).all()
+
+
 def test_a_hand_needs_a_palm_and_fingers():
     bare = HAND.format(fingers="", plugin=plugin("libgazebo_grasp_fix.so"))
     with pytest.raises(FormatError, match="palm_link"):
