@@ -80,7 +80,10 @@ class Kobuki(ModelPlugin):
         )
         opened: dict[str, Output[Any]] = {
             "joint_states": Output(
-                absolute(namespace, "joint_states"), JointStates, self._read_wheels
+                absolute(namespace, "joint_states"),
+                JointStates,
+                self._read_wheels,
+                frame="base_link",
             ),
             "imu_data": Output("", ImuReading, self._feel, frame="gyro_link"),
         }

@@ -256,10 +256,8 @@ def test_a_kobuki_hears_and_tells_in_its_own_messages():
         odometry = first(graph, "/odom", "nav_msgs/Odometry")
         assert odometry.pose.covariance[35] == 0.05
         assert first(graph, "/mobile_base/sensors/imu_data", "sensor_msgs/Imu")
-        assert list(first(graph, "/joint_states", "sensor_msgs/JointState").name) == [
-            "joint0",
-            "joint1",
-        ]
+        states = first(graph, "/joint_states", "sensor_msgs/JointState")
+        assert (states.header.frame_id, list(states.name)) == ("base_link", ["joint0", "joint1"])
 
 
 def test_a_kobuki_tells_of_bumps():
