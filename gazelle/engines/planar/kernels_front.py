@@ -17,8 +17,6 @@ from gazelle.engines.planar.columns import (
     NEAR,
     RATE,
     REACH,
-    S_X,
-    S_Y,
     S_Z,
 )
 from gazelle.engines.planar.compiled import inner, kernel, part
@@ -129,9 +127,7 @@ def scan_crowded(
         me = kinds[owners[m] - world * kinds.shape[0], FAMILY]
         clear(beams, 1.0 / fan[REACH])
         put_view(view, outline, sensors, m, 1.0)
-        crowded = is_clear(
-            fine, free, sensors[m, S_X], sensors[m, S_Y], sensors[m, S_Z]
-        ) and is_crowded(view, grid, start)
+        crowded = is_clear(fine, sensors[m, S_Z]) and is_crowded(view, grid, start)
         if crowded:
             meet_ahead(
                 beams, fan, going, begins, middles, sensors, m, statics, fine, first_item,

@@ -279,16 +279,20 @@ def meet_statics(
     columns, rows = fine[COLUMNS], fine[ROWS]
     for i in range(count):
         end = lanes[END + i]
+        begun, solid = lanes[AT + i] > 0.0, False  # whether it is in what it began in
         while lanes[AT + i] < end:
             u, v = cell_of_lane(lanes, i, columns, rows)
             cell = int(v * columns + u)
             wide = float(clear[int(lanes[BASE + i]) + cell])
-            if wide < 0.0:
+            if not begun:
+                begun, solid = True, wide < 0.0
+            elif (wide < 0.0) != solid:
                 met = 1.0 / (lanes[AT + i] - NUDGE)
                 if met > lanes[BEST + i]:
-                    lanes[BEST + i], lanes[NAME + i] = met, fine[SOLID_NAME]
+                    lanes[BEST + i] = met
+                    lanes[NAME + i] = -fine[SOLID_NAME] if solid else fine[SOLID_NAME]
                 break
-            if wide == 0.0:
+            if wide <= 0.0:
                 for k in range(start[cell], start[cell + 1]):
                     meet_static(lanes, i, statics, int(items[k]), near)
                 end = min(end, 1.0 / lanes[BEST + i])
@@ -297,19 +301,8 @@ def meet_statics(
 
 
 @inner
-def is_clear(fine: Floats, clear: Marks, x: float, y: float, height: float) -> bool:
-    """Whether beams that start somewhere can go through clear space: not in what is solid.
-
-    Where there is anything solid, it must be so at their height.
-    """
+def is_clear(fine: Floats, height: float) -> bool:
+    """Whether what is solid is so at a height; if not, beams do not go through clear space."""
     if fine[SOLID_NAME] == 0.0:
         return True
-    if height < fine[SOLID_LOW] or height > fine[SOLID_HIGH]:
-        return False
-    cos, sin = fine[TURN_COS], fine[TURN_SIN]
-    u = math.floor((cos * x + sin * y - fine[CORNER_U]) / fine[SIDE_U])
-    v = math.floor((cos * y - sin * x - fine[CORNER_V]) / fine[SIDE_V])
-    if u < 0.0 or v < 0.0 or u >= fine[COLUMNS] or v >= fine[ROWS]:
-        return True
-    cells = fine[COLUMNS] * fine[ROWS]
-    return int(clear[int(4.0 * cells + v * fine[COLUMNS] + u)]) >= 0
+    return bool((height >= fine[SOLID_LOW]) & (height <= fine[SOLID_HIGH]))

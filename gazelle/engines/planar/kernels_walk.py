@@ -26,8 +26,6 @@ from gazelle.engines.planar.columns import (
     NEAR,
     RADIUS,
     REACH,
-    S_X,
-    S_Y,
     S_Z,
     SIN,
     X0,
@@ -55,10 +53,17 @@ from gazelle.engines.planar.kernels_march import (
     meet_statics,
     put_lanes,
 )
-from gazelle.engines.planar.kernels_scan import aim, clear, draw_view, put_view, report
+from gazelle.engines.planar.kernels_scan import (
+    aim,
+    clear,
+    draw_view,
+    put_view,
+    report,
+)
 from gazelle.engines.planar.tables import Cells, Floats, Indices, Marks
 
 FEW_BEAMS = 8  # of a fan whose beams are followed one by one
+CLOSE = 0.3  # cells around a body from which others are met first
 
 
 @inner
@@ -84,6 +89,18 @@ def meet_body(
             meet_segment(lanes, i, c0, c1, x0 * y1 - x1 * y0, near, name)
 
 
+@inner
+def nearest_of(found: Floats, count: int) -> int:
+    """The nearest of the bodies noted in row 5, which is taken from there."""
+    pick = 0
+    for c in range(1, count):
+        if found[4, int(found[5, c])] < found[4, int(found[5, pick])]:
+            pick = c
+    j = int(found[5, pick])
+    found[5, pick] = found[5, count - 1]
+    return j
+
+
 @part
 def meet_some(
     lanes: Floats, first: int, last: int, near: float, found: Floats, n: int, kinds: Floats,
@@ -97,7 +114,14 @@ def meet_some(
             along, aside = dx * ox + dy * oy, dx * oy - dy * ox
             passed = (aside * aside <= radius * radius) & (along >= -radius)
             found[4, j] = along - radius if passed else math.inf
+        count = 0
         for j in range(n):
+            if found[4, j] * lanes[BEST + i] < 1.0:
+                found[5, count] = float(j)
+                count += 1
+        while count > 0:
+            j = nearest_of(found, count)
+            count -= 1
             if found[4, j] * lanes[BEST + i] < 1.0:
                 b = int(found[3, j])
                 k = b - world * kinds.shape[0]
@@ -105,44 +129,61 @@ def meet_some(
 
 
 @inner
-def bounds_of(lanes: Floats, first: int, last: int) -> tuple[float, float, float, float]:
-    """Left, right, lower and upper bound of where lanes first to last have got."""
+def cells_near(
+    lanes: Floats, first: int, last: int, grid: Floats, widest: float
+) -> tuple[int, int, int, int]:
+    """First and last column and row of bodies that lanes first to last may meet."""
     left, right, low, high = math.inf, -math.inf, math.inf, -math.inf
     for i in range(first, last):
         x, y = lanes[X + i], lanes[Y + i]
         x1, y1 = x + lanes[DX + i] / lanes[BEST + i], y + lanes[DY + i] / lanes[BEST + i]
         left, right = min(left, x, x1), max(right, x, x1)
         low, high = min(low, y, y1), max(high, y, y1)
-    return left, right, low, high
+    begin = place_in(left - widest, grid[0], grid[2], grid[3])
+    end = place_in(right + widest, grid[0], grid[2], grid[3])
+    bottom = place_in(low - widest, grid[1], grid[2], grid[4])
+    return begin, end, bottom, place_in(high + widest, grid[1], grid[2], grid[4])
 
 
 @part
 def meet_bodies(
     lanes: Floats, first: int, last: int, near: float, found: Floats, grid: Floats, widest: float,
-    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, world: int, me: float,
+    kinds: Floats, looks: Floats, pose: Floats, head: Cells, follow: Cells, me: int,
 ) -> None:  # fmt: skip
-    """Let lanes first to last, all of one body, meet others up to what they met before."""
-    left, right, low, high = bounds_of(lanes, first, last)
-    begin = place_in(left - widest, grid[0], grid[2], grid[3])
-    end = place_in(right + widest, grid[0], grid[2], grid[3])
-    bottom = place_in(low - widest, grid[1], grid[2], grid[4])
-    top = place_in(high + widest, grid[1], grid[2], grid[4])
-    n = 0
-    for row in range(bottom, top + 1):
-        base = row * int(grid[3])
-        for cell in range(base + begin, base + end + 1):
-            b = int(head[world, cell])
-            while b >= 0:
-                k = b - world * kinds.shape[0]
-                if kinds[k, FAMILY] != me:
-                    found[0, n], found[1, n] = pose[b, BODY_X], pose[b, BODY_Y]
-                    found[2, n], found[3, n] = kinds[k, RADIUS], float(b)
-                    n += 1
-                    if n == found.shape[1]:
-                        meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
-                        n = 0
-                b = int(follow[b])
-    meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
+    """Let lanes first to last, all of body ``me``, meet others up to what they met before.
+
+    First those nearby, as in a crowd there are none to be seen behind them.
+    """
+    world = me // kinds.shape[0]
+    family = kinds[me - world * kinds.shape[0], FAMILY]
+    x, y, close = pose[me, BODY_X], pose[me, BODY_Y], CLOSE * grid[2]
+    a = place_in(x - close, grid[0], grid[2], grid[3])
+    b = place_in(x + close, grid[0], grid[2], grid[3])
+    c = place_in(y - close, grid[1], grid[2], grid[4])
+    d = place_in(y + close, grid[1], grid[2], grid[4])
+    for turn in range(2):
+        begin, end, bottom, top = cells_near(lanes, first, last, grid, widest)
+        if turn == 0:
+            begin, end, bottom, top = max(begin, a), min(end, b), max(bottom, c), min(top, d)
+        n = 0
+        for row in range(bottom, top + 1):
+            base = row * int(grid[3])
+            for column in range(begin, end + 1):
+                if turn == 1 and a <= column <= b and c <= row <= d:
+                    continue
+                body = int(head[world, base + column])
+                while body >= 0:
+                    k = body - world * kinds.shape[0]
+                    if kinds[k, FAMILY] != family:
+                        found[0, n], found[1, n] = pose[body, BODY_X], pose[body, BODY_Y]
+                        found[2, n], found[3, n] = kinds[k, RADIUS], float(body)
+                        n += 1
+                        if n == found.shape[1]:
+                            meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
+                            n = 0
+                    body = int(follow[body])
+        if n > 0:
+            meet_some(lanes, first, last, near, found, n, kinds, looks, pose, world)
 
 
 @inner
@@ -169,11 +210,9 @@ def meet_others(
         end = begin + 1
         while end < last and owners[end] == owners[begin]:
             end += 1
-        world = owners[begin] // kinds.shape[0]
-        me = kinds[owners[begin] - world * kinds.shape[0], FAMILY]
         meet_bodies(
             lanes, (begin - first) * beams, (end - first) * beams, near, found, grid, widest,
-            kinds, looks, pose, head, follow, world, me,
+            kinds, looks, pose, head, follow, int(owners[begin]),
         )  # fmt: skip
         begin = end
 
@@ -215,7 +254,7 @@ def scan_singly(
             head, follow,
         )  # fmt: skip
         for m in range(begin, end):
-            if is_clear(fine, free, sensors[m, S_X], sensors[m, S_Y], sensors[m, S_Z]):
+            if is_clear(fine, sensors[m, S_Z]):
                 report_lanes(going, (m - begin) * count, count, m, fan[REACH], ranges, names)
                 continue
             world = owners[m] // kinds.shape[0]
