@@ -220,17 +220,21 @@ class Fleet:
         self.rows[rows, c.COS], self.rows[rows, c.SIN] = np.cos(yaw), np.sin(yaw)
         self._relink(rows)
 
-    def put(self, pose: ArrayLike, heights: ArrayLike) -> None:
-        """Put all bodies somewhere.
+    def put(
+        self, pose: ArrayLike, heights: ArrayLike, which: NDArray[np.intp] | None = None
+    ) -> None:
+        """Put bodies somewhere.
 
         Args:
-            pose: x, y [m] and heading [rad], shape (nworld, nbody, 3).
-            heights: Of their frames [m], shape (nworld, nbody).
+            pose: x, y [m] and heading [rad], shape (nworld, nbody, 3), or (n, 3).
+            heights: Of their frames [m], shape (nworld, nbody), or (n,).
+            which: The n bodies, counted through all worlds; all if None.
         """
         flat = np.asarray(pose, np.float64).reshape(-1, 3)
         if not np.isfinite(flat).all():
             raise EngineError("a pose must be finite")
-        self.rows[:] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
+        rows = slice(None) if which is None else which
+        self.rows[rows] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
         self._relink(slice(None))
 
     def take_over(self, body: int, other: Fleet, its: int) -> None:

@@ -149,10 +149,9 @@ class AGVFleetTask(BatchedTask):
         self._frozen[worlds], self._reached[worlds] = False, 0
         where = self._free_places(worlds)
         yaw = (self._stream.uniform(1, worlds)[:, 0] * 2.0 - 1.0) * math.pi
-        poses = self.poses.copy()
-        poses[worlds, :2], poses[worlds, 2] = self._places[where], yaw
-        shape = (self.halls, self.agents)
-        self.fleet.put(poses.reshape(*shape, 3), np.zeros(shape))
+        # only those: cosines of the others' headings, taken again, could differ in the last bit
+        poses = np.column_stack((self._places[where], yaw))
+        self.fleet.put(poses, np.zeros(len(worlds)), worlds)
         self._goal[worlds] = where
         self._next_goals(worlds)
 
