@@ -15,7 +15,9 @@ answers.
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
+import threading
 import time
 from typing import TYPE_CHECKING
 
@@ -85,6 +87,7 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
     from gazelle import formats
 
+    _listen_to_signals()
     sys.path[:0] = args.plugins
     world = formats.load(args.file)
     fleet = world.stage is not None and args.engine in {None, "planar"}
@@ -106,6 +109,13 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.flush()
         with viewing(sim, args):
             return _serve(sim, args) if args.ros else _go(sim, args)
+
+
+def _listen_to_signals() -> None:
+    """Let SIGTERM end it as Ctrl-C does, and both where a script's shell runs it behind itself."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:

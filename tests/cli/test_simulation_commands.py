@@ -47,16 +47,22 @@ def test_run_refuses_what_makes_no_sense(cli, arguments):
     assert cli("run", "empty", *arguments)[0] == 2
 
 
-@pytest.mark.parametrize("extra", [[], ["--paused"]])
+def behind_a_script():
+    """A shell lets what a script runs with & ignore Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(("extra", "before"), [([], behind_a_script), (["--paused"], None)])
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-def test_interrupt_ends_a_run_cleanly(extra):
+def test_interrupt_ends_a_run_cleanly(extra, before, number):
     process = subprocess.Popen(
         [sys.executable, "-m", "gazelle.cli.main", "run", "empty", *extra],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=before,
     )  # fmt: skip
     assert "world" in process.stdout.readline()
     time.sleep(0.5)
-    os.kill(process.pid, signal.SIGINT)
+    os.kill(process.pid, number)
     _, err = process.communicate(timeout=30)
     assert process.returncode == 130
     assert "Traceback" not in err
