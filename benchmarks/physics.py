@@ -13,6 +13,7 @@ import os
 import time
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -59,6 +60,7 @@ def main() -> None:
     beside_mujoco(args.seconds)
     big_worlds(args.seconds)
     boxes(args.seconds / 3.0)
+    friction_models(args.seconds / 3.0)
 
 
 def rates(
@@ -226,6 +228,25 @@ def asleep_in_mujoco(seconds: float) -> None:
     found = on_one_core([part(function) for function in parts.values()], seconds)
     costs = [f"{name} {1e6 / rate:.3f}" for name, rate in zip(parts, found, strict=True)]
     print(f"a box that sleeps, of {count}, in bare MuJoCo, us: {', '.join(costs)}")
+
+
+def friction_models(seconds: float) -> None:
+    """A cone beside a pyramid: for a burger, and for boxes that stand on the ground."""
+    models = ("pyramid_model", "cone_model")
+    driving, standing = [], []
+    for model in models:
+        sim = burger(1, 1)
+        sim.physics.friction_model = model
+        driving.append(running(sim))
+        awake = grid(100, moving=False)
+        sim = gazelle.Simulation(replace(awake, physics=(Physics(auto_disable=False),)))
+        sim.physics.friction_model = model
+        standing.append(running(sim))
+    for name, work in (("burger", driving), ("100 boxes that stand", standing)):
+        pyramid, cone = on_one_core(work, seconds)
+        print(
+            f"{name}: real-time factor {pyramid:,.1f} on a pyramid, {cone / pyramid:.0%} on a cone"
+        )
 
 
 def stepping(count: int, *, moving: bool) -> Callable[[], float]:

@@ -34,6 +34,7 @@ READS = {
     "cast_rays",
     "close",
     "contacts",
+    "touching",
     "history",
     "joint_effort",
     "joint_position",

@@ -200,7 +200,7 @@ SCENES = (
         nothing,
         2.0,
         (
-            Measure("positions while they land", "mm", stack, 0.6, IMPACT),
+            Measure("positions while they land", "mm", stack, 1.3, IMPACT),
             Measure("where they rest", "mm", stack, 0.2, CREEP, 1.0),
         ),
     ),

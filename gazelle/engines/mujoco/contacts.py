@@ -31,7 +31,7 @@ from gazelle.errors import EngineWarning
 # What falls that fast fell from 45 m.
 _LARGEST_THRESHOLD = 30.0
 
-# Impact speed at which the coefficient of restitution comes out best: a fall from 0.8 m [m/s].
+# Speed over which what rests too deep is let out, times 1 - e² over e [m/s].
 _USUAL_SPEED = 4.0
 
 # Softest correction of a bouncing contact, as a share of the depth a step. With none at all
@@ -207,10 +207,10 @@ def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list
     """Terms of a contact that bounces by a coefficient, in one step, as ODE's.
 
     MuJoCo's reference acceleration is -B v - K depth. With B = (1 + e) / h the velocity v of
-    approach becomes -e v in the step h that finds the bodies in each other. By then they are
-    too deep by up to v h, and were sped up by gravity g on the way: to reach e² of the height
-    all the same they must part a little faster, by g (1 - e²) / (e v) times the depth. That is
-    K h, at a usual speed v. What rubs stops, in the same step.
+    approach becomes -e v in the step h that finds the bodies in each other. How deep they are
+    by then, ``native`` takes into account in the step of an impact. For what rests, K lets it
+    out of what depth is left, by g (1 - e²) / (e v) times the depth in a step. What rubs stops,
+    in the same step.
     """
     h = time_step
     correction = gravity * (1.0 - e * e) / (e * _USUAL_SPEED) * h
