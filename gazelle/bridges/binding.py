@@ -16,7 +16,7 @@ from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
 from gazelle.ros.tf.naming import FramePrefixes
-from gazelle.simulation import Input, Output, Ports, Service, Setting, TwistInput
+from gazelle.simulation import Input, Output, Ports, Service, Setting, Tuning, TwistInput
 
 
 class Binding:
@@ -47,8 +47,7 @@ class Binding:
         for service in ports.services.values():
             self._serve(service)
         for tuning in ports.tunings.values():
-            server = ReconfigureServer(graph.node, tuning, graph.simulation)
-            self._closing.append(server.close)
+            self._tune(tuning)
 
     def refresh(self) -> None:
         """Publish what is true now to all who listen."""
@@ -150,14 +149,24 @@ class Binding:
             given = self._simulation.requests.call(lambda: service.call(asked, self._worlds))
             return service_class._response_class(**codec.answer(given))  # noqa: SLF001  # genpy's name
 
-        if any(server.name == service.topic for server in self._node.services()):
-            warnings.warn(
-                SimulationWarning(
-                    f"the service {service.topic} is offered by another model already; "
-                    "spawn this one in a namespace of its own"
-                ),
-                stacklevel=2,
-            )
-            return
-        server = self._node.serve(service.topic, service_class, answer)
-        self._closing.append(server.close)
+        if self._is_free(service.topic):
+            server = self._node.serve(service.topic, service_class, answer)
+            self._closing.append(server.close)
+
+    def _tune(self, tuning: Tuning) -> None:
+        if self._is_free(f"{tuning.topic}/set_parameters"):
+            server = ReconfigureServer(self._node, tuning, self._simulation)
+            self._closing.append(server.close)
+
+    def _is_free(self, service: str) -> bool:
+        """Whether nobody offers a service here yet; says so if somebody does."""
+        if all(server.name != service for server in self._node.services()):
+            return True
+        warnings.warn(
+            SimulationWarning(
+                f"the service {service} is offered by another model already; "
+                "spawn this one in a namespace of its own"
+            ),
+            stacklevel=3,
+        )
+        return False

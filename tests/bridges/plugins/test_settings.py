@@ -1,9 +1,11 @@
 """Parameters that plugins find on the parameter server, and those they let others change."""
 
+import contextlib
+
 import pytest
 from door_client import Client
 from kobuki_model import kobuki
-from models import GROUND, base, plugin
+from models import GROUND, base, block, plugin
 from plugin_graph import first, running
 
 import gazelle
@@ -95,3 +97,21 @@ def test_frames_on_tf_get_the_prefix_of_their_plugins_own_namespace():
             "one/odom",
             "one/base_footprint",
         )
+
+
+def test_two_models_with_the_same_names_are_tuned_one_at_a_time():
+    tags = plugin("libhector_gazebo_ros_magnetic.so", bodyName="core")
+    one = block(plugin=tags, gravity=False)
+    two = one.replace('"cube"', '"other"').replace("0 0 0.5", "1 0 0.5")
+    with contextlib.ExitStack() as stack:
+        with pytest.warns(SimulationWarning, match="/magnetic/set_parameters is offered"):
+            graph = stack.enter_context(running(one, two))
+        config = load_message("dynamic_reconfigure/Config")()
+        config.doubles = [load_message("dynamic_reconfigure/DoubleParameter")("offset", 0.5)]
+        kind = "dynamic_reconfigure/Reconfigure"
+        graph.client.call("/magnetic/set_parameters", kind, config=config)
+        offsets = {
+            name: robot.tunings["magnetic"].values["offset"]
+            for name, robot in graph.sim.robots.items()
+        }
+        assert offsets == {"cube": 0.5, "other": 0.0}
