@@ -41,10 +41,10 @@ def test_a_path_is_written():
     assert all(p.header.frame_id == "odom" for p in message.poses)
 
 
-@pytest.fixture
-def office():
+@pytest.fixture(params=["mujoco", "planar"])
+def office(request):
     """A courier in an office that runs as fast as it can, and a node beside it."""
-    with Master(port=0, rosout=False) as master, gazelle.Simulation("office") as sim:
+    with Master(port=0, rosout=False) as master, gazelle.Simulation("office", request.param) as sim:
         robot = sim.spawn("courier", namespace="/")
         sim.physics.update_rate = 0.0
         with serve_ros(sim, master.uri) as door, Node("asker", master_uri=master.uri) as node:
