@@ -61,23 +61,33 @@ class Harness(ModelPlugin):
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, make the joints, hang the model up, open the topics."""
         self._robot, self._simulation = robot, robot.simulation
-        self._ropes = list(_ropes(robot, parameters))
-        if not self._ropes:
-            raise SimulationError("a <joint> is required here", source=parameters.source)
-        winch = parameters.find("winch")
-        self._winch = self._named(None if winch is None else winch.find("joint"))
-        self._released = self._named(parameters.find("detach"))
+        self._ropes: list[_Rope] = []
         nworld = robot.simulation.nworld
+        self._held = np.zeros(nworld, np.bool_)
+        winch = parameters.find("winch")
+        try:
+            self._rig(parameters, winch)
+        except Exception:
+            self._drop()
+            raise
         self._pids = {
             name: Pid(Gains.read(None if winch is None else winch.find(name)), nworld)
             for name in ("pos_pid", "vel_pid")
         }
-        self._held = np.zeros(nworld, np.bool_)
         self._speed, self._place = np.zeros((2, nworld))
         self._last_time = robot.simulation.time
-        self._hang(None)
         self._open(robot, namespace_of(robot, parameters))
         robot.simulation.events.deleted.subscribe(self._end)
+
+    def _rig(self, parameters: Parameters, winch: Parameters | None) -> None:
+        """Make the joints, and hang the model on them."""
+        for rope in _ropes(self._robot, parameters):
+            self._ropes.append(rope)
+        if not self._ropes:
+            raise SimulationError("a <joint> is required here", source=parameters.source)
+        self._winch = self._named(None if winch is None else winch.find("joint"))
+        self._released = self._named(parameters.find("detach"))
+        self._hang(None)
 
     def _named(self, tag: Parameters | None) -> _Rope:
         """The rope that a tag names; the first if none does."""
@@ -149,8 +159,11 @@ class Harness(ModelPlugin):
     def _end(self, gone: Robot) -> None:
         """Take the carriages away with the model."""
         if gone is self._robot:
-            for rope in self._ropes:
-                self._simulation.engine.delete(rope.carriage.partition("::")[0])
+            self._drop()
+
+    def _drop(self) -> None:
+        while self._ropes:
+            self._simulation.engine.delete(self._ropes.pop().carriage.partition("::")[0])
 
     def reset(self, worlds: Worlds | None) -> None:
         """Hang the model up again, the winch at rest."""

@@ -121,7 +121,8 @@ def _slip(wheel: _Wheel) -> Floats:
     """Velocities for each unit of force, along the axle and about it, shape (nworld, 2)."""
     axle = rotate(wheel.link.placement().quaternion, wheel.axle[None])
     spin = np.einsum("ni,ni->n", wheel.link.motion().angular, axle)
-    slip = wheel.radius * np.abs(spin)[:, None] / wheel.force * np.array(wheel.compliance)
+    speed = wheel.radius * np.abs(spin)[:, None]
+    slip: Floats = speed / wheel.force * np.array(wheel.compliance)
     # About the axle: the force acts at the radius, and so does the velocity.
     slip[:, 1] /= wheel.radius**2
     return slip
