@@ -77,7 +77,7 @@ class Harness(ModelPlugin):
         self._speed, self._place = np.zeros((2, nworld))
         self._last_time = robot.simulation.time
         self._open(robot, namespace_of(robot, parameters))
-        robot.simulation.events.deleted.subscribe(self._end)
+        self._unsubscribe = robot.simulation.events.deleted.subscribe(self._end)
 
     def _rig(self, parameters: Parameters, winch: Parameters | None) -> None:
         """Make the joints, and hang the model on them."""
@@ -160,6 +160,7 @@ class Harness(ModelPlugin):
         """Take the carriages away with the model."""
         if gone is self._robot:
             self._drop()
+            self._unsubscribe()
 
     def _drop(self) -> None:
         while self._ropes:
