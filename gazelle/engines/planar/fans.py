@@ -155,6 +155,7 @@ class Scanner:
             for _ in range(fleet.crew.size)
         ]
         self._look = _look_of(fan, fleet)
+        self._tails: dict[int, tuple[Any, ...]] = {}
         self._middles = _middles_of(fan)
         if self._look is not scan:
             self._clearing = fleet.scene.clearing(solid=fan.begin == 0.0)
@@ -184,12 +185,10 @@ class Scanner:
         ranges, tick = self.flat_ranges, self.tick
 
         def work(first: int, last: int, part: int) -> None:
-            own = self.arguments(part)
-            extra = () if self._look is scan else self._ahead(part)
-            self._look(
-                first, last, own[0], owners, *own[2:5], self.fleet.widest, *self._looks(),
-                *own[5:], *extra, ranges, self.names,
-            )  # fmt: skip
+            tail = self._tails.get(part) if worlds is None else self._tail(part, owners)
+            if tail is None:
+                tail = self._tails[part] = self._tail(part, owners)
+            self._look(first, last, *tail)
             if self.noise is not None:
                 constant, share = self.noise.constant, self.noise.share
                 kernels_noise.blur(
@@ -232,6 +231,15 @@ class Scanner:
         rows = worlds[:, None] * self.fleet.nbody + self._carriers
         return np.ascontiguousarray(rows.ravel(), np.int64)
 
+    def _tail(self, part: int, owners: NDArray[np.int64]) -> tuple[Any, ...]:
+        """What the kernel works on for one thread, after the range; the same in all scans."""
+        own = self.arguments(part)
+        extra = () if self._look is scan else self._ahead(part)
+        return (
+            own[0], owners, *own[2:5], self.fleet.widest, *self._looks(), *own[5:], *extra,
+            self._flat, self.names,
+        )  # fmt: skip
+
     def _looks(self) -> tuple[Any, ...]:
         fleet, scene = self.fleet, self.fleet.scene
         return (
@@ -243,14 +251,9 @@ class Scanner:
         """Where statics are, for kernels in which beams go through clear space."""
         there, own = self._clearing, self._scratch[part]
         return (
-            there.fine,
-            there.start,
-            there.items,
-            there.clear,
-            own.going,
-            own.begins,
+            there.fine, there.start, there.items, there.clear, own.going, own.begins,
             self._middles,
-        )
+        )  # fmt: skip
 
     def arguments(self, part: int) -> tuple[Any, ...]:
         """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
