@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import sys
+import warnings
+from typing import TextIO
 
-from gazelle.errors import Error
+from gazelle.errors import Error, GazelleWarning
 from gazelle.ros.builtin.registry import main_of
 
 
 def main(arguments: list[str]) -> int:
     """Run the node that the first two arguments name; returns the exit code."""
     package, kind, *rest = arguments
+    warnings.showwarning = _show_warning
     try:
         return main_of(package, kind)(rest)
     except Error as error:
@@ -18,6 +21,21 @@ def main(arguments: list[str]) -> int:
         return 1
     except KeyboardInterrupt:
         return 0
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Ours as one line, as rospy's are; others as Python shows them."""
+    text = f"[WARN] {message}\n"
+    if not issubclass(category, GazelleWarning):
+        text = warnings.formatwarning(message, category, filename, lineno, line)
+    (file or sys.stderr).write(text)
 
 
 if __name__ == "__main__":

@@ -98,3 +98,16 @@ def test_what_does_not_answer_any_more_is_no_obstacle(master):
         proxy.call("registerPublisher", "/clock", "rosgraph_msgs/Clock", dead)
     refuse_twin("gazebo")
     refuse_twin("gazebo", dead)
+
+
+def test_what_is_not_supported_is_a_line_and_no_more(master, world):
+    text = WORLD.replace("<link", "<plugin name='p' filename='libno_such.so'/><link")
+    world.write_text(text, encoding="utf-8")
+    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    done = subprocess.run(
+        [*program, "--iters", "1", str(world)],
+        capture_output=True, text=True, timeout=60, check=True,
+    )  # fmt: skip
+    (line,) = done.stderr.strip().splitlines()
+    assert line.startswith("[WARN]")
+    assert "libno_such.so" in line
