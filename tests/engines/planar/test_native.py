@@ -117,6 +117,11 @@ def test_what_kernels_cannot_do_is_refused_with_its_line():
         Native(listed)(1)
 
 
+def test_a_kernel_without_source_is_refused():
+    with pytest.raises(EngineError, match="no source of the kernel <lambda>"):
+        Native(lambda a: a)(1)
+
+
 def listed(a):
     return [a]
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import ast
 import functools
 import itertools
+import linecache
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gazelle.engines.planar.native.code import Code, rebuilt, words
 from gazelle.engines.planar.native.kinds import Kind, Value, flat
 from gazelle.engines.planar.native.statements import Statements, argument, returned
+from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
     from gazelle.engines.planar.native.function import Native
@@ -113,7 +115,9 @@ class Module:
     ) -> Made:
         function = native.function
         file = function.__code__.co_filename
-        tree = _functions_of(file)[function.__name__]
+        tree = _functions_of(file).get(function.__name__)
+        if tree is None:
+            raise EngineError(f"there is no source of the kernel {function.__name__}", file=file)
         maker = Statements(tree, list(kinds), function.__globals__, self, file, self._numbers)
         maker.make()
         code = maker.code
@@ -136,7 +140,5 @@ def _flat(kinds: tuple[Kind, ...]) -> list[str]:
 @functools.cache
 def _functions_of(file: str) -> dict[str, ast.FunctionDef]:
     """The functions of a source file."""
-    import linecache
-
     tree = ast.parse("".join(linecache.getlines(file)), file)
     return {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
