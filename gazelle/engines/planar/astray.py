@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kernels_astray import scan_astray
+from gazelle.engines.planar.kernels_march import LANES
 
 Floats = NDArray[np.float64]
 
@@ -43,6 +44,8 @@ class AstrayScanner(Scanner):
     ) -> None:
         super().__init__(fleet, fan, mounts, named=named, seed=seed)
         self._spread = np.ascontiguousarray(spread, np.float64)
+        self._there = fleet.scene.clearing(solid=False)  # they may be over what is solid
+        self._going = [np.zeros(LANES) for _ in range(fleet.crew.size)]
 
     def scan(self, worlds: NDArray[np.intp] | None = None) -> Floats:
         """See ``Scanner.scan``."""
@@ -51,14 +54,15 @@ class AstrayScanner(Scanner):
             owners, count = self._owners_in(worlds), len(worlds)
         ranges, tick = self.flat_ranges, self.tick
 
-        fleet, scene = self.fleet, self.fleet.scene
+        fleet, there = self.fleet, self._there
 
-        def work(first: int, last: int, _part: int) -> None:
+        def work(first: int, last: int, part: int) -> None:
+            sensors, _, mounts, fan, _, beams, *_, others = self.arguments(part)
             scan_astray(
-                first, last, owners, self._mounts, self._fan, self.fan.step, self._spread,
-                self.seed, tick, fleet.widest, scene.grid, scene.table.rows, scene.start,
-                scene.items, fleet.kinds, fleet.looks, fleet.rows, fleet.head, fleet.follow,
-                ranges, self.names,
+                first, last, sensors, owners, mounts, fan, self.fan.step, self._spread, self.seed,
+                tick, fleet.widest, fleet.scene.grid, fleet.scene.table.rows, fleet.kinds,
+                fleet.looks, fleet.rows, fleet.head, fleet.follow, beams, others, there.fine,
+                there.start, there.items, there.clear, self._going[part], ranges, self.names,
             )  # fmt: skip
 
         fleet.crew.share(work, len(owners), max(1, _SHARE // self.fan.count))
