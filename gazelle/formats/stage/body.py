@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.stage import StageBitmap, StageBlock, StageSize
+from gazelle.description.stage_devices import StageGripper
 from gazelle.errors import FormatError, ResolveError
 from gazelle.formats.picture import read_picture
 from gazelle.formats.stage.entity import Entity, Property
@@ -37,6 +38,7 @@ class Body:
 
     blocks: tuple[StageBlock, ...] = ()
     bitmap: StageBitmap | None = None
+    is_plain: bool = False  # a box, as the file names no body
 
 
 @dataclass(slots=True)
@@ -89,15 +91,40 @@ def read_body(given: Properties, size: StageSize, context: Context, *, solid: bo
     blocks += _old_blocks(given)
     bitmap = _read_bitmap(given, context)
     bare = given.flag("noblocks", default=False)
-    if not blocks and bitmap is None and solid and not bare:
+    plain = not blocks and bitmap is None and solid and not bare
+    if plain:
         blocks = [UNIT_BLOCK]
     boundary = given.flag("boundary", default=False)
     if not blocks and bitmap is None:
         return Body()
     body = _scaled(blocks, bitmap, size)
     if boundary:
-        body = Body((*body.blocks, *_walls(size)), body.bitmap)
-    return body
+        return Body((*body.blocks, *_walls(size)), body.bitmap)
+    return Body(body.blocks, body.bitmap, is_plain=plain)
+
+
+def gripper_body(device: StageGripper, size: StageSize) -> Body:
+    """A gripper's base and its two paddles, as they are at the start."""
+    length, width, height = device.paddle_size
+    inwards = (0.5 - width) if device.paddles == "closed" else 0.0
+    bottom = (1.0 - height) if device.lift == "up" else 0.0
+    back = 1.0 - length
+    return Body(
+        tuple(
+            StageBlock(
+                tuple(
+                    (size.x * (x - 0.5), size.y * (y - 0.5))
+                    for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+                ),
+                (size.z * low, size.z * high),
+            )
+            for x0, x1, y0, y1, low, high in (
+                (0.0, back, 0.0, 1.0, 0.0, 1.0),
+                (back, 1.0, inwards, inwards + width, bottom, bottom + height),
+                (back, 1.0, 1.0 - inwards - width, 1.0 - inwards, bottom, bottom + height),
+            )
+        )
+    )
 
 
 def is_block(entity: Entity) -> bool:

@@ -15,8 +15,9 @@ from gazelle.description.stage import (
     StageReturns,
     StageSize,
 )
+from gazelle.description.stage_devices import StageGripper
 from gazelle.errors import did_you_mean
-from gazelle.formats.stage.body import is_block, read_body
+from gazelle.formats.stage.body import gripper_body, is_block, read_body
 from gazelle.formats.stage.devices import KINDS
 from gazelle.formats.stage.entity import Entity, Property
 from gazelle.formats.stage.properties import Properties
@@ -85,6 +86,8 @@ def _read_whole(entity: Entity, default_name: str, context: Context) -> StageMod
     size, origin = _extent(given, kind.size)
     body = read_body(given, size, context, solid=kind.solid)
     device = None if kind.read is None else kind.read(given)
+    if isinstance(device, StageGripper) and body.is_plain:
+        body = gripper_body(device, size)
     parts = [part for part in entity.parts if not is_block(part) and part.type != "sensor"]
     if entity.type != "ranger":
         _refuse_sensors(entity)

@@ -3,6 +3,7 @@
 from gazelle.engines.planar.pictures import Pictures
 from gazelle.simulation.stage.cameras import Camera, cameras_of
 from gazelle.simulation.stage.finders import Blob, Fiducial
+from gazelle.simulation.stage.grippers import Gripper, GripperState
 from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.simulation.stage.simulation import StageSimulation
 
@@ -10,6 +11,8 @@ __all__ = [
     "Blob",
     "Camera",
     "Fiducial",
+    "Gripper",
+    "GripperState",
     "Pictures",
     "Ranger",
     "StageRobot",

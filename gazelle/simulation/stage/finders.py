@@ -81,8 +81,10 @@ class Surroundings:
 
     def __init__(self, simulation: Senses) -> None:
         self._simulation = simulation
-        models = simulation.stage.models
-        self._still = [p for model in models if model.position is None for p in model.walk()]
+        self._moving = [*(robot.model for robot in simulation.robots), *simulation.things]
+        moving = {id(model) for model in self._moving}
+        models = [model for model in simulation.stage.models if id(model) not in moving]
+        self._still = [placed for model in models for placed in model.walk()]
         self._walls = outlines_of(self._still)
         self._shapes: dict[tuple[int, int], Outlines] = {}
 
@@ -95,21 +97,22 @@ class Surroundings:
         """What the file says of a robot."""
         return self._simulation.robots[robot].model
 
-    def place(self, robot: int, world: int) -> StagePose:
-        """Where a robot is."""
-        x, y, yaw = self._simulation.poses[world, robot].tolist()
-        return StagePose(x, y, self.model(robot).pose.z, yaw)
+    def place(self, body: int, world: int) -> StagePose:
+        """Where a robot, or after all robots a thing, is."""
+        fleet = self._simulation.fleet
+        x, y, yaw = fleet.pose[world, body].tolist()
+        return StagePose(x, y, float(fleet.heights[world, body]), yaw)
 
     def around(
         self, robot: int, reach: float, world: int
     ) -> tuple[list[PlacedStageModel], Outlines]:
         """Models within reach of a robot but its own, and their outlines, in the world."""
-        poses = self._simulation.poses[world]
+        poses = self._simulation.fleet.pose[world]
         models, parts = list(self._still), [(self._walls, 0)]
         far = np.linalg.norm(poses[:, :2] - poses[robot, :2], axis=1)
         near = np.flatnonzero(far <= reach + 2.0 * self._simulation.fleet.widest)
         for other in near[near != robot].tolist():
-            model = self._simulation.robots[other].model
+            model = self._moving[other]
             pose = self.place(other, world)
             parts.append((self._shape(model).moved(pose), len(models)))
             models += replace(model, pose=pose).walk()

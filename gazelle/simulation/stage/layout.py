@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from gazelle.description import (
     PlacedStageModel,
+    StageGripper,
     StageModel,
     StagePose,
     StagePosition,
@@ -76,9 +77,10 @@ class Layout:
     """What a fleet is made of.
 
     Attributes:
-        bodies: One a robot.
+        bodies: One a robot, then one a thing.
         robots: In file order.
-        statics: All that does not drive.
+        things: Models that grippers can take, if there are grippers.
+        statics: All that never moves.
         fans: Of each scanner.
         mounts: Of each scanner, one a sensor.
         noises: Of each scanner: constant [m], proportional and angular [rad] standard deviation
@@ -87,6 +89,7 @@ class Layout:
 
     bodies: list[Body] = field(default_factory=list)
     robots: list[StageRobot] = field(default_factory=list)
+    things: list[StageModel] = field(default_factory=list)
     statics: Table | None = None
     fans: list[Fan] = field(default_factory=list)
     mounts: list[list[Mount]] = field(default_factory=list)
@@ -94,16 +97,30 @@ class Layout:
 
 
 def layout_of(world: StageWorld) -> Layout:
-    """Robots are the top-level position models; all else stands still."""
+    """Robots are the top-level position models; all else stands still, or waits for a gripper."""
     maker = _Maker()
     still: list[PlacedStageModel] = []
+    grips = any(_grips(model) for model in world.robots)
     for model in world.models:
-        if model.position is None:
-            still += model.walk()
-        else:
+        if model.position is not None:
             maker.robot(model)
+        elif grips and model.returns.gripper:
+            maker.layout.things.append(model)
+        else:
+            still += model.walk()
+    maker.layout.bodies += [_thing(model) for model in maker.layout.things]
     maker.layout.statics = table_of(still)
     return maker.layout
+
+
+def _grips(model: StageModel) -> bool:
+    own = isinstance(model.device, StageGripper)
+    return own or any(_grips(child) for child in model.children)
+
+
+def _thing(model: StageModel) -> Body:
+    parts = tuple(_all_parts(list(replace(model, pose=StagePose()).walk())))
+    return Body(parts, (model.pose.x, model.pose.y, model.pose.yaw), model.pose.z)
 
 
 @dataclass(frozen=True, slots=True)

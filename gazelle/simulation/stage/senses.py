@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import StageWorld
+from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.pictures import Pictures
 from gazelle.simulation.stage.bumpers import find_bumps
@@ -33,12 +33,14 @@ class Senses(ABC):
     Attributes:
         stage: What the file says.
         robots: In file order.
+        things: Models that grippers can take.
         fleet: The engine.
         nworld: Copies.
     """
 
     stage: StageWorld
     robots: tuple[StageRobot, ...]
+    things: tuple[StageModel, ...]
     fleet: Fleet
     nworld: int
 
@@ -57,7 +59,7 @@ class Senses(ABC):
 
     @cached_property
     def _cameras(self) -> Cameras:
-        return Cameras(self, [robot.model for robot in self.robots])
+        return Cameras(self, [*(robot.model for robot in self.robots), *self.things])
 
     def forget_views(self) -> None:
         """Something moved: pictures have to be drawn anew."""

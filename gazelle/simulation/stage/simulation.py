@@ -18,6 +18,7 @@ from gazelle.formats.stage.building import no_garbage
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
+from gazelle.simulation.stage.grippers import Gripper, grippers_of
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.opening import stage_of
@@ -52,6 +53,7 @@ class StageSimulation(Senses):
     Attributes:
         stage: What the file says.
         robots: In file order.
+        things: Models that grippers can take, in file order; none without grippers.
         fleet: The engine.
         clock: Simulated time.
         requests: Where other threads have things done, between two steps.
@@ -85,7 +87,8 @@ class StageSimulation(Senses):
                 euler=euler,
                 threads=threads,
             )
-        self.robots = tuple(layout.robots)
+        self.robots, self.things = tuple(layout.robots), tuple(layout.things)
+        self._own = slice(0, len(self.robots))  # of the bodies; things come after robots
         self._names = {robot.name: robot for robot in self.robots}
         self.clock = Clock(self.stage.interval_sim)
         self.requests = RequestQueue()
@@ -101,9 +104,11 @@ class StageSimulation(Senses):
         positions = [robot.position for robot in self.robots]
         self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
         self._wheelbase = np.array([p.wheelbase for p in positions])
-        self._now = self.fleet.pose
+        self._now = self.poses
         self._before = self._now.copy()
         self._listeners: list[Listener] = []
+        self._gripping = grippers_of(self)
+        self._grippers = [each for own in self._gripping.values() for each in own]
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
         self._closed = False
@@ -133,23 +138,39 @@ class StageSimulation(Senses):
             )
         return found
 
+    def gripper(self, name: str, which: int = 0) -> Gripper:
+        """A gripper of a robot, in all worlds.
+
+        Raises:
+            SimulationError: There is no such robot or gripper.
+        """
+        found = self._gripping.get(self.robot(name).index, [])
+        if not 0 <= which < len(found):
+            raise SimulationError(f"'{name}' has {len(found)} grippers, no number {which}")
+        return found[which]
+
+    @property
+    def thing_poses(self) -> Floats:
+        """x, y [m] and heading [rad] of the things, shape (nworld, nthing, 3); to be read."""
+        return self.fleet.pose[:, len(self.robots) :]
+
     @property
     def commands(self) -> Floats:
         """Wanted velocities x, y [m/s] and yaw [rad/s], to be written, shape (nworld, nrobot, 3).
 
         Those of a car are its speed, nothing, and its steering angle [rad].
         """
-        return self.fleet.command
+        return self.fleet.command[:, self._own]
 
     @property
     def poses(self) -> Floats:
         """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
-        return self.fleet.pose
+        return self.fleet.pose[:, self._own]
 
     @property
     def velocities(self) -> Floats:
         """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
-        driven = self.fleet.velocity
+        driven = self.fleet.velocity[:, self._own]
         if not self._cars.any():
             return driven
         velocity = driven.copy()
@@ -161,7 +182,7 @@ class StageSimulation(Senses):
     @property
     def true_velocities(self) -> Floats:
         """How the poses changed in the last step, in the world's axes [m/s, rad/s]."""
-        change = np.subtract(self.fleet.pose, self._before)
+        change = np.subtract(self.poses, self._before)
         change[..., 2] = np.arctan2(np.sin(change[..., 2]), np.cos(change[..., 2]))
         rate: Floats = change / self.time_step
         return rate
@@ -170,15 +191,15 @@ class StageSimulation(Senses):
     def odometry(self) -> Floats:
         """Where the robots believe they are, by their ``localization``; as ``poses``."""
         if not self._odometry.needed:
-            return self.fleet.pose
+            return self.poses
         used = self._odometry.used[None, :, None]
-        found: Floats = np.where(used, self._odometry.pose, self.fleet.pose)
+        found: Floats = np.where(used, self._odometry.pose, self.poses)
         return found
 
     @property
     def stalled(self) -> NDArray[np.bool_]:
         """Whether a robot's last move was not made, as it would have hit something."""
-        return self.fleet.stalled
+        return self.fleet.stalled[:, self._own]
 
     # -- rangers -----------------------------------------------------------------------
 
@@ -281,7 +302,7 @@ class StageSimulation(Senses):
     @property
     def _watched(self) -> bool:
         """Whether something happens after every single step."""
-        return bool(self._controllers or self._listeners or self._odometry.needed)
+        return bool(self._controllers or self._listeners or self._grippers or self._odometry.needed)
 
     def _advance(self, count: int) -> None:
         for controller in self._controllers:
@@ -292,6 +313,8 @@ class StageSimulation(Senses):
         self.fleet.step()
         if self._odometry.needed:
             self._odometry.advance(self.velocities, self.time_step)
+        for gripper in self._grippers:
+            gripper.update()
         self.clock.advance(count)
         self._forget()
         if self._listeners:
@@ -364,7 +387,9 @@ class StageSimulation(Senses):
         self.fleet.reset(worlds)
         self._odometry.reset(worlds)
         rows = slice(None) if worlds is None else worlds
-        self._before[rows] = self.fleet.pose[rows]
+        self._before[rows] = self.poses[rows]
+        for gripper in self._grippers:
+            gripper.reset(worlds)
         self._forget()
 
     def reset(self) -> None:
