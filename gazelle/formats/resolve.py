@@ -150,7 +150,7 @@ class Resolver:
             yield root / name / inner if inner else root / name
 
     def _plain(self, path: str, base: Path | None) -> Iterator[Path]:
-        plain = Path(path).expanduser()
+        plain = expanded(path)
         if plain.is_absolute():
             yield plain
             return
@@ -266,3 +266,11 @@ def _ancestors(file: Path) -> list[Path]:
             break
         folders.append(folder)
     return folders
+
+
+def expanded(path: str) -> Path:
+    """A path with ``~`` as the user's folder; as it is written where there is no such user."""
+    try:
+        return Path(path).expanduser()
+    except RuntimeError:
+        return Path(path)

@@ -167,3 +167,7 @@ def test_a_file_that_includes_itself_is_an_error(tmp_path):
     )
     with pytest.raises(formats.loader.FormatError, match="includes itself"):
         formats.load(place)
+
+
+def test_the_folder_of_a_user_there_is_not_is_no_file(tmp_path):
+    assert Resolver().find("~no_such_user_here/map.png", tmp_path) is None

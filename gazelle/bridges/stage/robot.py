@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.bridges.stage.cameras import CameraTopics
 from gazelle.bridges.stage.finders import FinderTopics
+from gazelle.bridges.stage.grippers import GripperTopics
 from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, Publisher, Time, load_message
 from gazelle.simulation.stage import Ranger, StageRobot, StageSimulation
@@ -118,6 +119,7 @@ class RobotTopics:
         self._lasers = self._open_lasers(naming)
         self._cameras = CameraTopics(simulation, robot, node, naming, world=world, metres=metres)
         self._finders = FinderTopics(simulation, robot, node, naming, world)
+        self._grippers = GripperTopics(simulation, robot, node, naming, world)
 
     def _open_lasers(self, naming: Naming) -> list[_Laser]:
         index = self._robot.index
@@ -153,6 +155,7 @@ class RobotTopics:
                 laser.publisher.publish(self._scan(facts, laser))
         self._cameras.publish(facts.stamp)
         self._finders.publish(facts.stamp)
+        self._grippers.publish(facts.stamp)
 
     def transforms(self, facts: Facts) -> list[Any]:
         """From odom to base_footprint, to base_link, to the lasers and the cameras in use."""
@@ -175,6 +178,7 @@ class RobotTopics:
         """Publish no more."""
         self._cameras.close()
         self._finders.close()
+        self._grippers.close()
         for publisher in (self._odom, self._truth, self._stall, self._crashed):
             publisher.close()
         for laser in self._lasers:

@@ -3,11 +3,12 @@
 from gazelle.engines.planar.pictures import Pictures
 from gazelle.simulation.stage.cameras import Camera, cameras_of
 from gazelle.simulation.stage.finders import Blob, Fiducial
-from gazelle.simulation.stage.grippers import Gripper, GripperState
+from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
 from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.simulation.stage.simulation import StageSimulation
 
 __all__ = [
+    "COMMANDS",
     "Blob",
     "Camera",
     "Fiducial",

@@ -149,6 +149,14 @@ class StageSimulation(Senses):
             raise SimulationError(f"'{name}' has {len(found)} grippers, no number {which}")
         return found[which]
 
+    def grippers(self, name: str) -> int:
+        """Number of grippers of a robot.
+
+        Raises:
+            SimulationError: There is no such robot.
+        """
+        return len(self._gripping.get(self.robot(name).index, ()))
+
     @property
     def thing_poses(self) -> Floats:
         """x, y [m] and heading [rad] of the things, shape (nworld, nthing, 3); to be read."""

@@ -1,0 +1,80 @@
+"""The grippers of one robot on the graph; stage_ros has no such topics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.ros import Node, Time, load_message
+from gazelle.simulation.stage import COMMANDS, StageRobot, StageSimulation
+
+_QUEUE = 10
+
+
+class GripperTopics:
+    """Where paddles and lifts are, and what they are told to do.
+
+    Args:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics and frames.
+        world: Which world of a batch the graph sees.
+    """
+
+    def __init__(
+        self,
+        simulation: StageSimulation,
+        robot: StageRobot,
+        node: Node,
+        naming: Naming,
+        world: int,
+    ) -> None:
+        self._simulation, self._robot, self._world = simulation, robot, world
+        self._frame = naming.frame(robot.index, "base_link")
+        self._state: Any = load_message("gazelle_msgs/Gripper")
+        text = load_message("std_msgs/String")
+        count = simulation.grippers(robot.name)
+
+        def name(plain: str, which: int) -> str:
+            return naming.device_topic(robot.index, plain, which, count)
+
+        self._publishers = [
+            node.advertise(name("gripper", k), self._state, _QUEUE) for k in range(count)
+        ]
+        self._subscribers = [
+            node.subscribe(name("cmd_gripper", k), text, self._told(k), _QUEUE)
+            for k in range(count)
+        ]
+
+    def _told(self, which: int) -> Callable[[Any], None]:
+        worlds = np.array([self._world])
+
+        def told(message: Any) -> None:
+            word = message.data.strip().lower()
+            if word in COMMANDS:
+                gripper = self._simulation.gripper(self._robot.name, which)
+                self._simulation.requests.call(lambda: gripper.do(word, worlds))
+
+        return told
+
+    def publish(self, stamp: Time) -> None:
+        """Publish what is listened to."""
+        for which, publisher in enumerate(self._publishers):
+            if publisher.has_listener:
+                state = self._simulation.gripper(self._robot.name, which).state(self._world)
+                message = self._state()
+                message.header.stamp, message.header.frame_id = stamp, self._frame
+                message.paddles, message.lift = state.paddles, state.lift
+                message.beams, message.carried = list(state.beams), state.carried or ""
+                publisher.publish(message)
+
+    def close(self) -> None:
+        """Publish and hear no more."""
+        for publisher in self._publishers:
+            publisher.close()
+        for subscriber in self._subscribers:
+            subscriber.close()
