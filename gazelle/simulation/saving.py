@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -58,6 +60,8 @@ def restore(simulation: Simulation, data: bytes) -> None:
         SimulationError: The bytes are no snapshot, or one of another simulation.
     """
     arrays = _read(data)
+    if not {"header", "engine"} <= arrays.keys():
+        raise SimulationError("these bytes are no snapshot: they lack a header")
     header = json.loads(arrays.pop("header").tobytes())
     if header.get("format") != _FORMAT or header.get("names") != _names(simulation):
         raise SimulationError("the snapshot is of other models than those that run", hint=_HINT)
@@ -125,7 +129,7 @@ def _read(data: bytes) -> dict[str, NDArray[Any]]:
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             return {_unescape(name): archive[name] for name in archive.files}
-    except (ValueError, OSError, KeyError) as error:
+    except (ValueError, OSError, KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise SimulationError(f"these bytes are no snapshot: {error}") from None
 
 
