@@ -19,7 +19,12 @@ from numpy.typing import NDArray
 from gazelle.description.material import Color
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
-from gazelle.description.stage_devices import StageDevice, StagePosition, StageRanger
+from gazelle.description.stage_devices import (
+    StageActuator,
+    StageDevice,
+    StagePosition,
+    StageRanger,
+)
 
 StageColor = Color | Literal["random"]
 
@@ -233,6 +238,16 @@ class StageModel:
         return self.device if isinstance(self.device, StagePosition) else None
 
     @property
+    def _begin(self) -> StagePose:
+        """Its pose; of an actuator that where it starts."""
+        device = self.device
+        return (
+            self.pose.then(StagePose(*device.offset))
+            if isinstance(device, StageActuator)
+            else self.pose
+        )
+
+    @property
     def rangers(self) -> tuple[StageModel, ...]:
         """The rangers mounted directly on it, in file order."""
         return tuple(child for child in self.children if isinstance(child.device, StageRanger))
@@ -243,10 +258,10 @@ class StageModel:
         Args:
             parent: The model that this one is mounted on, already placed.
         """
-        placed = PlacedStageModel(self, self.name.removeprefix("/"), self.pose, parent)
+        placed = PlacedStageModel(self, self.name.removeprefix("/"), self._begin, parent)
         if parent is not None:
             lift = parent.model.size.z if parent.model.stack_children else 0.0
-            pose = parent.pose.then(self.pose)
+            pose = parent.pose.then(self._begin)
             name = placed.name if self.name.startswith("/") else f"{parent.name}.{self.name}"
             placed = PlacedStageModel(self, name, pose._replace(z=pose.z + lift), parent)
         yield placed

@@ -177,6 +177,15 @@ class StageActuator:
     start: float = 0.0
     max_speed: float = 1.0
 
+    @property
+    def offset(self) -> Quartet:
+        """Of where it starts from its pose, in the frame of that."""
+        if self.type == "rotational":
+            return (0.0, 0.0, 0.0, self.start)
+        length = math.hypot(*self.axis)
+        x, y, z = (part * self.start / length if length else 0.0 for part in self.axis)
+        return (x, y, z, 0.0)
+
 
 @dataclass(frozen=True, slots=True)
 class StageBlinkenlight:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from gazelle.description import (
     PlacedStageModel,
+    StageActuator,
     StageGripper,
     StageModel,
     StagePose,
@@ -221,6 +222,12 @@ def _warn_of_riders(carried: list[PlacedStageModel]) -> None:
         if placed.model.position is not None:
             warnings.warn(
                 f"'{placed.name}' is mounted on a robot, and does not drive by itself",
+                SimulationWarning,
+                stacklevel=2,
+            )
+        elif isinstance(placed.model.device, StageActuator):
+            warnings.warn(
+                f"'{placed.name}' stays where it starts, as actuators of Stage 4.3 do",
                 SimulationWarning,
                 stacklevel=2,
             )
