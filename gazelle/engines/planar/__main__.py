@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar.pictures import Lens, Painter, Scenery, View, prism
 from gazelle.engines.planar.roaming import Roaming
 from gazelle.engines.planar.shapes import Part
 
@@ -21,6 +25,10 @@ def compile_ahead() -> None:
     crowd = Fleet([Body(disc)], [Part.circle(1.0 + i, 0.0, 0.3) for i in range(300)])
     for count in (1, 60):  # fans of few beams and scans among many statics have their own
         Scanner(crowd, Fan.spread(1.0, count, 2.0), [Mount(0)]).scan()
+    AstrayScanner(crowd, Fan.spread(1.0, 2, 2.0), [Mount(0)], np.full(1, 0.01)).scan()
+    faces = prism([(1.0, 0.0), (2.0, 0.0), (1.0, 1.0)], 0.0, 1.0, (255.0, 0.0, 0.0))
+    painter = Painter(crowd, Scenery(faces, [faces]))
+    painter.draw(Lens(4, 4, (1.0, 1.0)), [View(0, z=0.5)], np.zeros(1, np.intp))
 
 
 if __name__ == "__main__":
