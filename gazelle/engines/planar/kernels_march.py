@@ -284,10 +284,11 @@ def meet_statics(
             u, v = cell_of_lane(lanes, i, columns, rows)
             cell = int(v * columns + u)
             wide = float(clear[int(lanes[BASE + i]) + cell])
-            if not begun:
+            way = lanes[AT + i] - NUDGE
+            if not begun or way <= NUDGE:  # on an edge it may seem to be on either side
                 begun, solid = True, wide < 0.0
             elif (wide < 0.0) != solid:
-                met = 1.0 / (lanes[AT + i] - NUDGE)
+                met = 1.0 / way
                 if met > lanes[BEST + i]:
                     lanes[BEST + i] = met
                     lanes[NAME + i] = -fine[SOLID_NAME] if solid else fine[SOLID_NAME]

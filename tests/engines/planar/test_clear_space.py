@@ -98,6 +98,22 @@ def test_beams_pass_over_a_bitmap_that_is_lower(count):
     assert Scanner(fleet, fan, [Mount(0)]).scan()[0, 0, 0] == pytest.approx(2.5)
 
 
+@pytest.mark.parametrize("count", [1, 120])
+@pytest.mark.parametrize("yaw", [0.0, math.pi / 2, math.pi, -math.pi / 2])
+def test_a_sensor_on_the_edge_of_a_wall_sees_away_from_it(count, yaw):
+    cells = np.ones((60, 60), bool)
+    cells[20:40, 20:40] = False  # a hole of 1 m by 1 m
+    bitmap = StageBitmap("x.png", Path("x.png"), cells, (-1.5, -1.5), (1.5, 1.5), (0.0, 1.0))
+    room = PlacedStageModel(StageModel("model", "room", bitmap=bitmap), "room", StagePose())
+    place = (-0.5 * round(math.cos(yaw)), -0.5 * round(math.sin(yaw)), yaw)
+    # 270 more posts far away, so that beams are followed
+    posts = [picture(np.random.default_rng(2))]
+    posts[0] = PlacedStageModel(posts[0].model, "posts", StagePose(40.0, 0.0))
+    fleet = fleet_of([room, *posts], (50.0, 0.0, 0.1), [place])
+    fan = Fan(0.0, 1e-4, count, REACH)
+    assert Scanner(fleet, fan, [Mount(0)]).scan()[0, 0, 0] == pytest.approx(1.0, abs=1e-8)
+
+
 @given(seed=SEEDS)
 @settings(max_examples=20, deadline=None)
 def test_squares_are_the_largest_that_are_empty(seed):
