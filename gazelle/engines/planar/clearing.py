@@ -18,6 +18,7 @@ Indices = NDArray[np.int32]
 
 _CELLS = 12.0  # a static primitive
 _FINEST = 0.02  # side of a cell [m]
+_LEAST = 1e-4  # side of a bitmap's cell [m]
 _MOST_CELLS = 1 << 22
 
 
@@ -65,6 +66,8 @@ def clearing_of(table: Table, *, solid: bool) -> Clearing:
 def _of_raster(table: Table, raster: Raster) -> Clearing | None:
     """The cells of a bitmap, and more around them where there is more; None if too many."""
     (x, y, yaw), (wide, deep) = raster.pose, raster.cell
+    if min(wide, deep) < _LEAST:
+        return None
     cos, sin = math.cos(yaw), math.sin(yaw)
     others = table.rows.copy()
     others[raster.first : raster.last, c.KIND] = -1.0
@@ -74,11 +77,12 @@ def _of_raster(table: Table, raster: Raster) -> Clearing | None:
     low, high = _bounds(others)
     size = np.array(raster.cells.shape[::-1])
     cell, corner = np.array([wide, deep]), np.array(raster.low)
-    before = np.ceil(np.maximum((corner - low) / cell, 0.0)).astype(np.int64) + 1
-    after = np.ceil(np.maximum((high - corner) / cell - size, 0.0)).astype(np.int64) + 1
-    columns, rows = before + size + after
-    if columns * rows > _MOST_CELLS:
+    around = np.stack(((corner - low) / cell, (high - corner) / cell - size))
+    before, after = np.ceil(np.maximum(around, 0.0)) + 1.0
+    if (before + size + after).prod() > _MOST_CELLS:
         return None
+    before, after = before.astype(np.int64), after.astype(np.int64)
+    columns, rows = before + size + after
     corner = corner - before * cell
     solid = np.pad(raster.cells, ((before[1], after[1]), (before[0], after[0])))
     # Cells are made square for the list; circles then are within wider ones.
