@@ -304,7 +304,7 @@ def test_hooks_run_while_the_node_can_still_publish(node, msgs):
     node.on_shutdown(last_words)
     node.core.add_preshutdown_hook(order.append)
     node.signal_shutdown("enough")
-    assert order == ["enough", "client"]
+    assert order == ["client", "enough"]
     assert node.is_shutdown()
     with pytest.raises(node.ROSException, match="closed topic"):
         publisher.publish("late")

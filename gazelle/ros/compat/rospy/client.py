@@ -250,7 +250,7 @@ def wait_for_message(
     deadline = None if seconds is None else time.monotonic() + seconds
     subscriber = Subscriber(topic, topic_type, keep)
     try:
-        while not process.shutdown.is_set():
+        while not process.over:
             left = 0.2 if deadline is None else min(0.2, deadline - time.monotonic())
             if came.wait(max(0.0, left)):
                 return found[0]

@@ -69,11 +69,13 @@ def set_initialized(initialized: bool) -> None:  # noqa: FBT001  # rospy's inter
 
 
 def is_shutdown() -> bool:
+    """Whether the node ended, or is about to; not yet for the hooks of `on_shutdown`."""
+    return process.over
+
+
+def is_shutdown_requested() -> bool:
     """Whether the node ended, or is about to."""
     return process.shutdown.is_set()
-
-
-is_shutdown_requested = is_shutdown
 
 
 def signal_shutdown(reason: str) -> None:

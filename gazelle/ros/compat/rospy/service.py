@@ -187,7 +187,7 @@ class ServiceProxy(_Service):
                 f"service [{self.resolved_name}] responded with an error: {error.message}"
             ) from None
         except (ServiceError, NodeClosedError) as error:
-            if process.shutdown.is_set():
+            if process.over:
                 raise ROSInterruptException("node shutdown interrupted service call") from None
             raise ServiceException(f"transport error completing service call: {error}") from None
         except RosError as error:
@@ -225,7 +225,7 @@ def wait_for_service(service: str, timeout: values.Duration | float | None = Non
     seconds = timeout.to_sec() if isinstance(timeout, values.Duration) else timeout
     deadline = None if seconds is None else time.monotonic() + seconds
     name = resolve_name(service)
-    while not process.shutdown.is_set():
+    while not process.over:
         left = 1.0 if deadline is None else min(1.0, deadline - time.monotonic())
         try:
             wait(user(), name, max(0.0, left))

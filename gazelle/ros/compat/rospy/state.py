@@ -43,6 +43,7 @@ class Process:
         self._lock = threading.RLock()
         self._done = threading.Event()
         self._ender: int | None = None
+        self._hooking: int | None = None
         self._previous: dict[int, Any] = {}
 
     def require(self) -> Node:
@@ -99,14 +100,26 @@ class Process:
             self._ender = threading.get_ident()
             self.shutdown.set()
         try:
-            self._run(self.before, reason)
+            self._hooking = self._ender
             self._run(self.clients)
+            self._run(self.before, reason)
+            self._hooking = None
             self._run(self.after, reason)
         finally:
             if self.node is not None:
                 with contextlib.suppress(Exception):
                     self.node.close()
             self._done.set()
+
+    @property
+    def over(self) -> bool:
+        """Whether to stop waiting and sleeping; hooks of a shutdown may still do both."""
+        return self.shutdown.is_set() and not self.hooking
+
+    @property
+    def hooking(self) -> bool:
+        """Whether this thread runs what the user wants done before the node ends."""
+        return self._hooking == threading.get_ident()
 
     def wait_ended(self) -> None:
         """Wait for the end of an end that another thread is busy with."""

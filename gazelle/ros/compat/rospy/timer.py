@@ -18,6 +18,9 @@ from gazelle.ros.compat.rospy.rostime import Duration, Time, get_rostime, is_ros
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.errors import TimeMovedBackwardsError
 
+# So much longer than it should a hook's sleep may last on simulated time [s].
+_PATIENCE_S = 5.0
+
 
 def sleep(duration: values.Duration | float) -> None:
     """Sleep in the time of the node.
@@ -32,12 +35,23 @@ def sleep(duration: values.Duration | float) -> None:
     length = duration if isinstance(duration, values.Duration) else Duration.from_sec(duration)
     clock = process.clock if is_rostime_initialized() else WallClock()
     try:
-        awake = clock.sleep(length.to_nsec(), process.shutdown.is_set)
+        awake = clock.sleep(length.to_nsec(), _given_up(length))
     except TimeMovedBackwardsError as error:
         raise ROSTimeMovedBackwardsException(error.jump) from None
-    if not awake or process.shutdown.is_set():
+    if not awake or process.over:
         process.wait_ended()
         raise ROSInterruptException("ROS shutdown request")
+
+
+def _given_up(length: values.Duration) -> Callable[[], bool]:
+    """When a sleep ends before its time: at the shutdown.
+
+    A hook of the shutdown may sleep, but not for ever where simulated time stands still.
+    """
+    if not process.hooking:
+        return process.shutdown.is_set
+    latest = time.monotonic() + max(0.0, length.to_sec()) + _PATIENCE_S
+    return lambda: time.monotonic() > latest
 
 
 class Rate:

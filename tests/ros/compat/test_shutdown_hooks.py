@@ -1,0 +1,70 @@
+"""What ``rospy.on_shutdown`` runs may sleep, publish and call, as with the real rospy."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from ros.real import INSTALLED, PYTHON, environment
+
+SCRIPT = """
+import rospy
+from std_msgs.msg import String
+
+class Robot(object):
+    def __init__(self):
+        rospy.init_node("robot")
+        rospy.on_shutdown(self.shutdown)
+        self.pub = rospy.Publisher("words", String, queue_size=1)
+        rospy.Subscriber("words", String, lambda m: print("heard", m.data, flush=True))
+        rate = rospy.Rate(10)
+        rospy.sleep(0.5)
+        print("running", flush=True)
+        while not rospy.is_shutdown():
+            rate.sleep()
+
+    def shutdown(self):
+        print("stopping", rospy.is_shutdown(), rospy.core.is_shutdown_requested(), flush=True)
+        self.pub.publish("stop")
+        rospy.sleep(0.3)
+        rospy.Rate(10).sleep()
+        print("stopped", flush=True)
+
+try:
+    Robot()
+except rospy.ROSInterruptException:
+    pass
+"""
+SAID = ["running", "stopping False True", "heard stop", "stopped"]
+
+
+def lines(command, env, file):
+    process = subprocess.Popen(
+        [*command, str(file)], env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    first = process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert "Traceback" not in err
+    return [line for line in (first + out).splitlines() if not line.startswith("[")]
+
+
+@pytest.fixture
+def script(tmp_path):
+    file = tmp_path / "robot.py"
+    file.write_text(SCRIPT, encoding="utf-8")
+    return file
+
+
+def test_a_hook_may_sleep_and_publish(master, script):
+    env = os.environ | {"ROS_MASTER_URI": master.uri}
+    assert lines([sys.executable, "-m", "gazelle", "exec"], env, script) == SAID
+
+
+@pytest.mark.ros
+@pytest.mark.skipif(not INSTALLED, reason="the real ROS 1 is not installed (Debian: ros-core)")
+def test_a_hook_of_the_real_rospy_says_the_same(master, script):
+    assert lines([PYTHON], environment(master.uri), script) == SAID
