@@ -156,6 +156,8 @@ class Scanner:
         ]
         self._look = _look_of(fan, fleet)
         self._tails: dict[int, tuple[Any, ...]] = {}
+        least = 2 * max(1, _SHARE // fan.count)
+        self._alone = fleet.crew.size == 1 or len(self.owners) < least
         self._middles = _middles_of(fan)
         if self._look is not scan:
             self._clearing = fleet.scene.clearing(solid=fan.begin == 0.0)
@@ -181,23 +183,31 @@ class Scanner:
         owners, count = self.owners, self.fleet.nworld
         if worlds is not None:
             owners, count = self._owners_in(worlds), len(worlds)
-        least = max(1, _SHARE // self.fan.count)
-        ranges, tick = self.flat_ranges, self.tick
-
-        def work(first: int, last: int, part: int) -> None:
-            tail = self._tails.get(part) if worlds is None else self._tail(part, owners)
-            if tail is None:
-                tail = self._tails[part] = self._tail(part, owners)
-            self._look(first, last, *tail)
-            if self.noise is not None:
-                constant, share = self.noise.constant, self.noise.share
-                kernels_noise.blur(
-                    first, last, owners, ranges, self._fan, constant, share, self.seed, tick
-                )
-
-        self.fleet.crew.share(work, len(owners), least)
+        if self._alone and worlds is None:
+            self._work(0, len(owners), 0)
+        else:
+            least = max(1, _SHARE // self.fan.count)
+            other = None if worlds is None else owners
+            self.fleet.crew.share(
+                lambda a, b, part: self._work(a, b, part, other), len(owners), least
+            )
         self.tick += 1
         return self.ranges[:count]
+
+    def _work(
+        self, first: int, last: int, part: int, owners: NDArray[np.int64] | None = None
+    ) -> None:
+        """Scan with the sensors first to last, by one thread; of other ``owners`` than all."""
+        tail = self._tails.get(part) if owners is None else self._tail(part, owners)
+        if tail is None:
+            tail = self._tails[part] = self._tail(part, self.owners)
+        self._look(first, last, *tail)
+        if self.noise is not None:
+            own = self.owners if owners is None else owners
+            constant, share = self.noise.constant, self.noise.share
+            kernels_noise.blur(
+                first, last, own, self._flat, self._fan, constant, share, self.seed, self.tick
+            )
 
     # -- what was met ------------------------------------------------------------------
 

@@ -268,7 +268,10 @@ class Fleet:
 
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` steps."""
-        if self.nworld > 1 or self.crew.size == 1 or self.nbody < 2 * _SHARE:
+        if self.nworld == 1 and (self.crew.size == 1 or self.nbody < 2 * _SHARE):
+            self._advance(0, 1, count)
+            return
+        if self.nworld > 1:
             least = max(1, -(-_SHARE // max(self.nbody, 1)))
             self.crew.share(lambda a, b, _: self._advance(a, b, count), self.nworld, least)
             return
