@@ -14,10 +14,11 @@ from gazelle.formats import load
 from gazelle.simulation import Simulation
 
 
-def drive(step, linear, angular, seconds):
+def drive(step, linear, angular, seconds, model=None):
     """Pose after driving from rest, and the total angle turned."""
     world = scenes.world(scenes.ground(), scenes.burger(), step=step)
     with Simulation(world) as sim:
+        sim.physics.friction_model = model
         robot = sim.robots["burger"]
         sim.run(0.5)
         start = robot.position[0]
@@ -46,6 +47,14 @@ def test_ten_turns_on_the_spot(step, error):
     moved, turned = drive(step, 0.0, rate, (20 * np.pi + ramp) / rate)
     assert turned == pytest.approx(20 * np.pi, rel=error)
     assert np.linalg.norm(moved[:2]) < 0.05
+
+
+@pytest.mark.parametrize(
+    ("step", "short"), [(0.001, 0.004), (0.002, 0.03), (0.004, 0.05), (0.02, 0.1)]
+)
+def test_on_a_cone_wheels_creep_at_large_steps_which_is_why_robots_have_a_pyramid(step, short):
+    _, turned = drive(step, 0.0, 1.0, 20 * np.pi, "cone_model")
+    assert 1.0 - turned / (20 * np.pi) == pytest.approx(short, abs=0.01)
 
 
 @pytest.mark.parametrize(("name", "separation"), [("burger", 0.16), ("waffle", 0.287)])
