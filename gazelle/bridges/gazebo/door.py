@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.bridges.binding import Binding
 from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.finite import Handler, ignoring, refusing
 from gazelle.bridges.gazebo.joints import JointServices
 from gazelle.bridges.gazebo.lights import LightServices
 from gazelle.bridges.gazebo.links import LinkServices
@@ -24,7 +25,10 @@ from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.stepping import make_scheduled
 
 Worlds = NDArray[np.intp]
-Handler = Callable[[Any], Any]
+_MOVES = {
+    *("spawn_sdf_model", "spawn_urdf_model", "set_model_state", "set_link_state"),
+    *("set_model_configuration", "set_link_properties", "apply_body_wrench", "apply_joint_effort"),
+}
 
 
 class GazeboDoor:
@@ -226,6 +230,8 @@ class GazeboDoor:
         """Serve; between two steps if ``wait``, else the handler sees to it."""
         service = load_service(f"{package}/{kind}")
         response = service._response_class  # noqa: SLF001  # genpy's name
+        if name in _MOVES:
+            handler = refusing(kind, handler)
 
         def answer(request: Any) -> Any:
             call = self._simulation.requests.call
@@ -241,7 +247,10 @@ class GazeboDoor:
             ("set_link_state", "LinkState", links.set_state_of),
         ):
             subscriber = self._node.subscribe(
-                f"~{name}", load_message(f"gazebo_msgs/{kind}"), self._between(act), 10
+                f"~{name}",
+                load_message(f"gazebo_msgs/{kind}"),
+                self._between(ignoring(name, act)),
+                10,
             )
             self._closing.append(subscriber.close)
 
