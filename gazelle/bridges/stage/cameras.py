@@ -60,7 +60,7 @@ class CameraTopics:
         self._metres = metres
         self._image: Any = load_message("sensor_msgs/Image")
         self._info: Any = load_message("sensor_msgs/CameraInfo")
-        direct = [(k, c) for k, c in enumerate(cameras_of(robot.model)) if c.direct]
+        direct = [(k, c) for k, c in enumerate(cameras_of(robot)) if c.direct]
         count, index = len(direct), robot.index
 
         def advertise(name: str, place: int, kind: Any) -> Publisher:

@@ -37,7 +37,7 @@ class GripperTopics:
         self._frame = naming.frame(robot.index, "base_link")
         self._state: Any = load_message("gazelle_msgs/Gripper")
         text = load_message("std_msgs/String")
-        count = simulation.grippers(robot.name)
+        count = len(simulation.devices.grippers.get(robot.index, ()))
 
         def name(plain: str, which: int) -> str:
             return naming.device_topic(robot.index, plain, which, count)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.bridges.stage.actuators import ActuatorTopics
 from gazelle.bridges.stage.cameras import CameraTopics
 from gazelle.bridges.stage.finders import FinderTopics
 from gazelle.bridges.stage.grippers import GripperTopics
@@ -120,6 +121,7 @@ class RobotTopics:
         self._cameras = CameraTopics(simulation, robot, node, naming, world=world, metres=metres)
         self._finders = FinderTopics(simulation, robot, node, naming, world)
         self._grippers = GripperTopics(simulation, robot, node, naming, world)
+        self._actuators = ActuatorTopics(simulation, robot, node, naming, world)
 
     def _open_lasers(self, naming: Naming) -> list[_Laser]:
         index = self._robot.index
@@ -156,6 +158,7 @@ class RobotTopics:
         self._cameras.publish(facts.stamp)
         self._finders.publish(facts.stamp)
         self._grippers.publish(facts.stamp)
+        self._actuators.publish()
 
     def transforms(self, facts: Facts) -> list[Any]:
         """From odom to base_footprint, to base_link, to the lasers and the cameras in use."""
@@ -179,6 +182,7 @@ class RobotTopics:
         self._cameras.close()
         self._finders.close()
         self._grippers.close()
+        self._actuators.close()
         for publisher in (self._odom, self._truth, self._stall, self._crashed):
             publisher.close()
         for laser in self._lasers:

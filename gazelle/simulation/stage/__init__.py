@@ -1,6 +1,7 @@
 """Stage worlds that run: fleets of robots in the plane."""
 
 from gazelle.engines.planar.pictures import Pictures
+from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import Camera, cameras_of
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
@@ -9,6 +10,7 @@ from gazelle.simulation.stage.simulation import StageSimulation
 
 __all__ = [
     "COMMANDS",
+    "Actuator",
     "Blob",
     "Camera",
     "Fiducial",

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import StageCamera, StageModel, StagePose
+from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
 from gazelle.engines.planar.pictures import Lens, Painter, Pictures, View
 from gazelle.errors import SimulationError
+from gazelle.simulation.stage.finders import still_models
+from gazelle.simulation.stage.layout import StageRobot
 from gazelle.simulation.stage.scenery import scenery_of
 
 if TYPE_CHECKING:
@@ -26,15 +28,17 @@ class Camera:
     Attributes:
         name: Its own name in the file.
         device: What the file says.
-        pose: In the robot's frame, its height included; its heading without the pan.
+        pose: In the body's frame, its height included; its heading without the pan.
         direct: Whether it is mounted on the robot itself.
-        owner: Which of the models on the robot it is, depth first.
+        body: Index of the body that it is on: the robot, or what an actuator moves.
+        owner: Which of the models on that it is, depth first.
     """
 
     name: str
     device: StageCamera
     pose: StagePose
     direct: bool
+    body: int
     owner: int
 
     @property
@@ -42,11 +46,12 @@ class Camera:
         """Its pixels, field of view and range."""
         return Lens(*self.device.resolution, self.device.fov, *self.device.range)
 
-    def view(self, body: int) -> View:
-        """Where it is on a body: as in Stage a pan is to the right, and a tilt down."""
+    @property
+    def view(self) -> View:
+        """Where it is on its body: as in Stage a pan is to the right, and a tilt down."""
         pan, tilt = self.device.pantilt
         x, y, z, yaw = self.pose
-        return View(body, x, y, z, yaw - pan, tilt, self.owner)
+        return View(self.body, x, y, z, yaw - pan, tilt, self.owner)
 
 
 class Cameras:
@@ -59,7 +64,7 @@ class Cameras:
 
     def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
         self._simulation = simulation
-        self._painter = Painter(simulation.fleet, scenery_of(simulation.stage, models))
+        self._painter = Painter(simulation.fleet, scenery_of(still_models(simulation), models))
         self._seen: dict[tuple[int, int, int], Pictures] = {}
 
     def forget(self) -> None:
@@ -91,27 +96,33 @@ class Cameras:
                 "only cameras with the same resolution, range and fov make one array",
                 hint="ask for their pictures one by one",
             )
-        views = [camera.view(robot) for camera, robot in zip(found, robots, strict=True)]
+        views = [camera.view for camera in found]
         return self._painter.draw(lenses.pop(), views, worlds)
 
     def _camera(self, robot: int, which: int) -> Camera:
         own = self._simulation.robots[robot]
-        found = cameras_of(own.model)
+        found = cameras_of(own)
         if not 0 <= which < len(found):
             raise SimulationError(f"'{own.name}' has {len(found)} cameras, no number {which}")
         return found[which]
 
 
-def cameras_of(model: StageModel) -> tuple[Camera, ...]:
-    """The cameras on a robot, in file order, in its frame."""
+def cameras_of(robot: StageRobot) -> tuple[Camera, ...]:
+    """The cameras on a robot, in file order; those on actuators last."""
     return tuple(
         Camera(
             placed.model.name,
             placed.model.device,
             placed.pose,
-            direct=placed.parent is not None and placed.parent.parent is None,
+            direct=body == robot.index and _is_direct(placed),
+            body=body,
             owner=owner,
         )
+        for body, model in robot.bodies
         for owner, placed in enumerate(replace(model, pose=StagePose()).walk())
         if isinstance(placed.model.device, StageCamera)
     )
+
+
+def _is_direct(placed: PlacedStageModel) -> bool:
+    return placed.parent is not None and placed.parent.parent is None

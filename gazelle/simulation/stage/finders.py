@@ -17,6 +17,7 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
+from gazelle.engines.planar import columns as c
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.scenery import color_of
 from gazelle.simulation.stage.sight import Outlines, distances, joined, outlines_of
@@ -81,10 +82,8 @@ class Surroundings:
 
     def __init__(self, simulation: Senses) -> None:
         self._simulation = simulation
-        self._moving = [*(robot.model for robot in simulation.robots), *simulation.things]
-        moving = {id(model) for model in self._moving}
-        models = [model for model in simulation.stage.models if id(model) not in moving]
-        self._still = [placed for model in models for placed in model.walk()]
+        self._moving = models_of(simulation)
+        self._still = [placed for model in still_models(simulation) for placed in model.walk()]
         self._walls = outlines_of(self._still)
         self._shapes: dict[tuple[int, int], Outlines] = {}
 
@@ -111,7 +110,8 @@ class Surroundings:
         models, parts = list(self._still), [(self._walls, 0)]
         far = np.linalg.norm(poses[:, :2] - poses[robot, :2], axis=1)
         near = np.flatnonzero(far <= reach + 2.0 * self._simulation.fleet.widest)
-        for other in near[near != robot].tolist():
+        family = self._simulation.fleet.kinds[:, c.FAMILY]
+        for other in near[family[near] != family[robot]].tolist():
             model = self._moving[other]
             pose = self.place(other, world)
             parts.append((self._shape(model).moved(pose), len(models)))
@@ -131,10 +131,11 @@ class Surroundings:
         Raises:
             SimulationError: It has none of this number.
         """
-        own, pose = self._simulation.robots[robot], self.place(robot, world)
+        own = self._simulation.robots[robot]
         found = [
             Mounted(placed.pose, placed.model, placed.model.device)
-            for placed in replace(own.model, pose=pose).walk()
+            for body, model in own.bodies
+            for placed in replace(model, pose=self.place(body, world)).walk()
             if isinstance(placed.model.device, kind)
         ]
         if not 0 <= which < len(found):
@@ -142,6 +143,19 @@ class Surroundings:
                 f"'{own.name}' has {len(found)} {kind.__name__}, no number {which}"
             )
         return found[which]
+
+
+def still_models(simulation: Senses) -> list[StageModel]:
+    """Models that never move."""
+    moving = {id(m) for m in (*(r.model for r in simulation.robots), *simulation.things)}
+    return [model for model in simulation.stage.models if id(model) not in moving]
+
+
+def models_of(simulation: Senses) -> list[StageModel]:
+    """The model of each body: robots, then things, then what actuators move."""
+    own = [next(robot.bodies)[1] for robot in simulation.robots]
+    riders = [rider.model for robot in simulation.robots for rider in robot.riders]
+    return [*own, *simulation.things, *riders]
 
 
 def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> list[Fiducial]:

@@ -52,6 +52,23 @@ class Ranger:
 
 
 @dataclass(frozen=True, slots=True)
+class Rider:
+    """An actuator on a robot with all that is on it: a body of its own.
+
+    Attributes:
+        body: Its index among all bodies of a world.
+        model: The actuator, at position zero at the origin of its frame.
+        device: What the file says of it.
+        base: Of position zero, on the robot.
+    """
+
+    body: int
+    model: StageModel
+    device: StageActuator
+    base: StagePose
+
+
+@dataclass(frozen=True, slots=True)
 class StageRobot:
     """A robot of a Stage world.
 
@@ -59,13 +76,23 @@ class StageRobot:
         index: Its place in all arrays.
         name: Its name in the file.
         model: What the file says.
-        rangers: Those mounted on it directly or on what it carries, in file order.
+        rangers: Those mounted on it directly or on what it carries, in file order; those on
+            actuators last.
+        riders: What its actuators move.
     """
 
     index: int
     name: str
     model: StageModel
     rangers: tuple[Ranger, ...] = ()
+    riders: tuple[Rider, ...] = ()
+
+    @property
+    def bodies(self) -> Iterator[tuple[int, StageModel]]:
+        """Indices and models of itself without its actuators, and of what those move."""
+        yield self.index, without_actuators(self.model) if self.riders else self.model
+        for rider in self.riders:
+            yield rider.body, rider.model
 
     @property
     def position(self) -> StagePosition:
@@ -78,7 +105,7 @@ class Layout:
     """What a fleet is made of.
 
     Attributes:
-        bodies: One a robot, then one a thing.
+        bodies: One a robot, then one a thing, then one an actuator.
         robots: In file order.
         things: Models that grippers can take, if there are grippers.
         statics: All that never moves.
@@ -99,17 +126,19 @@ class Layout:
 
 def layout_of(world: StageWorld) -> Layout:
     """Robots are the top-level position models; all else stands still, or waits for a gripper."""
-    maker = _Maker()
     still: list[PlacedStageModel] = []
     grips = any(_grips(model) for model in world.robots)
-    for model in world.models:
-        if model.position is not None:
-            maker.robot(model)
-        elif grips and model.returns.gripper:
-            maker.layout.things.append(model)
-        else:
+    others = [model for model in world.models if model.position is None]
+    things = [model for model in others if grips and model.returns.gripper]
+    maker = _Maker(len(world.robots) + len(things))
+    maker.layout.things = things
+    for model in world.robots:
+        maker.robot(model)
+    taken = {id(model) for model in things}
+    for model in others:
+        if id(model) not in taken:
             still += model.walk()
-    maker.layout.bodies += [_thing(model) for model in maker.layout.things]
+    maker.layout.bodies += [*map(_thing, things), *maker.riders]
     maker.layout.statics = table_of(still)
     return maker.layout
 
@@ -117,6 +146,26 @@ def layout_of(world: StageWorld) -> Layout:
 def _grips(model: StageModel) -> bool:
     own = isinstance(model.device, StageGripper)
     return own or any(_grips(child) for child in model.children)
+
+
+def without_actuators(model: StageModel) -> StageModel:
+    """A model without what its actuators move."""
+    kept = (c for c in model.children if not isinstance(c.device, StageActuator))
+    return replace(model, children=tuple(without_actuators(child) for child in kept))
+
+
+def _actuators(
+    placed: PlacedStageModel,
+) -> Iterator[tuple[PlacedStageModel, StageActuator, StagePose]]:
+    """The actuators on a model, but for those on others, and their places at position zero."""
+    model = placed.model
+    for child in model.children:
+        lift = model.size.z if model.stack_children else 0.0
+        still = replace(child, pose=child.pose._replace(z=child.pose.z + lift))
+        if isinstance(child.device, StageActuator):
+            yield next(still.walk(placed)), child.device, placed.pose.then(still.pose)
+        else:
+            yield from _actuators(next(child.walk(placed)))
 
 
 def _thing(model: StageModel) -> Body:
@@ -140,10 +189,13 @@ class _Shape:
     parts: tuple[Part, ...]
     drive: Drive
     rangers: list[tuple[PlacedStageModel, tuple[StageSensor, ...], list[_View]]]
+    moved: bool = False
 
 
 @dataclass(slots=True)
 class _Maker:
+    first_rider: int = 0
+    riders: list[Body] = field(default_factory=list)
     layout: Layout = field(default_factory=Layout)
     shapes: dict[Key, _Shape] = field(default_factory=dict)
     fans: dict[Fan, int] = field(default_factory=dict)
@@ -160,11 +212,43 @@ class _Maker:
             Body(shape.parts, (pose.x, pose.y, pose.yaw), pose.z, shape.drive)
         )
         name = model.name.removeprefix("/")
-        rangers = tuple(
+        rangers = [
             self.ranger(index, name, placed, sensors, views)
             for placed, sensors, views in shape.rangers
+        ]
+        riders = []
+        if shape.moved:
+            for placed, device, base in _actuators(next(replace(model, pose=StagePose()).walk())):
+                rider, more = self.rider(index, name, placed, device, base)
+                riders.append(rider)
+                rangers += more
+        robot = StageRobot(index, name, model, tuple(rangers), tuple(riders))
+        self.layout.robots.append(robot)
+
+    def rider(
+        self,
+        robot: int,
+        name: str,
+        placed: PlacedStageModel,
+        device: StageActuator,
+        base: StagePose,
+    ) -> tuple[Rider, list[Ranger]]:
+        """Add what an actuator of a robot moves, a body of the robot's family."""
+        whole = f"{name}.{placed.name.partition('.')[2]}"
+        model = replace(
+            placed.model, name=f"/{whole}", pose=StagePose(), device=replace(device, start=0.0)
         )
-        self.layout.robots.append(StageRobot(index, name, model, rangers))
+        body = self.first_rider + len(self.riders)
+        shape = self.shape(model)
+        at = self.layout.bodies[robot]
+        own = StagePose(at.pose[0], at.pose[1], at.z, at.pose[2])
+        x, y, z, yaw = own.then(base).then(StagePose(*device.offset))
+        self.riders.append(Body(shape.parts, (x, y, yaw), z, family=-1 - robot))
+        rangers = [
+            self.ranger(body, whole, there, sensors, views)
+            for there, sensors, views in shape.rangers
+        ]
+        return Rider(body, model, device, base), rangers
 
     def ranger(
         self,
@@ -188,7 +272,7 @@ class _Maker:
 
     def shape(self, model: StageModel) -> _Shape:
         """What is on a robot, in its frame."""
-        own = list(replace(model, pose=StagePose()).walk())
+        own = list(replace(without_actuators(model), pose=StagePose()).walk())
         _warn_of_riders(own[1:])
         rangers = []
         for placed in own:
@@ -197,7 +281,8 @@ class _Maker:
                 views = [self.view(placed, sensor) for sensor in device.sensors]
                 rangers.append((placed, device.sensors, views))
         parts = tuple(_all_parts(own))
-        return _Shape(parts, _drive_of(model.position or StagePosition()), rangers)
+        moved = sum(1 for _ in model.walk()) > len(own)
+        return _Shape(parts, _drive_of(model.position or StagePosition()), rangers, moved)
 
     def view(self, placed: PlacedStageModel, sensor: StageSensor) -> _View:
         """Where a sensor is, and the scanner with its beams."""
@@ -222,12 +307,6 @@ def _warn_of_riders(carried: list[PlacedStageModel]) -> None:
         if placed.model.position is not None:
             warnings.warn(
                 f"'{placed.name}' is mounted on a robot, and does not drive by itself",
-                SimulationWarning,
-                stacklevel=2,
-            )
-        elif isinstance(placed.model.device, StageActuator):
-            warnings.warn(
-                f"'{placed.name}' stays where it starts, as actuators of Stage 4.3 do",
                 SimulationWarning,
                 stacklevel=2,
             )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import colorsys
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,6 @@ from gazelle.description import (
     StageBitmap,
     StageModel,
     StagePose,
-    StageWorld,
 )
 from gazelle.engines.planar.kernels_picture import FACE
 from gazelle.engines.planar.pictures import Rgb, Scenery, plates, prism, walls_between
@@ -37,20 +36,14 @@ def color_of(model: StageModel) -> Color:
     return (*colorsys.hsv_to_rgb(hue, 0.7, 0.8), 1.0)
 
 
-def scenery_of(world: StageWorld, bodies: Sequence[StageModel]) -> Scenery:
+def scenery_of(still_ones: Iterable[StageModel], bodies: Sequence[StageModel]) -> Scenery:
     """The faces of a world.
 
     Args:
-        world: As the file has it.
+        still_ones: Models that never move.
         bodies: The model of each moving body, with all that is on it.
     """
-    moving = {id(model) for model in bodies}
-    still = [
-        faces_of(placed, _STILL)
-        for model in world.models
-        if id(model) not in moving
-        for placed in model.walk()
-    ]
+    still = [faces_of(placed, _STILL) for model in still_ones for placed in model.walk()]
     known: dict[tuple[int, ...], Floats] = {}
     looks = []
     for model in bodies:

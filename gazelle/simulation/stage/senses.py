@@ -12,15 +12,19 @@ from numpy.typing import NDArray
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.pictures import Pictures
+from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
 from gazelle.simulation.stage.cameras import Cameras, cameras_of
+from gazelle.simulation.stage.devices import Devices, pick
 from gazelle.simulation.stage.finders import (
     Blob,
     Fiducial,
     Surroundings,
     find_blobs,
     find_fiducials,
+    models_of,
 )
+from gazelle.simulation.stage.grippers import Gripper
 from gazelle.simulation.stage.layout import StageRobot
 
 Floats = NDArray[np.float64]
@@ -28,7 +32,9 @@ Worlds = NDArray[np.intp]
 
 
 class Senses(ABC):
-    """Cameras, bumpers, fiducial and blob finders of a simulation; each is made when it is used.
+    """The devices on robots: what they see and feel, and what moves on them.
+
+    Cameras, bumpers, fiducial and blob finders are made when they are used.
 
     Attributes:
         stage: What the file says.
@@ -36,6 +42,7 @@ class Senses(ABC):
         things: Models that grippers can take.
         fleet: The engine.
         nworld: Copies.
+        devices: Grippers and actuators.
     """
 
     stage: StageWorld
@@ -43,6 +50,7 @@ class Senses(ABC):
     things: tuple[StageModel, ...]
     fleet: Fleet
     nworld: int
+    devices: Devices
 
     @property
     @abstractmethod
@@ -59,7 +67,23 @@ class Senses(ABC):
 
     @cached_property
     def _cameras(self) -> Cameras:
-        return Cameras(self, [*(robot.model for robot in self.robots), *self.things])
+        return Cameras(self, models_of(self))
+
+    def gripper(self, name: str, which: int = 0) -> Gripper:
+        """A gripper of a robot, in all worlds.
+
+        Raises:
+            SimulationError: There is no such robot or gripper.
+        """
+        return pick(self.devices.grippers, self.robot(name), which, "grippers")
+
+    def actuator(self, name: str, which: int = 0) -> Actuator:
+        """An actuator of a robot, in all worlds; one on another is fixed there.
+
+        Raises:
+            SimulationError: There is no such robot or actuator.
+        """
+        return pick(self.devices.actuators, self.robot(name), which, "actuators")
 
     def forget_views(self) -> None:
         """Something moved: pictures have to be drawn anew."""
@@ -126,7 +150,7 @@ class Senses(ABC):
             SimulationError: There is no such robot or camera, or their lenses differ.
         """
         if names is None:
-            robots = [r.index for r in self.robots if len(cameras_of(r.model)) > camera]
+            robots = [r.index for r in self.robots if len(cameras_of(r)) > camera]
         else:
             robots = [self.robot(name).index for name in names]
         every = np.arange(self.nworld) if worlds is None else worlds

@@ -18,7 +18,7 @@ from gazelle.formats.stage.building import no_garbage
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
-from gazelle.simulation.stage.grippers import Gripper, grippers_of
+from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.opening import stage_of
@@ -59,6 +59,7 @@ class StageSimulation(Senses):
         requests: Where other threads have things done, between two steps.
         paused: Whether ``run`` waits.
         noise: Of the sensors of each scanner.
+        devices: Grippers and actuators.
 
     Raises:
         FormatError: The file cannot be read, or is not Stage's.
@@ -107,8 +108,7 @@ class StageSimulation(Senses):
         self._now = self.poses
         self._before = self._now.copy()
         self._listeners: list[Listener] = []
-        self._gripping = grippers_of(self)
-        self._grippers = [each for own in self._gripping.values() for each in own]
+        self.devices = Devices(self)
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
         self._closed = False
@@ -138,29 +138,11 @@ class StageSimulation(Senses):
             )
         return found
 
-    def gripper(self, name: str, which: int = 0) -> Gripper:
-        """A gripper of a robot, in all worlds.
-
-        Raises:
-            SimulationError: There is no such robot or gripper.
-        """
-        found = self._gripping.get(self.robot(name).index, [])
-        if not 0 <= which < len(found):
-            raise SimulationError(f"'{name}' has {len(found)} grippers, no number {which}")
-        return found[which]
-
-    def grippers(self, name: str) -> int:
-        """Number of grippers of a robot.
-
-        Raises:
-            SimulationError: There is no such robot.
-        """
-        return len(self._gripping.get(self.robot(name).index, ()))
-
     @property
     def thing_poses(self) -> Floats:
         """x, y [m] and heading [rad] of the things, shape (nworld, nthing, 3); to be read."""
-        return self.fleet.pose[:, len(self.robots) :]
+        first = len(self.robots)
+        return self.fleet.pose[:, first : first + len(self.things)]
 
     @property
     def commands(self) -> Floats:
@@ -310,7 +292,7 @@ class StageSimulation(Senses):
     @property
     def _watched(self) -> bool:
         """Whether something happens after every single step."""
-        return bool(self._controllers or self._listeners or self._grippers or self._odometry.needed)
+        return bool(self._controllers or self._listeners or self.devices or self._odometry.needed)
 
     def _advance(self, count: int) -> None:
         for controller in self._controllers:
@@ -321,8 +303,8 @@ class StageSimulation(Senses):
         self.fleet.step()
         if self._odometry.needed:
             self._odometry.advance(self.velocities, self.time_step)
-        for gripper in self._grippers:
-            gripper.update()
+        if self.devices:
+            self.devices.update(self.time_step)
         self.clock.advance(count)
         self._forget()
         if self._listeners:
@@ -388,6 +370,7 @@ class StageSimulation(Senses):
         rows = slice(None) if worlds is None else worlds
         self.fleet.stalled[rows, index] = False
         self._before[rows, index] = self.fleet.pose[rows, index]
+        self.devices.follow(index)
         self._forget()
 
     def reset_positions(self, worlds: Worlds | None = None) -> None:
@@ -396,8 +379,7 @@ class StageSimulation(Senses):
         self._odometry.reset(worlds)
         rows = slice(None) if worlds is None else worlds
         self._before[rows] = self.poses[rows]
-        for gripper in self._grippers:
-            gripper.reset(worlds)
+        self.devices.reset(worlds)
         self._forget()
 
     def reset(self) -> None:

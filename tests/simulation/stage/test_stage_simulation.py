@@ -413,24 +413,3 @@ def test_running_at_a_rate_keeps_to_it_though_steps_are_long(start):
     sim.run(1.0, rate=4.0)
     assert sim.time == pytest.approx(1.0)
     assert 0.24 < time.monotonic() - begin < 2.0
-
-
-@pytest.mark.parametrize(
-    ("actuator", "distance"),
-    [
-        ('type "linear" axis [2 0 0] start_position 0.5', 2.5 - 0.5),
-        ('type "linear" axis [0 0 1] start_position 3', 8.0),
-        ('type "rotational" start_position 3.14159265', 8.0),
-        ('type "linear" axis [0 0 0] start_position 1', 2.5),
-    ],
-)
-def test_an_actuator_stays_where_it_starts(start, actuator, distance):
-    ranger = "ranger ( pose [0 0 -1 0] sensor ( range [0 8] samples 1 ) )"
-    text = (
-        f'position ( name "r" size [.2 .2 .2] actuator ( size [.1 .1 1] {actuator} {ranger} ) )\n'
-        "model ( size [1 2 2] pose [3 0 0 0] )"
-    )
-    with pytest.warns(SimulationWarning, match="stays where it starts"):
-        sim = start(text)
-    sim.step(5)
-    assert sim.scan_of("r")[0] == pytest.approx(distance)
