@@ -38,8 +38,9 @@ SIZES = (
     (10_000, 128.0, 30, 4, (67_000, 2_900, 3_700)),
     (100_000, 405.0, 4, 1, None),
 )
+RIVALS = 1_000  # robots up to which Stage itself runs, unless it is asked for alone
 BATCHES = (64, 1024, 4096)
-PARTS = ("fleets", "batches", "worlds", "graph")
+PARTS = ("rival", "fleets", "batches", "worlds", "graph")
 
 
 def main() -> None:
@@ -49,24 +50,44 @@ def main() -> None:
     parser.add_argument("--largest", type=int, default=100_000, help="most robots (100000)")
     parser.add_argument("--windows", type=int, default=3, help="of which the best (default 3)")
     parser.add_argument("--worlds", type=Path, help="a folder with Stage's own worlds")
+    parser.add_argument("--stage", type=Path, help="the program of Stage, else the one on PATH")
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")
     began = time.process_time()
     roam(8, 16.0, None, 1)
     print(f"kernels ready after {time.process_time() - began:.1f} s of processor time")
+    if args.only in {None, "rival"}:
+        rival(args)
     if args.only in {None, "fleets"}:
         fleets(args)
     if args.only in {None, "batches"}:
         batches(args)
     if args.only in {None, "worlds", "graph"}:
-        sys.path.insert(0, str(Path(__file__).resolve().parent))
         import _stage_worlds
 
         if args.only != "graph":
             _stage_worlds.worlds(args.threads, args.worlds)
         if args.only != "worlds":
             _stage_worlds.graph()
+
+
+def rival(args: argparse.Namespace) -> None:
+    """Stage itself, if it is there."""
+    import _stage_itself
+    import _stage_rival
+
+    try:
+        stage = _stage_itself.find(args.stage)
+    except _stage_itself.StageError as error:
+        raise SystemExit(str(error)) from None
+    if stage is None:
+        print(_stage_rival.ABSENT)
+    else:
+        _stage_rival.rival(
+            stage, args.largest if args.only == "rival" else min(args.largest, RIVALS), args.threads
+        )
 
 
 def fleets(args: argparse.Namespace) -> None:

@@ -1,0 +1,142 @@
+"""Stage itself beside Gazelle, in turns, on the same files, for ``gazelle bench stage``."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import _stage_worlds as worlds
+from _stage_itself import Spent, Stage
+
+from gazelle.engines.planar import Fleet, Scanner
+from gazelle.engines.planar.roaming import Roaming
+from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation.stage.layout import layout_of
+from gazelle.simulation.stage.opening import stage_of
+
+ABSENT = """
+Stage not found: its figures here are those of docs/benchmarks.md, measured once on a machine of
+this kind. With a program 'stage' on PATH, or --stage PATH, it runs beside Gazelle, in turns."""
+
+# Robots, side of the office [m], and seconds that Stage simulates without and with a sensor.
+SIZES = (
+    (1, 40.0, 2_000, 300),
+    (72, 40.0, 60, 8),
+    (1_000, 40.0, 6, 2),
+    (10_000, 128.0, 2, 0.5),
+)
+SENSORS = (("none", ""), *worlds.SENSORS)
+FIRST_S = 0.2  # what a run simulates that only shows how long loading takes
+CHEAP = 100  # robots up to which Stage runs twice, and the better counts
+OURS_S = 0.3  # of processor time a window, at least
+WINDOWS = 3
+
+
+@dataclass(frozen=True)
+class Run:
+    """How Stage does with a file: how many times real time, and what loading took."""
+
+    factor: float
+    loaded: Spent
+
+
+def rival(stage: Stage, largest: int, threads: int) -> None:
+    """Print how all do, on files that differ in nothing but ``quit_time``."""
+    print(f"\nthe same files in turns, beside {stage.program}; times real time, a processor second")
+    print(
+        f"{'robots':>8}  {'sensor':<9}{'Stage':>9}{'load s':>8}{'MB':>8}  "
+        f"{'StageSimulation':>16}{'load s':>8}{'times':>7}{'Fleet':>12}{'times':>7}"
+    )
+    with tempfile.TemporaryDirectory() as home:
+        for count, side, blind, seeing in SIZES:
+            for name, sensor in SENSORS if count <= largest else ():
+                if not sensor and stage.plugins is None:
+                    continue  # Stage's own controllers need a sensor
+                file = write(Path(home), count, side, sensor)
+                theirs = of_stage(stage, file, seeing if sensor else blind, count)
+                ours, loaded = of_simulation(file, threads)
+                fleet = of_fleet(file, threads)
+                print(
+                    f"{count:>8,}  {name:<9}{worlds.shown(theirs.factor):>9}"
+                    f"{theirs.loaded.seconds:>8.2f}{theirs.loaded.megabytes:>8,.0f}  "
+                    f"{worlds.shown(ours):>16}{loaded:>8.2f}{ours / theirs.factor:>7.1f}"
+                    f"{worlds.shown(fleet):>12}{fleet / theirs.factor:>7.1f}",
+                    flush=True,
+                )
+
+
+def write(home: Path, count: int, side: float, sensor: str) -> Path:
+    """An office whose robots are driven by Stage's ``wander``, or blindly without a sensor."""
+    file = worlds.write_office(home, count, side, sensor)
+    control = "wander" if sensor else "stage_probe roam"
+    text = file.read_text(encoding="utf-8").replace(
+        'drive "diff"', f'drive "diff" ctrl "{control}"'
+    )
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def of_stage(stage: Stage, file: Path, seconds: float, count: int) -> Run:
+    """Run it briefly and long: the difference is what simulating takes."""
+    best = Run(0.0, Spent(0.0, 0.0))
+    for _ in range(2 if count <= CHEAP else 1):
+        briefly = stage.run(until(file, FIRST_S))
+        longer = stage.run(until(file, FIRST_S + seconds))
+        spent = max(longer.seconds - briefly.seconds, 1e-3)
+        loaded = Spent(briefly.seconds, longer.megabytes)
+        best = max(best, Run(seconds / spent, loaded), key=lambda run: run.factor)
+    return best
+
+
+def until(file: Path, seconds: float) -> Path:
+    """The same world that ends after some simulated seconds."""
+    ending = file.with_name(f"until_{seconds:g}_{file.name}")
+    text = file.read_text(encoding="utf-8")
+    ending.write_text(f"quit_time {seconds:g}\nthreads 1\n{text}", encoding="utf-8")
+    return ending
+
+
+def of_simulation(file: Path, threads: int) -> tuple[float, float]:
+    """Of StageSimulation, with the controllers of the file: times real time, and load [s]."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of stage_probe, a library of Stage's
+        began = time.process_time()
+        sim = StageSimulation(file, threads=threads, euler=True)
+        loaded = time.process_time() - began
+    with sim:
+        if sim.scanners:  # driven by wander, who looks every step
+            sim.step(5)
+            return sim.time_step / seconds_each(sim.step), loaded
+        return sim.time_step / worlds.seconds_a_step(sim, []), loaded
+
+
+def of_fleet(file: Path, threads: int) -> float:
+    """Of a fleet of the same robots and walls that roams by itself, in times real time."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        world = stage_of(file)
+    layout = layout_of(world)
+    step = world.interval_sim
+    fleet = Fleet(layout.bodies, layout.statics, time_step=step, euler=True, threads=threads)
+    scanner = Scanner(fleet, layout.fans[0], layout.mounts[0]) if layout.fans else None
+    roaming = Roaming(fleet, scanner)
+    roaming.run(5)
+    return step / seconds_each(roaming.run)
+
+
+def seconds_each(work: Callable[[int], object]) -> float:
+    """Processor time of a step [s], the best of three windows that are long enough."""
+    count, times = 4, []
+    while len(times) < WINDOWS:
+        began = time.process_time()
+        work(count)
+        spent = time.process_time() - began
+        if spent >= OURS_S:
+            times.append(spent / count)
+        else:
+            count *= 2
+    return min(times)
