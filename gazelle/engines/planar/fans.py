@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import Function
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_noise
-from gazelle.engines.planar.compiled import Function
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kernels_front import MANY, scan_crowded
 from gazelle.engines.planar.kernels_march import LANES, SIDE_BY_SIDE

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from gazelle.engines.native import kernel
 from gazelle.engines.planar.columns import NEAR, REACH, START
-from gazelle.engines.planar.compiled import kernel
 from gazelle.engines.planar.kernels_march import (
     BEST,
     MOST_LANES,

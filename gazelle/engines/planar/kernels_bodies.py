@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import part
 from gazelle.engines.planar.columns import (
     CIRCLE,
     COS,
@@ -36,7 +37,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import part
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover, draw_circle, draw_segment
 from gazelle.engines.planar.tables import Floats
 

@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import inner, part
 from gazelle.engines.planar.columns import (
     BOUND,
     CENTRE_X,
@@ -42,7 +43,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import inner, part
 from gazelle.engines.planar.kernels_grid import place_in
 from gazelle.engines.planar.tables import Cells, Floats, Marks
 

@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import part
 from gazelle.engines.planar.columns import NEAR, RATE, SLACK, START
-from gazelle.engines.planar.compiled import part
 from gazelle.engines.planar.tables import Floats
 
 TURN = 2.0 * math.pi

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.engines.native import part
 from gazelle.engines.planar.columns import (
     CIRCLE,
     GLOW,
@@ -21,7 +22,6 @@ from gazelle.engines.planar.columns import (
     Y0,
     Y1,
 )
-from gazelle.engines.planar.compiled import part
 from gazelle.engines.planar.kernels_fan import (
     FEW,
     beams_in,

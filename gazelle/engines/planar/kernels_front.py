@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import inner, kernel, part
 from gazelle.engines.planar.columns import (
     FAMILY,
     NEAR,
@@ -19,7 +20,6 @@ from gazelle.engines.planar.columns import (
     REACH,
     S_Z,
 )
-from gazelle.engines.planar.compiled import inner, kernel, part
 from gazelle.engines.planar.kernels_march import (
     AT,
     BASE,

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 
+from gazelle.engines.native import kernel, part
 from gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1
-from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.tables import Cells, Floats
 
 

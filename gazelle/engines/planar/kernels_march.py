@@ -15,6 +15,7 @@ from typing import Final
 
 import numpy as np
 
+from gazelle.engines.native import inner, kernel, part
 from gazelle.engines.planar.columns import (
     GLOW,
     HIGH,
@@ -30,7 +31,6 @@ from gazelle.engines.planar.columns import (
     Y0,
     Y1,
 )
-from gazelle.engines.planar.compiled import inner, kernel, part
 from gazelle.engines.planar.tables import Cells, Floats, Marks
 
 MOST_LANES: Final = 64

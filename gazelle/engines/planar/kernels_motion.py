@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.engines.native import inner, part
 from gazelle.engines.planar.columns import (
     BLOCKED,
     BRAKE,
@@ -26,7 +27,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import inner, part
 from gazelle.engines.planar.tables import Flags, Floats, Marks
 
 

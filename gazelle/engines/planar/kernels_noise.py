@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.engines.native import kernel, part
 from gazelle.engines.planar.columns import REACH
-from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.tables import Floats, Indices
 
 

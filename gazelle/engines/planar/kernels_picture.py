@@ -13,8 +13,8 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import kernel, part
 from gazelle.engines.planar.columns import COS, SIN, X, Y, Z
-from gazelle.engines.planar.compiled import kernel, part
 from gazelle.engines.planar.tables import Floats, Indices
 
 Bytes: TypeAlias = NDArray[np.uint8]

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from gazelle.engines.planar.compiled import kernel, part
+from gazelle.engines.native import kernel, part
 from gazelle.engines.planar.kernels_noise import stream, uniform
 from gazelle.engines.planar.kernels_scan import scan
 from gazelle.engines.planar.kernels_step import advance

@@ -16,6 +16,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import part, whole
 from gazelle.engines.planar.columns import (
     COS,
     FAMILY,
@@ -30,7 +31,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import part, whole
 from gazelle.engines.planar.kernels_bodies import draw_bodies, find_body
 from gazelle.engines.planar.kernels_find import draw_found, draw_statics, find_lanes, find_statics
 from gazelle.engines.planar.kernels_grid import place_in, stretch

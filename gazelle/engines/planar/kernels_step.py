@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
+from gazelle.engines.native import kernel, whole
 from gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
-from gazelle.engines.planar.compiled import kernel, whole
 from gazelle.engines.planar.kernels_bump import obstructed, statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import commit, propose

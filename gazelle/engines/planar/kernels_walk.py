@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import inner, kernel, part
 from gazelle.engines.planar.columns import (
     CIRCLE,
     COS,
@@ -36,7 +37,6 @@ from gazelle.engines.planar.columns import (
 )
 from gazelle.engines.planar.columns import X as BODY_X
 from gazelle.engines.planar.columns import Y as BODY_Y
-from gazelle.engines.planar.compiled import inner, kernel, part
 from gazelle.engines.planar.kernels_grid import place_in
 from gazelle.engines.planar.kernels_march import (
     BEST,

@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import kernel, part, whole
 from gazelle.engines.planar.columns import (
     BOUND,
     CENTRE_X,
@@ -26,7 +27,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import kernel, part, whole
 from gazelle.engines.planar.kernels_bump import statics_meet
 from gazelle.engines.planar.kernels_grid import relink
 from gazelle.engines.planar.kernels_motion import go

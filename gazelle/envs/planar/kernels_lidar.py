@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import each, fused, part, whole
 from gazelle.engines.planar.columns import (
     COS,
     FAMILY,
@@ -29,7 +30,6 @@ from gazelle.engines.planar.columns import (
     Y,
     Z,
 )
-from gazelle.engines.planar.compiled import each, fused, part, whole
 from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
 from gazelle.engines.planar.kernels_scan import aim, scan
 from gazelle.envs.planar.tables import Floats, Indices, Table, Worlds

@@ -11,8 +11,8 @@ from typing import Any, Self
 
 import numpy as np
 
+from gazelle.engines.native import Function
 from gazelle.engines.planar import PlanarEngine
-from gazelle.engines.planar.compiled import Function
 from gazelle.envs.planar import kernels_drive
 from gazelle.envs.planar.parts import (
     Drive,

@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
+from gazelle.engines.native import each, kernel, lesser, part
 from gazelle.engines.planar.columns import YAW, X, Y
-from gazelle.engines.planar.compiled import each, kernel, lesser, part
 from gazelle.envs.planar.kernels_drive import drive
 from gazelle.envs.planar.kernels_lidar import report, see
 from gazelle.envs.planar.tables import Flags, Floats, Table, Worlds

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
 from typing import Any
 
-from gazelle.engines.planar.native.calls import call, each
-from gazelle.engines.planar.native.code import Code, TypesChanged, constant, words
-from gazelle.engines.planar.native.expressions import Expressions, Linker
-from gazelle.engines.planar.native.kinds import (
+from gazelle.engines.native.calls import call, each
+from gazelle.engines.native.code import Code, TypesChanged, constant, words
+from gazelle.engines.native.expressions import Expressions, Linker
+from gazelle.engines.native.kinds import (
     BITS,
     REAL,
     WHOLE,
@@ -21,7 +21,7 @@ from gazelle.engines.planar.native.kinds import (
     flat,
     joined,
 )
-from gazelle.engines.planar.native.operators import binary
+from gazelle.engines.native.operators import binary
 from gazelle.errors import EngineError
 
 _TRIES = 20

@@ -1,4 +1,4 @@
-"""Machine code from the small part of Python that the planar engine's kernels are written in.
+"""Machine code from the small part of Python that the engines' kernels are written in.
 
 A kernel's source is turned into LLVM's intermediate language, function by function, with the
 types of the arguments it is first called with; LLVM makes machine code of it, which is kept in
@@ -7,7 +7,10 @@ conditions, calls of other such functions and of what ``calls`` lists. Arrays ar
 indices are neither negative nor checked, as in C.
 """
 
-from gazelle.engines.planar.native.calls import each, fused, lesser
-from gazelle.engines.planar.native.function import Native
+from gazelle.engines.native.calls import each, fused, lesser
+from gazelle.engines.native.decorators import Function, inner, kernel, part, whole
+from gazelle.engines.native.function import Native
 
-__all__ = ["Native", "each", "fused", "lesser"]
+__all__ = [
+    "Function", "Native", "each", "fused", "inner", "kernel", "lesser", "part", "whole",
+]  # fmt: skip

@@ -6,8 +6,8 @@ import ast
 import operator
 from typing import Any, Final
 
-from gazelle.engines.planar.native.code import Code, constant
-from gazelle.engines.planar.native.kinds import BITS, REAL, TRUTH, WHOLE, Value
+from gazelle.engines.native.code import Code, constant
+from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Value
 from gazelle.errors import EngineError
 
 _REAL: Final[dict[type, str]] = {

@@ -7,10 +7,10 @@ import builtins
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from gazelle.engines.planar.native.calls import call, choose
-from gazelle.engines.planar.native.code import Code, constant
-from gazelle.engines.planar.native.kinds import TRUTH, WHOLE, Array, Group, Value, joined
-from gazelle.engines.planar.native.operators import binary, compared, negative
+from gazelle.engines.native.calls import call, choose
+from gazelle.engines.native.code import Code, constant
+from gazelle.engines.native.kinds import TRUTH, WHOLE, Array, Group, Value, joined
+from gazelle.engines.native.operators import binary, compared, negative
 from gazelle.errors import EngineError
 
 _NOTHING = object()

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.engines.planar.native.kinds import BITS, REAL, TRUTH, Array, Group, Kind, kind_of
+from gazelle.engines.native.kinds import BITS, REAL, TRUTH, Array, Group, Kind, kind_of
 
 _RESULTS = 8  # words after the values, for what comes out
 

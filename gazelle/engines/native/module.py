@@ -9,13 +9,13 @@ import linecache
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gazelle.engines.planar.native.code import Code, rebuilt, words
-from gazelle.engines.planar.native.kinds import Kind, Value, flat
-from gazelle.engines.planar.native.statements import Statements, argument, returned
+from gazelle.engines.native.code import Code, rebuilt, words
+from gazelle.engines.native.kinds import Kind, Value, flat
+from gazelle.engines.native.statements import Statements, argument, returned
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
-    from gazelle.engines.planar.native.function import Native
+    from gazelle.engines.native.function import Native
 
 
 @dataclass(frozen=True, slots=True)

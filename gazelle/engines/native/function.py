@@ -10,10 +10,10 @@ from collections.abc import Callable
 from types import FunctionType
 from typing import Any
 
-from gazelle.engines.planar.native.kinds import Kind
-from gazelle.engines.planar.native.library import digest_of, load
-from gazelle.engines.planar.native.machine import LOCK
-from gazelle.engines.planar.native.packing import Words
+from gazelle.engines.native.kinds import Kind
+from gazelle.engines.native.library import digest_of, load
+from gazelle.engines.native.machine import LOCK
+from gazelle.engines.native.packing import Words
 
 _ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 Entry = tuple[Callable[[int], None], Kind | None]

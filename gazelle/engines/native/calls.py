@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from gazelle.engines.planar.native.code import Code, constant, rebuilt, words
-from gazelle.engines.planar.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
-from gazelle.engines.planar.native.operators import compared
+from gazelle.engines.native.code import Code, constant, rebuilt, words
+from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
+from gazelle.engines.native.operators import compared
 from gazelle.errors import EngineError
 
 _OWN: Final[dict[Any, str]] = {

@@ -1,13 +1,11 @@
-"""Native kernels: compiled on first use, kept in a cache for later runs."""
+"""What kernels are marked with: native code, compiled on first use, kept for later runs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.engines.planar.native import Native, each, fused, lesser
-
-__all__ = ["Function", "each", "fused", "inner", "kernel", "lesser", "part", "whole"]
+from gazelle.engines.native.function import Native
 
 Function = Callable[..., Any]
 

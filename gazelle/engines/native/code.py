@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.engines.planar.native.kinds import (
+from gazelle.engines.native.kinds import (
     BITS,
     ELEMENTS,
     REAL,

@@ -9,13 +9,13 @@ from pathlib import Path
 from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
-from gazelle.engines.planar.native import store
-from gazelle.engines.planar.native.kinds import Group, Kind
-from gazelle.engines.planar.native.machine import machine
-from gazelle.engines.planar.native.module import Module
+from gazelle.engines.native import store
+from gazelle.engines.native.kinds import Group, Kind
+from gazelle.engines.native.machine import machine
+from gazelle.engines.native.module import Module
 
 if TYPE_CHECKING:
-    from gazelle.engines.planar.native.function import Native
+    from gazelle.engines.native.function import Native
 
 _results: dict[str, Kind | None] = {}  # of what is loaded
 

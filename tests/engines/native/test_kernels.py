@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.engines.planar.native import Native, each, machine, store
+from gazelle.engines.native import Native, each, machine, store
 from gazelle.errors import EngineError
 
 WHOLE = st.integers(-1000, 1000)
@@ -113,7 +113,7 @@ def to_whole(a):
 
 
 def test_what_kernels_cannot_do_is_refused_with_its_line():
-    with pytest.raises(EngineError, match=r"test_native.py:\d+: <listed>: kernels know no List"):
+    with pytest.raises(EngineError, match=r"test_kernels.py:\d+: <listed>: kernels know no List"):
         Native(listed)(1)
 
 
@@ -176,7 +176,7 @@ def test_what_was_kept_longest_ago_is_dropped(tmp_path, monkeypatch):
 
 
 def test_one_line_says_that_code_is_compiled_where_that_takes_long(caplog, monkeypatch):
-    monkeypatch.setattr("gazelle.engines.planar.native.machine._PATIENCE", 0.0)
+    monkeypatch.setattr("gazelle.engines.native.machine._PATIENCE", 0.0)
     own = machine.Machine()
     monkeypatch.setattr(own, "_spent", -1e-9)
     for _ in range(2):
@@ -193,7 +193,7 @@ def tripled(a):
 def test_a_later_process_loads_what_was_kept(tmp_path):
     use = (
         "from gazelle.engines.planar.kernels_motion import turned\n"
-        "from gazelle.engines.planar.native.machine import Machine\n"
+        "from gazelle.engines.native.machine import Machine\n"
         "print(turned(0.25))\n"
     )
     forbid = use.replace("print", "Machine.compile = None\nprint")
