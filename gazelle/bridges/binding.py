@@ -16,7 +16,16 @@ from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
 from gazelle.ros.tf.naming import FramePrefixes
-from gazelle.simulation import Input, Output, Ports, Service, Setting, Tuning, TwistInput
+from gazelle.simulation import (
+    FramePrefix,
+    Input,
+    Output,
+    Ports,
+    Service,
+    Setting,
+    Tuning,
+    TwistInput,
+)
 
 
 class Binding:
@@ -29,7 +38,7 @@ class Binding:
     Args:
         graph: Where.
         ports: Of a robot or of the world.
-        namespace: Of the robot; the nearest parameter ``tf_prefix`` goes before its frames.
+        namespace: Of the robot.
     """
 
     def __init__(self, graph: Graph, ports: Ports, namespace: str = "") -> None:
@@ -72,10 +81,7 @@ class Binding:
     def _publish(self, output: Output[Any]) -> Output[Any]:
         encoder = encoder_of(output.kind)
         message_class = load_message(encoder.message)
-        # Several robots share /tf; other topics are in the namespace of their plugin.
-        place = output.namespace or output.topic.rpartition("/")[0] or self._namespace
-        prefix = self._prefixes.of(place)
-        view = View(output.frame, self._graph.world, self._graph.stamp, prefix)
+        view = View(output.frame, self._graph.world, self._graph.stamp, self._prefix(output))
         ending: list[Callable[[], None]] = []
 
         def send(value: Any) -> None:
@@ -113,6 +119,18 @@ class Binding:
 
         self._closing.append(close)
         return output
+
+    def _prefix(self, output: Output[Any]) -> str:
+        """What goes before the names of an output's frames."""
+        place = output.namespace
+        if place is None:
+            place = output.topic.rpartition("/")[0] or self._namespace
+        if output.prefix is FramePrefix.NEAREST:
+            return self._prefixes.of(place)
+        if output.prefix is FramePrefix.NONE:
+            return ""
+        own = self._prefixes.own(place)
+        return own if output.prefix is FramePrefix.OWN else place.strip("/") or own
 
     def _subscribe(self, port: TwistInput | Input[Any]) -> None:
         if isinstance(port, TwistInput):

@@ -14,7 +14,7 @@ from gazelle.ros.tf.naming import resolve_frame
 from gazelle.ros.time import Time
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation import JointStates, Odometry, Transforms, WrenchValue
-from gazelle.simulation.values import RangeValue, Touches
+from gazelle.simulation.values import RangeValue, Touches, TruePose
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +122,11 @@ def _odometry(message: Any, value: Odometry, view: View) -> None:
     message.twist.covariance = _diagonal(value.twist_variance)
 
 
+def _true_pose(message: Any, value: TruePose, view: View) -> None:
+    _odometry(message, value, view)
+    message.child_frame_id = value.child_frame
+
+
 def _diagonal(values: Any) -> list[float]:
     return [float(x) for x in np.diag(np.asarray(values, np.float64)).ravel()]
 
@@ -219,6 +224,7 @@ def _read_data(message: Any) -> Any:
 
 _ENCODERS: dict[type[Any], Encoder] = {
     Odometry: Encoder("nav_msgs/Odometry", _odometry),
+    TruePose: Encoder("nav_msgs/Odometry", _true_pose),
     JointStates: Encoder("sensor_msgs/JointState", _joint_states),
     Transforms: Encoder("tf2_msgs/TFMessage", _transforms),
     LaserScan: Encoder("sensor_msgs/LaserScan", _scan),

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from gazelle.description import Parameters
 from gazelle.sensors import ContactReading
-from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
+from gazelle.simulation import (
+    FramePrefix,
+    SensorOutput,
+    SensorPlugin,
+    SensorUnit,
+    absolute,
+    namespace_of,
+)
 from gazelle.simulation.values import Touches
 
 
@@ -15,6 +22,7 @@ class Bumper(SensorPlugin):
         """Read the tags, open the port."""
         robot = sensor.robot
         topic = parameters.get("bumperTopicName", "bumper_states")
+        namespace = namespace_of(robot, parameters)
 
         def read() -> Touches:
             stamp = robot.simulation.clock.now_ns
@@ -25,8 +33,10 @@ class Bumper(SensorPlugin):
 
         robot.outputs[topic.strip("/")] = SensorOutput(
             sensor,
-            absolute(namespace_of(robot, parameters), topic),
+            absolute(namespace, topic),
             Touches,
             frame=parameters.get("frameName", "world"),
             read=read,
+            namespace=namespace,
+            prefix=FramePrefix.OWN,
         )

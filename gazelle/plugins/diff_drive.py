@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Parameters, Pose
+from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.frames import transform
+from gazelle.plugins.frames import joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
@@ -83,7 +83,7 @@ class DiffDrive(ModelPlugin):
         if sent:
             published.append(odometry)
         if parameters.get("publishWheelTF", False):
-            self._wheel_links = tuple(robot.joint_description(n).child for n in self._names)
+            self._wheel_joints = [robot.joint_description(name) for name in self._names[::-1]]
             robot.outputs["wheel_tf"] = Output(
                 "/tf", Transforms, self._wheel_frames, namespace=namespace
             )
@@ -138,18 +138,13 @@ class DiffDrive(ModelPlugin):
         return replace(found, linear=np.abs(found.linear))
 
     def _wheel_frames(self) -> Transforms:
-        robot = self._robot
-        base = robot.frame(self._base)
-        frames = tuple(
-            transform(base, (robot.links[wheel], Pose()), self._base, wheel)
-            for wheel in self._wheel_links
-        )
-        return Transforms(robot.simulation.clock.now_ns, frames)
+        return joint_transforms(self._robot, self._wheel_joints)
 
     def _read_wheels(self) -> JointStates:
         nothing = np.zeros((len(self._speeds), 0))
         now = self._robot.simulation.clock.now_ns
-        return JointStates(now, self._names, self._angles(), nothing)
+        # The original names the right wheel first.
+        return JointStates(now, self._names[::-1], self._angles()[:, ::-1], nothing)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Stand still at the origin of the odometry."""

@@ -9,7 +9,7 @@ from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, rotate
 from gazelle.sensors import NoiseModel
-from gazelle.simulation import Output, Robot, WrenchValue, absolute, namespace_of
+from gazelle.simulation import FramePrefix, Output, Robot, WrenchValue, absolute, namespace_of
 
 
 class ForceTorqueSensor(Noisy, Publishing):
@@ -30,9 +30,16 @@ class ForceTorqueSensor(Noisy, Publishing):
         )
         self._noises = {"noise": self._noise}
         self.update_rate = parameters.get("updateRate", 0.0)
-        name = absolute(namespace_of(robot, parameters), topic)
-        robot.outputs[topic.strip("/")] = Output(name, WrenchValue, self._measure, frame=child)
-        self._published.append(robot.outputs[topic.strip("/")])
+        namespace = namespace_of(robot, parameters)
+        output = robot.outputs[topic.strip("/")] = Output(
+            absolute(namespace, topic),
+            WrenchValue,
+            self._measure,
+            frame=child,
+            namespace=namespace,
+            prefix=FramePrefix.OWN,
+        )
+        self._published.append(output)
 
     def _measure(self) -> WrenchValue:
         wrench = self._engine.joint_wrench(self._joint)

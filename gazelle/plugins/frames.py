@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
-from gazelle.description import Pose
+from gazelle.description import Joint, Pose
 from gazelle.engines import Placement
 from gazelle.rotations import conjugate, multiply, rotate
-from gazelle.simulation import LinkHandle, Transform
+from gazelle.simulation import LinkHandle, Robot, Transform, Transforms
 
 Frame = tuple[LinkHandle, Pose]
 """A link, and a frame's pose in it; see ``Robot.frame``."""
@@ -36,3 +38,16 @@ def transform(parent: Frame, child: Frame, parent_name: str, child_name: str) ->
     """The transform between two frames of a robot."""
     seen = relative(placed(parent), placed(child))
     return Transform(parent_name, child_name, seen.position, seen.quaternion)
+
+
+def joint_transforms(robot: Robot, joints: Iterable[Joint]) -> Transforms:
+    """The child link of each joint, as it is now from the joint's parent."""
+    return Transforms(
+        robot.simulation.clock.now_ns,
+        tuple(
+            transform(
+                robot.frame(joint.parent), robot.frame(joint.child), joint.parent, joint.child
+            )
+            for joint in joints
+        ),
+    )

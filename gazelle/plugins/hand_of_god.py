@@ -11,7 +11,7 @@ from gazelle.description import Parameters
 from gazelle.plugins.heard_frames import HeardFrames
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, multiply
-from gazelle.simulation import Input, Output, Robot, Transform, Transforms
+from gazelle.simulation import FramePrefix, Input, Output, Robot, Transform, Transforms
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -41,7 +41,7 @@ class HandOfGod(Publishing):
             "/tf_static", Transforms, self._hear_static, queue_size=100
         )
         actual = f"{self._name}_actual"
-        robot.outputs[actual] = Output("/tf", Transforms, self._tell)
+        robot.outputs[actual] = Output("/tf", Transforms, self._tell, prefix=FramePrefix.NONE)
         self._published.append(robot.outputs[actual])
 
     @property

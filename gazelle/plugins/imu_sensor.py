@@ -20,7 +20,9 @@ class ImuSensor(Noisy, Publisher, SensorPlugin):
         robot = sensor.robot
         simulation = robot.simulation
         self._sensor, self._clock = sensor, simulation.clock
-        self.update_rate = parameters.get("updateRateHZ", 1.0)
+        rate, own = parameters.get("updateRateHZ", 1.0), sensor.description.update_rate
+        # It publishes what the sensor measures, so no more often than that does.
+        self.update_rate = own if rate <= 0.0 or 0.0 < own < rate else rate
         self._variance = parameters.get("gaussianNoise", 0.0) ** 2
         noise = Noise("gaussian", stddev=parameters.get("gaussianNoise", 0.0))
         self._noise = NoiseModel(
@@ -32,8 +34,10 @@ class ImuSensor(Noisy, Publisher, SensorPlugin):
         self._from_start = parameters.get("initialOrientationAsReference", False)
         self._start = self._orientation()
         topic = parameters.get("topicName", "imu_data")
+        # Absent means the model's name; there but empty means the root.
+        unnamed = "" if "robotNamespace" in parameters else robot.name
         output = robot.outputs[topic.strip("/")] = Output(
-            absolute(namespace_of(robot, parameters, robot.name), topic),
+            absolute(namespace_of(robot, parameters, unnamed), topic),
             ImuReading,
             self._measure,
             frame=parameters.get("frameName", sensor.description.name),
@@ -48,11 +52,11 @@ class ImuSensor(Noisy, Publisher, SensorPlugin):
     def _measure(self) -> ImuReading:
         values = self._noise.apply(self._sensor.measure(), 0.0)
         reading: ImuReading = self._sensor.model.reading(values, self._clock.now_ns)
-        orientation = multiply(
-            reading.orientation, np.broadcast_to(self._turn, reading.orientation.shape)
-        )
+        orientation = reading.orientation
         if self._from_start:
             orientation = multiply(conjugate(self._start), orientation)
+        # The original turns what is measured, not the sensor.
+        orientation = multiply(np.broadcast_to(self._turn, orientation.shape), orientation)
         return ImuReading(
             reading.stamp,
             orientation / np.linalg.norm(orientation, axis=1, keepdims=True),

@@ -15,11 +15,13 @@ class Laser(SensorPlugin):
         robot = sensor.robot
         # Absent means the root; there but empty means the model's name.
         unnamed = robot.name if "robotNamespace" in parameters else ""
+        namespace = namespace_of(robot, parameters, unnamed)
         topic = parameters.get("topicName", "/world")
         frame = parameters.get("frameName", "/world")
         robot.outputs[topic.strip("/")] = SensorOutput(
             sensor,
-            absolute(namespace_of(robot, parameters, unnamed), topic),
+            absolute(namespace, topic),
             LaserScan,
             frame=frame,
+            namespace=namespace,
         )

@@ -12,17 +12,35 @@ from gazelle.errors import SimulationError
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel, NoiseModel
 from gazelle.sensors.lidar import directions_of
-from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
+from gazelle.simulation import (
+    FramePrefix,
+    SensorOutput,
+    SensorPlugin,
+    SensorUnit,
+    absolute,
+    namespace_of,
+)
 from gazelle.simulation.values import ChannelPoints, LaserPoints
 
 Floats = NDArray[np.float64]
 
 
 class PointLaser(Noisy, SensorPlugin):
-    """Knows where the rays of its sensor end."""
+    """Knows where the rays of its sensor end.
 
-    def watch(self, sensor: SensorUnit, parameters: Parameters) -> LidarModel:
+    Attributes:
+        prefix: What goes before the name of the frame.
+    """
+
+    prefix = FramePrefix.NEAREST
+
+    def watch(self, sensor: SensorUnit, parameters: Parameters, *, channels: int = 1) -> LidarModel:
         """Take hold of the sensor.
+
+        Args:
+            sensor: With rays.
+            parameters: With ``gaussianNoise``.
+            channels: Numbers of noise a ray.
 
         Raises:
             SimulationError: It has no rays.
@@ -43,7 +61,7 @@ class PointLaser(Noisy, SensorPlugin):
             simulation.seed,
             f"{sensor.name}::points",
             simulation.nworld,
-            rays,
+            rays * channels,
         )
         self._noises = {"noise": self._noise}
         return model
@@ -51,12 +69,15 @@ class PointLaser(Noisy, SensorPlugin):
     def open(self, kind: type[LaserPoints], parameters: Parameters, topic: str, frame: str) -> None:
         """Offer the points."""
         robot = self._sensor.robot
+        namespace = namespace_of(robot, parameters)
         robot.outputs[topic.strip("/")] = SensorOutput(
             self._sensor,
-            absolute(namespace_of(robot, parameters), topic),
+            absolute(namespace, topic),
             kind,
             frame=frame,
             read=self.read,
+            namespace=namespace,
+            prefix=self.prefix,
         )
 
     def read(self) -> LaserPoints:
@@ -65,37 +86,40 @@ class PointLaser(Noisy, SensorPlugin):
 
 
 class BlockLaser(PointLaser):
-    """Publishes the ends of all rays as a ``PointCloud``; what sees nothing ends at its reach."""
+    """Publishes the ends of all rays as a ``PointCloud``; what sees nothing ends at its reach.
+
+    Noise moves the ends along each axis, but not those out of reach. ``updateRate`` and
+    ``hokuyoMinIntensity`` have no effect. All that is so in the original.
+    """
+
+    prefix = FramePrefix.OWN
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
-        model = self.watch(sensor, parameters)
+        model = self.watch(sensor, parameters, channels=3)
         self._least, self._most = model.lidar.range_min, model.lidar.range_max
-        # Nothing shines here: all returns are as faint as the file lets them be.
-        self._intensities[:] = parameters.get("hokuyoMinIntensity", 101.0)
-        rate = parameters.get("updateRate", 0.0)
-        if rate > 0.0:
-            sensor.schedule.rate = rate
         topic = parameters.get("topicName", "/world")
         self.open(ChannelPoints, parameters, topic, parameters.get("frameName", "/world"))
 
     def read(self) -> ChannelPoints:
         """The points now."""
         ranges = np.clip(self._sensor.current(), self._least, self._most)
-        noisy = self._noise.apply(ranges, 0.0)
-        # The original spares what is out of reach from its noise.
-        distance = np.where(ranges < self._most, noisy, ranges)
+        points = ranges[:, :, None] * self._directions
+        noisy = self._noise.apply(points.reshape(len(points), -1), 0.0).reshape(points.shape)
         return ChannelPoints(
             self._clock.now_ns,
-            distance[:, :, None] * self._directions,
+            np.where((ranges < self._most)[:, :, None], noisy, points),
             self._intensities,
             self._rings,
-            np.ones(distance.shape, np.bool_),
+            np.ones(ranges.shape, np.bool_),
         )
 
 
 class Velodyne(PointLaser):
     """Publishes the ends of rays that meet something as a ``PointCloud2`` with rings."""
+
+    # A namespace goes before the frame even without a tf_prefix.
+    prefix = FramePrefix.NAMESPACE
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""

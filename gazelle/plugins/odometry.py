@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gazelle.rotations import conjugate, rotate
+from gazelle.rotations import conjugate, from_yaw, rotate, yaw_of
 from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
 from gazelle.simulation.values import SixNumbers
 
@@ -19,17 +19,17 @@ def true_odometry(
     pose_variance: SixNumbers = POSE_VARIANCE,
     twist_variance: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
 ) -> Odometry:
-    """The model's pose in the world, and its velocity in its own axes."""
+    """The model's pose in the world, and its velocity on the ground as seen from its heading."""
     place, motion = robot.placement(), robot.motion()
-    back = conjugate(place.quaternion)
+    back = conjugate(from_yaw(yaw_of(place.quaternion)))
     return Odometry(
         robot.simulation.clock.now_ns,
         frame,
         child_frame,
         place.position,
         place.quaternion,
-        rotate(back, motion.linear),
-        rotate(back, motion.angular),
+        rotate(back, motion.linear * (1.0, 1.0, 0.0)),
+        motion.angular * (0.0, 0.0, 1.0),
         pose_variance,
         twist_variance,
     )
@@ -61,7 +61,9 @@ class OdometryOutputs:
         self._odom: Output[Odometry] | None = None
         self._frame: Output[Transforms] | None = None
         if told:
-            self._odom = robot.outputs["odom"] = Output(topic, Odometry, measure)
+            self._odom = robot.outputs["odom"] = Output(
+                topic, Odometry, measure, namespace=namespace
+            )
         if framed:
             self._frame = robot.outputs["odom_tf"] = Output(
                 "/tf", Transforms, lambda: as_transforms(measure()), namespace=namespace

@@ -11,7 +11,8 @@ from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors import NoiseModel
-from gazelle.simulation import Odometry, Output, Robot, absolute, namespace_of
+from gazelle.simulation import FramePrefix, Output, Robot, absolute, namespace_of
+from gazelle.simulation.values import TruePose
 
 _INERTIAL = frozenset({"", "world", "/world", "map", "/map"})
 
@@ -41,9 +42,15 @@ class P3D(Noisy, Publishing):
         self._make_noise(robot, body, parameters.get("gaussianNoise", 0.0))
         self.update_rate = parameters.get("updateRate", 0.0)
         self._child = body
-        name = absolute(namespace_of(robot, parameters), topic)
-        robot.outputs[topic.strip("/")] = Output(name, Odometry, self._measure)
-        self._published.append(robot.outputs[topic.strip("/")])
+        namespace = namespace_of(robot, parameters)
+        output = robot.outputs[topic.strip("/")] = Output(
+            absolute(namespace, topic),
+            TruePose,
+            self._measure,
+            namespace=namespace,
+            prefix=FramePrefix.OWN,
+        )
+        self._published.append(output)
 
     def _make_noise(self, robot: Robot, body: str, stddev: float) -> None:
         simulation = robot.simulation
@@ -52,7 +59,7 @@ class P3D(Noisy, Publishing):
         self._noise = NoiseModel(noise, simulation.seed, name, simulation.nworld, 6)
         self._noises = {"noise": self._noise}
 
-    def _measure(self) -> Odometry:
+    def _measure(self) -> TruePose:
         place, motion = placed(self._body), self._body[0].motion()
         if self._frame is not None:
             place, motion = self._seen_from_frame(place, motion)
@@ -60,7 +67,7 @@ class P3D(Noisy, Publishing):
         twist = np.concatenate((motion.linear, motion.angular), axis=1)
         twist = self._noise.apply(twist, 0.0)
         six = (self._variance,) * 6
-        return Odometry(
+        return TruePose(
             self._robot.simulation.clock.now_ns,
             self._frame_name,
             self._child,

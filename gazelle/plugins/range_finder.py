@@ -8,7 +8,14 @@ from gazelle.description import Noise, Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel, NoiseModel
-from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
+from gazelle.simulation import (
+    FramePrefix,
+    SensorOutput,
+    SensorPlugin,
+    SensorUnit,
+    absolute,
+    namespace_of,
+)
 from gazelle.simulation.values import RangeValue
 
 
@@ -33,16 +40,17 @@ class RangeFinder(Noisy, SensorPlugin):
             noise, simulation.seed, f"{sensor.name}::range", simulation.nworld, 1
         )
         self._noises = {"noise": self._noise}
-        rate = parameters.get("updateRate", 0.0)
-        if rate > 0.0:
-            sensor.schedule.rate = rate
+        sensor.slow_to(parameters.get("updateRate", 0.0))
         topic = parameters.get("topicName", "/range")
+        namespace = namespace_of(robot, parameters)
         robot.outputs[topic.strip("/")] = SensorOutput(
             sensor,
-            absolute(namespace_of(robot, parameters), topic),
+            absolute(namespace, topic),
             RangeValue,
             frame=parameters.get("frameName", "/world"),
             read=self._read,
+            namespace=namespace,
+            prefix=FramePrefix.OWN,
         )
 
     def _read(self) -> RangeValue:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, cross, rotate
-from gazelle.simulation import Output, Robot, WrenchValue, absolute, namespace_of
+from gazelle.simulation import FramePrefix, Output, Robot, WrenchValue, absolute, namespace_of
 
 Floats = NDArray[np.float64]
 
@@ -30,12 +30,14 @@ class ResultantForce(Publishing):
         self._link, _ = robot.frame(parameters.require("bodyName", str))
         topic = parameters.require("topicName", str)
         self._engine, self._clock = robot.simulation.engine, robot.simulation.clock
-        self.update_rate = parameters.get("updateRate", 0.0)
+        namespace = namespace_of(robot, parameters)
         output = robot.outputs[topic.strip("/")] = Output(
-            absolute(namespace_of(robot, parameters), topic),
+            absolute(namespace, topic),
             WrenchValue,
             self._measure,
             frame=parameters.get("frameName", "world"),
+            namespace=namespace,
+            prefix=FramePrefix.OWN,
         )
         self._published.append(output)
 

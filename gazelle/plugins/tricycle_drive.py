@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description import Parameters, Pose
+from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.frames import transform
+from gazelle.plugins.frames import joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
@@ -145,13 +145,7 @@ class TricycleDrive(ModelPlugin):
         return self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
 
     def _wheel_frames(self) -> Transforms:
-        robot = self._robot
-        children = [robot.joint_description(name).child for name in self._names]
-        base = robot.frame(self._base)
-        frames = tuple(
-            transform(base, (robot.links[child], Pose()), self._base, child) for child in children
-        )
-        return Transforms(self._clock.now_ns, frames)
+        return joint_transforms(self._robot, map(self._robot.joint_description, self._names))
 
     def _read_joints(self) -> JointStates:
         engine = self._robot.simulation.engine

@@ -6,7 +6,7 @@ from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, SystemPlugin, WorldPlugin
-from gazelle.simulation.ports import Input, Output, Ports, Service, TwistInput
+from gazelle.simulation.ports import FramePrefix, Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
 from gazelle.simulation.replay import Replay
@@ -20,6 +20,7 @@ from gazelle.simulation.values import JointStates, Odometry, Transform, Transfor
 __all__ = [
     "Clock",
     "Fault",
+    "FramePrefix",
     "Input",
     "JointHandle",
     "JointStates",

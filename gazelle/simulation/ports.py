@@ -9,6 +9,7 @@ costs nothing while nobody listens.
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import Enum
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -152,6 +153,15 @@ class Service(Generic[Q, R]):
         return self._answer(request, worlds)
 
 
+class FramePrefix(Enum):
+    """What a graph puts before the names of frames; Gazebo's plugins differ in it."""
+
+    NEAREST = "tf_prefix of the namespace, or of the nearest above it that has one"
+    OWN = "tf_prefix of the namespace itself"
+    NAMESPACE = "the namespace; the root's tf_prefix if it is the root"
+    NONE = "nothing"
+
+
 class Output(Generic[T]):
     """A value that is published at a rate.
 
@@ -162,7 +172,8 @@ class Output(Generic[T]):
         frame: Frame of the values, for kinds that carry none themselves.
         queue_size: Of the topic.
         latch: Whether who comes late gets the last value.
-        namespace: Whose frames they are, for topics that many share; else the topic tells.
+        namespace: Whose frames they are; the topic tells if None.
+        prefix: What goes before the names of its frames on a graph.
         event: Whether it tells of what happens, and has nothing to tell at other times.
     """
 
@@ -175,13 +186,15 @@ class Output(Generic[T]):
         frame: str = "",
         queue_size: int = 1,
         latch: bool = False,
-        namespace: str = "",
+        namespace: str | None = None,
+        prefix: FramePrefix = FramePrefix.NEAREST,
         event: bool = False,
     ) -> None:
         self.topic = topic
         self.kind = kind
         self.frame = frame
         self.namespace = namespace
+        self.prefix = prefix
         self.event = event
         self.queue_size = queue_size
         self.latch = latch
@@ -222,6 +235,22 @@ class Output(Generic[T]):
         self._last = None
 
 
+class Table(dict[str, T]):
+    """Ports by name. One that takes the name of another leaves that one ``NAME 2``, ``NAME 3``...
+
+    A model may have two plugins of a kind, such as a drive for each pair of wheels.
+    """
+
+    def __setitem__(self, name: str, port: T) -> None:
+        """Add a port."""
+        if name in self:
+            number = 2
+            while f"{name} {number}" in self:
+                number += 1
+            super().__setitem__(f"{name} {number}", self[name])
+        super().__setitem__(name, port)
+
+
 class Ports:
     """What somebody offers, by names that do not change with topics.
 
@@ -234,8 +263,8 @@ class Ports:
     """
 
     def __init__(self) -> None:
-        self.inputs: dict[str, Any] = {}
-        self.outputs: dict[str, Output[Any]] = {}
-        self.services: dict[str, Service[Any, Any]] = {}
+        self.inputs: dict[str, Any] = Table()
+        self.outputs: dict[str, Output[Any]] = Table()
+        self.services: dict[str, Service[Any, Any]] = Table()
         self.settings: dict[str, Setting[Any]] = {}
         self.tunings: dict[str, Tuning] = {}

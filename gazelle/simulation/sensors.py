@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.description import Sensor
 from gazelle.sensors import SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
-from gazelle.simulation.ports import Output
+from gazelle.simulation.ports import FramePrefix, Output
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
@@ -47,6 +47,11 @@ class SensorUnit:
     def awake(self) -> bool:
         """Whether it measures at its rate."""
         return self._awake or bool(self._listeners)
+
+    def slow_to(self, rate: float) -> None:
+        """Measure no more often than a rate [Hz]; 0 changes nothing."""
+        if rate > 0.0 and not 0.0 < self.schedule.rate <= rate:
+            self.schedule.rate = rate
 
     def measure(self, worlds: Worlds | None = None) -> Floats:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
@@ -134,6 +139,8 @@ class SensorOutput(Output[Any]):
         kind: Type of its readings.
         frame: Frame of the readings.
         read: The reading from the sensor; its own kind of reading if None.
+        namespace: Whose frames they are; the topic tells if None.
+        prefix: What goes before the name of the frame on a graph.
     """
 
     def __init__(
@@ -144,9 +151,16 @@ class SensorOutput(Output[Any]):
         *,
         frame: str = "",
         read: Callable[[], Any] | None = None,
+        namespace: str | None = None,
+        prefix: FramePrefix = FramePrefix.NEAREST,
     ) -> None:
         super().__init__(
-            topic, kind, read or (lambda: sensor.reading(sensor.current())), frame=frame
+            topic,
+            kind,
+            read or (lambda: sensor.reading(sensor.current())),
+            frame=frame,
+            namespace=namespace,
+            prefix=prefix,
         )
         self._sensor = sensor
         self._asleep: Callable[[], None] | None = None

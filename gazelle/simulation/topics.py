@@ -13,12 +13,15 @@ if TYPE_CHECKING:
 def namespace_of(robot: Robot, parameters: Parameters, otherwise: str = "") -> str:
     """The namespace of a plugin: its ``robotNamespace``, else the one it was spawned in.
 
+    As Gazebo gives the latter to plugins without the tag, an empty tag keeps it away.
+
     Args:
         robot: Whose plugin it is.
         parameters: Of the plugin.
         otherwise: If neither says anything; many of Gazebo's plugins take the model's name.
     """
-    return parameters.get("robotNamespace", "") or robot.namespace or otherwise
+    given = "robotNamespace" in parameters
+    return (parameters.get("robotNamespace", "") if given else robot.namespace) or otherwise
 
 
 def absolute(namespace: str, name: str) -> str:

@@ -19,6 +19,7 @@ from gazelle.simulation.values import (
     RangeValue,
     SonarValue,
     Touches,
+    TruePose,
     UnsureImu,
     VectorValue,
 )
@@ -39,19 +40,22 @@ def _six(rng):
     return tuple(rng.uniform(0.0, 2.0, 6).tolist())
 
 
-def odometry(rng, nworld, stamp):
-    vectors = rng.normal(size=(3, nworld, 3))
-    return Odometry(
-        stamp,
-        _frame(rng),
-        _frame(rng),
-        vectors[0],
-        _turns(rng, nworld),
-        vectors[1],
-        vectors[2],
-        _six(rng),
-        _six(rng),
-    )
+def _odometry(kind):
+    def make(rng, nworld, stamp):
+        vectors = rng.normal(size=(3, nworld, 3))
+        return kind(
+            stamp,
+            _frame(rng),
+            _frame(rng),
+            vectors[0],
+            _turns(rng, nworld),
+            vectors[1],
+            vectors[2],
+            _six(rng),
+            _six(rng),
+        )
+
+    return make
 
 
 def joint_states(rng, nworld, stamp):
@@ -153,7 +157,8 @@ def bumper(rng, nworld, _stamp):
 
 
 MAKERS = {
-    Odometry: odometry,
+    Odometry: _odometry(Odometry),
+    TruePose: _odometry(TruePose),
     JointStates: joint_states,
     Transforms: transforms,
     LaserScan: scan,

@@ -65,7 +65,7 @@ def test_odometry_is_published_at_the_update_rate_and_only_when_heard():
     robot.outputs["odom"].subscribe(lambda value: seen.append(value.stamp))
     sim.run(1.0)
     assert len(seen) == 30
-    assert robot.outputs["joint_states"].last.names == ("wheel_left_joint", "wheel_right_joint")
+    assert robot.outputs["joint_states"].last.names == ("wheel_right_joint", "wheel_left_joint")
 
 
 @pytest.mark.parametrize(

@@ -46,13 +46,13 @@ def test_a_velodyne_leaves_out_what_it_does_not_see_and_what_the_file_says():
         assert not sim.robots["cube"].outputs["points"].last.kept.any()
 
 
-def test_a_block_laser_tells_all_rays_and_the_least_intensity():
+def test_a_block_laser_tells_all_rays():
     with watching("libgazebo_ros_block_laser.so", most=0.82, topicName="cloud") as sim:
         output = sim.robots["cube"].outputs["cloud"]
         value = output.last
         assert output.topic == "/cloud"
         assert value.kept.all()
-        assert (value.intensities == 101.0).all()
+        assert (value.intensities == 0.0).all()
         length = np.linalg.norm(value.points[0], axis=1)
         assert length.max() == pytest.approx(0.82)
 
@@ -61,9 +61,17 @@ def test_a_block_lasers_noise_spares_what_is_out_of_reach():
     with watching(
         "libgazebo_ros_block_laser.so", most=0.82, nworld=300, gaussianNoise="0.02"
     ) as sim:
-        length = np.linalg.norm(sim.robots["cube"].outputs["world"].last.points, axis=2)
-        assert length[:, 0] == pytest.approx(0.82)
-        assert length[:, 7].std() == pytest.approx(0.02, rel=0.15)
+        points = sim.robots["cube"].outputs["world"].last.points
+        assert np.linalg.norm(points[:, 0], axis=1) == pytest.approx(0.82)
+        assert points[:, 7].std(axis=0) == pytest.approx([0.02] * 3, rel=0.15)
+
+
+def test_a_block_lasers_own_rate_has_no_effect():
+    with watching("libgazebo_ros_block_laser.so", updateRate="5") as sim:
+        heard = []
+        sim.robots["cube"].outputs["world"].subscribe(heard.append)
+        sim.run(seconds=1.0)
+        assert len(heard) == pytest.approx(20, abs=1)
 
 
 def test_points_come_at_the_sensors_rate():

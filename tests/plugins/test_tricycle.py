@@ -105,10 +105,11 @@ def test_its_topics_and_frames():
         assert states.position.shape == states.velocity.shape == states.effort.shape == (1, 4)
 
 
-def test_wheel_frames_need_the_base_frame():
-    with simulate(tricycle(robotBaseFrame="body")) as sim:
+def test_wheel_frames_hang_on_the_links_that_bear_them():
+    with simulate(tricycle()) as sim:
         frames = sim.robots["base"].outputs["wheel_tf"].last.transforms
-        assert frames[0].child_frame == "fork"
+        assert (frames[0].frame, frames[0].child_frame) == ("body", "fork")
+        assert frames[1].frame == "fork"
         assert len(frames) == 4
 
 

@@ -41,6 +41,11 @@ class FramePrefixes:
             if name.endswith(f"/{PARAMETER}")
         }
 
+    def own(self, namespace: str) -> str:
+        """The parameter of a namespace itself; none if it has none, whatever those above it have."""
+        name = namespace.strip("/")
+        return self._values.get(f"/{name}" if name else "", "")
+
     def of(self, namespace: str) -> str:
         """The prefix of a namespace: its own parameter, else that of the nearest above it."""
         place = "/" + namespace.strip("/")

@@ -21,6 +21,7 @@ from gazelle.simulation.values.motion import (
     SixNumbers,
     Transform,
     Transforms,
+    TruePose,
     WrenchValue,
 )
 from gazelle.simulation.values.sensing import (
@@ -70,6 +71,7 @@ __all__ = [
     "Transform",
     "Transforms",
     "Trigger",
+    "TruePose",
     "TurnCommand",
     "UnsureImu",
     "VectorValue",

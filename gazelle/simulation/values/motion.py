@@ -40,6 +40,15 @@ class Odometry:
     twist_variance: SixNumbers = NO_VARIANCE
 
 
+class TruePose(Odometry):
+    """The same of a body, as the simulation knows it; its name is taken as it is written.
+
+    The velocities are in the frame of the pose.
+    """
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class JointStates:
     """Joints by name, in every world.

@@ -49,7 +49,7 @@ def test_every_topic_comes_at_its_rate_with_its_frames(graph):
     assert odometry.pose.covariance[14] == pytest.approx(1e12)
     transform = heard["/tf"][-1].transforms[0]
     assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
-    assert heard["/joint_states"][-1].name == ["wheel_left_joint", "wheel_right_joint"]
+    assert heard["/joint_states"][-1].name == ["wheel_right_joint", "wheel_left_joint"]
     assert "r1" in heard["/gazebo/model_states"][-1].name
     assert "r1::wheel_left_link" in heard["/gazebo/link_states"][-1].name
 

@@ -49,7 +49,7 @@ def test_a_range_finder_tells_the_shortest():
 
 def test_a_true_pose_has_its_frames_and_variances():
     message = body("libgazebo_ros_p3d.so", "nav_msgs/Odometry", gaussianNoise="0.1")
-    assert message.header.frame_id == "r1/world"
+    assert (message.header.frame_id, message.child_frame_id) == ("r1/world", "core")
     assert message.pose.pose.position.z == pytest.approx(0.5, abs=1e-6)
     assert message.pose.pose.orientation.w == pytest.approx(1.0)
     diagonal = [message.pose.covariance[i * 7] for i in range(6)]

@@ -66,7 +66,7 @@ def test_a_block_lasers_cloud_has_its_intensities():
     assert len(cloud.points) == 6
     assert cloud.points[0].x == pytest.approx(0.8, abs=1e-5)
     assert cloud.channels[0].name == "intensities"
-    assert list(cloud.channels[0].values) == [101.0] * 6
+    assert list(cloud.channels[0].values) == [0.0] * 6
 
 
 def test_hectors_imu_says_how_sure_it_is_and_takes_a_bias():

@@ -29,6 +29,7 @@ from gazelle.simulation.values import (
     RangeValue,
     SonarValue,
     Touches,
+    TruePose,
     UnsureImu,
     VectorValue,
 )
@@ -122,6 +123,15 @@ def diagonal(values, size):
 
 def says_odometry(message, value, world, view):
     assert message.child_frame_id == resolve_frame(view.prefix, value.child_frame)
+    says_motion(message, value, world)
+
+
+def says_true_pose(message, value, world, _view):
+    assert message.child_frame_id == value.child_frame
+    says_motion(message, value, world)
+
+
+def says_motion(message, value, world):
     assert xyz(message.pose.pose.position) == list(value.position[world])
     assert xyzw(message.pose.pose.orientation) == list(value.quaternion[world])
     assert xyz(message.twist.twist.linear) == list(value.linear[world])
@@ -287,6 +297,7 @@ def says_flag(message, value, world, _view):
 
 SAYS = {
     Odometry: says_odometry,
+    TruePose: says_true_pose,
     JointStates: says_joints,
     Transforms: says_transforms,
     LaserScan: says_scan,
