@@ -74,6 +74,13 @@ def test_a_cone_is_used_where_things_lie_loose_and_wheels_do_not_creep_on_it():
     assert not cone(scenes.burger())
 
 
+def test_what_moves_only_when_told_to_asks_for_no_cone():
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.box(), scenes.burger()))
+    engine.make_kinematic("box")
+    engine.step()
+    assert engine._batch.model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+
+
 def test_between_its_corners_a_pyramid_holds_down_to_seven_tenths():
     mu = 0.5
     model = "pyramid_model"
@@ -163,13 +170,13 @@ def test_a_threshold_that_nothing_reaches_means_no_bounce():
     assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-3)
 
 
-def test_slip_is_warned_about_once():
+def test_slip_of_what_is_no_wheel_is_warned_about_once():
     slippery = Surface(Friction(1.0, 1.0, slip1=0.1))
     blocks = [
         with_surface(scenes.box(n, pose=Pose(x, z=0.1)), slippery) for n, x in (("a", 0), ("b", 1))
     ]
     with pytest.warns(
-        EngineWarning, match=r"slip1 and slip2 of collision 'c' and 1 others"
+        EngineWarning, match=r"slip1 and slip2 of collision 'a::link::c' and 1 others"
     ) as caught:
         make_engine("mujoco", scenes.world(scenes.ground(), *blocks))
     assert len(caught) == 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,12 +16,12 @@ from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
-from gazelle.engines.mujoco.directions import warn_of_slip
 from gazelle.engines.mujoco.joints import add_joint
-from gazelle.engines.mujoco.loose import tumbling
 from gazelle.engines.mujoco.native import Extras, finish, prepare
+from gazelle.engines.mujoco.loose import tumbling
 from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_slip
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
     friction_of,
@@ -30,7 +30,7 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
-from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tyre_name
+from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
 from gazelle.errors import EngineError, EngineWarning
 
 COLLISION_GROUP = 0
@@ -115,6 +115,7 @@ class Draft:
         springs: Contacts whose terms depend on the compiled model.
         closures: Joints that close loops or couple others.
         extras: Laws that MuJoCo alone does not know.
+        slips: Of wheels that may slip, by link.
     """
 
     spec: mujoco.MjSpec
@@ -124,6 +125,7 @@ class Draft:
     springs: list[Spring]
     closures: Sequence[Closure]
     extras: Extras
+    slips: Mapping[str, Slip]
 
     def compile(self) -> mujoco.MjModel:
         """The MuJoCo model.
@@ -137,6 +139,7 @@ class Draft:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
         tune_springs(compiled, self.springs)
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
+        tune_slips(compiled, self.slips)
         self._solve_at_once(compiled)
         return compiled
 
@@ -169,13 +172,15 @@ def draft_world(recipe: Recipe) -> Draft:
         EngineError: Something in the description cannot be simulated.
     """
     spec = mujoco.MjSpec()
-    set_options(spec, recipe.world, recipe.time_step)
+    set_options(spec, recipe.world, recipe.time_step, recipe.kinematic)
     trees = {
         model.name: tree_of(model, kinematic=model.name in recipe.kinematic)
         for model in recipe.world.models
     }
     bodies = {name: tree.bodies for name, tree in trees.items()}
-    builder = _Builder(spec, recipe, bodies)
+    held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
+    slips = slipping(described_slips(bodies.values()), recipe.tyres - held)
+    builder = _Builder(spec, recipe, bodies, slips)
     for model in recipe.world.models:
         builder.add_model(model)
     for tree in trees.values():
@@ -185,10 +190,10 @@ def draft_world(recipe: Recipe) -> Draft:
     for motor in recipe.motors.values():
         _add_motor(spec, motor, bodies, recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
-    hold_tyres(spec, builder.tyres, recipe.time_step)
+    hold_tyres(spec, slips, recipe.time_step)
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    warn_of_slip(solid.collision for solid in builder.solids)
+    warn_of_slip(bodies.values(), slips)
     gravity = math.hypot(*recipe.world.gravity)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
     if pairs.springs or pairs.bounces or pairs.rubs:
@@ -199,7 +204,9 @@ def draft_world(recipe: Recipe) -> Draft:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     closures = [closure for tree in trees.values() for closure in tree.closures]
     extras = Extras(pairs.bounces, pairs.rubs, tumbling(recipe.world, bodies))
-    return Draft(spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras)
+    return Draft(
+        spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras, slips
+    )
 
 
 def _needs_cone(solids: list[Solid]) -> bool:
@@ -213,13 +220,16 @@ class _Builder:
     """Fills an ``MjSpec`` model by model."""
 
     def __init__(
-        self, spec: mujoco.MjSpec, recipe: Recipe, bodies: Mapping[str, list[Body]]
+        self,
+        spec: mujoco.MjSpec,
+        recipe: Recipe,
+        bodies: Mapping[str, list[Body]],
+        tyres: Collection[str],
     ) -> None:
         self._spec = spec
         self._time_step = recipe.time_step
         self._bodies = bodies
-        held = {b.name for parts in bodies.values() for b in parts if b.root is not None}
-        self.tyres = recipe.tyres - held
+        self._tyres = tyres
         self.shapes = ShapeBuilder(spec)
         self.geoms: dict[str, list[str]] = {}
         self._masses = {
@@ -258,7 +268,7 @@ class _Builder:
             add_joint(handle, body.joint_name, body.joint, self._time_step)
         if body.root != "kinematic":
             _set_inertial(handle, body)
-        shaped = add_tyre(handle, body) if body.name in self.tyres else handle
+        shaped = add_tyre(handle, body) if body.name in self._tyres else handle
         self._add_shapes(shaped, body, Pose())
         return handle
 
@@ -284,14 +294,14 @@ class _Builder:
         """Links of one model collide only if both say so, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
-            neighbours = second.name in self.tyres and second.parent == first.name
+            neighbours = second.name in self._tyres and second.parent == first.name
             if neighbours or not (first.self_collide and second.self_collide):
                 one, two = self._solid_body(first), self._solid_body(second)
                 self._spec.add_exclude(bodyname1=one, bodyname2=two)
 
     def _solid_body(self, body: Body) -> str:
         """MuJoCo's body that has the shapes of a link."""
-        return tyre_name(body.name) if body.name in self.tyres else body.name
+        return tyre_name(body.name) if body.name in self._tyres else body.name
 
 
 def _set_inertial(handle: Any, body: Body) -> None:

@@ -7,15 +7,11 @@ of this MuJoCo's contacts do not know of themselves it is told in every step (se
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Iterable
-
 import numpy as np
 
 from gazelle.description import Collision, Pose
 from gazelle.engines.mujoco.native.extras import Rub
 from gazelle.engines.mujoco.surfaces import friction_of, second_friction_of
-from gazelle.errors import EngineWarning
 from gazelle.rotations import rotate
 
 
@@ -43,14 +39,3 @@ def rub_of(collision: Collision, placed: Pose) -> Rub | None:
         x, y, z = rotate(np.array(placed.quaternion), fdir1 / size).tolist()
         return Rub((x, y, z), friction_of(collision))
     return Rub(None, friction_of(collision)) if is_directional(collision) else None
-
-
-def warn_of_slip(collisions: Iterable[Collision]) -> None:
-    """Say that slip in proportion to the force is not simulated, if some surface has it."""
-    slips = [c for c in collisions if c.surface.friction.slip1 or c.surface.friction.slip2]
-    if slips:
-        others = f" and {len(slips) - 1} others" if len(slips) > 1 else ""
-        warnings.warn(
-            EngineWarning(f"slip1 and slip2 of collision '{slips[0].name}'{others} have no effect"),
-            stacklevel=2,
-        )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import mujoco
 
@@ -23,15 +23,21 @@ _FINE = 0.001
 _FAST = 20.0
 
 
-def lets_sleep(world: World) -> bool:
-    """Whether bodies at rest go to sleep: as the world says, else where many could."""
+def lets_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
+    """Whether bodies at rest go to sleep: as the world says, else where many could.
+
+    Args:
+        world: The description.
+        kinematic: Names of models that move only when told to; such a one is never loose.
+    """
     wanted = world.profile.auto_disable
     if wanted is not None:
         return wanted
-    return sum(_is_loose(m) and m.allow_auto_disable for m in world.models) >= _MANY
+    moving = _moving(world, kinematic)
+    return sum(_is_loose(model) and model.allow_auto_disable for model in moving) >= _MANY
 
 
-def looks_ahead(world: World, time_step: float) -> bool:
+def looks_ahead(world: World, time_step: float, kinematic: Collection[str] = ()) -> bool:
     """Whether contacts are sought on the way of a step: as the world says, else if need be.
 
     There is need when a loose body is so small that, at ``_FAST``, it moves in one step by
@@ -41,19 +47,25 @@ def looks_ahead(world: World, time_step: float) -> bool:
     if wanted is not None:
         return wanted
     reach = _FAST * time_step
-    return any(_is_loose(model) and _half_thickness(model) <= reach for model in world.models)
+    moving = _moving(world, kinematic)
+    return any(_is_loose(model) and _half_thickness(model) <= reach for model in moving)
 
 
-def rubs_alike(world: World, time_step: float) -> bool:
+def rubs_alike(world: World, time_step: float, kinematic: Collection[str] = ()) -> bool:
     """Whether friction is to be the same in all directions.
 
     What lies about loose slips in any direction: a cone is right there, and faster than a
     pyramid. Robots whose wheels roll drive as well on a pyramid, which costs them less; at
     large steps they drive better on it.
     """
-    moving = [model for model in world.models if not model.static]
+    moving = _moving(world, kinematic)
     loose = any(_is_loose(model) and _collides(model) for model in moving)
     return loose and (time_step <= _FINE or all(_is_loose(model) for model in moving))
+
+
+def _moving(world: World, kinematic: Collection[str]) -> list[Model]:
+    """Models that forces move."""
+    return [model for model in world.models if not model.static and model.name not in kinematic]
 
 
 def _collides(model: Model) -> bool:

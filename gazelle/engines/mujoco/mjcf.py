@@ -13,7 +13,6 @@ import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
 from gazelle.engines.mujoco.compiler import VISUAL_GROUP, Draft, Recipe, draft_world
-from gazelle.engines.mujoco.native import Extras
 from gazelle.engines.mujoco.tree import Body
 from gazelle.errors import EngineWarning
 
@@ -40,7 +39,7 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
     step = world.profile.max_step_size if time_step is None else time_step
     draft = draft_world(Recipe(world, step))
     draft.spec.modelname = world.name
-    _warn_of(draft.extras)
+    _warn_of(draft)
     if visuals:
         _add_visuals(draft)
     draft.spec.copy_back(draft.compile())
@@ -49,11 +48,13 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
     return text
 
 
-def _warn_of(extras: Extras) -> None:
+def _warn_of(draft: Draft) -> None:
+    extras = draft.extras
     lacking = {
         "bounces are less exact": extras.bounces,
         "friction differs along world y and x, not along fdir1": extras.rubs,
         "bodies that tumble freely drift": extras.tumbling,
+        "tyres that slip wander off their wheels": draft.slips,
     }
     found = [words for words, present in lacking.items() if present]
     if found:

@@ -5,6 +5,8 @@ What of SDF's solver terms has a counterpart is written down in ``docs/physics.m
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import mujoco
 
 from gazelle.description import World
@@ -27,12 +29,21 @@ _LEAST = 1
 SENSORS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 
 
-def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
-    """Set what holds for the whole world."""
+def set_options(
+    spec: mujoco.MjSpec, world: World, time_step: float, kinematic: Collection[str]
+) -> None:
+    """Set what holds for the whole world.
+
+    Args:
+        spec: What MuJoCo compiles.
+        world: The description.
+        time_step: Physics step [s].
+        kinematic: Names of models that move only when told to.
+    """
     option = spec.option
     option.timestep = time_step
     option.integrator = _integrator(world.profile.integrator)
-    option.cone = _cone(world, time_step)
+    option.cone = _cone(world, time_step, kinematic)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
     option.iterations = max(1, world.profile.ode.iters)
@@ -40,9 +51,9 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     option.gravity = list(world.gravity)
     option.magnetic = list(world.magnetic_field)
     option.sleep_tolerance = SLEEP_SPEED
-    if lets_sleep(world):
+    if lets_sleep(world, kinematic):
         option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    if looks_ahead(world, time_step):
+    if looks_ahead(world, time_step, kinematic):
         option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     spec.compiler.autolimits = True
     spec.compiler.degree = False
@@ -50,11 +61,11 @@ def set_options(spec: mujoco.MjSpec, world: World, time_step: float) -> None:
     spec.compiler.fusestatic = False
 
 
-def _cone(world: World, time_step: float) -> mujoco.mjtCone:
+def _cone(world: World, time_step: float, kinematic: Collection[str]) -> mujoco.mjtCone:
     """MuJoCo's form of friction for SDF's friction models, or what suits the world."""
     wanted = world.profile.ode.friction_model
-    round_ = rubs_alike(world, time_step) if wanted is None else wanted == "cone_model"
-    return mujoco.mjtCone.mjCONE_ELLIPTIC if round_ else mujoco.mjtCone.mjCONE_PYRAMIDAL
+    alike = rubs_alike(world, time_step, kinematic) if wanted is None else wanted == "cone_model"
+    return mujoco.mjtCone.mjCONE_ELLIPTIC if alike else mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
 def _integrator(name: str | None) -> mujoco.mjtIntegrator:

@@ -19,7 +19,7 @@ from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.retuning import retune
 from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
-from gazelle.engines.mujoco.tyres import set_slip
+from gazelle.engines.mujoco.tyres import compiled_slip, set_slip
 from gazelle.errors import EngineError
 
 Floats = NDArray[np.float64]
@@ -90,7 +90,8 @@ def _read_friction(target: _Target, name: str) -> Floats:
 
 def _read_slip(target: _Target, name: str) -> Floats:
     target.layout.link(name)
-    return np.zeros(2)  # what is compiled is rigid
+    slot = target.layout.tyres.get(name)
+    return np.zeros(2) if slot is None else compiled_slip(target.batch.model, slot)
 
 
 _READERS: dict[str, Callable[[_Target, str], Floats]] = {
@@ -257,8 +258,7 @@ class ParameterStore:
         _WRITERS[key[0]](_Target(batch, layout), key[1], values)
         self._values[key] = values
         if key[0] in _DERIVED_FROM:
-            batch.set_const()
-            retune(batch, layout.springs)
+            self._derive(batch, layout)
 
     def apply(self, batch: Batch, layout: Layout) -> None:
         """Give a new batch all that was set."""
@@ -267,8 +267,14 @@ class ParameterStore:
             if not (kind.startswith("link_") and target.is_held(name)):
                 _WRITERS[kind](target, name, values)
         if any(kind in _DERIVED_FROM for kind, _ in self._values):
-            batch.set_const()
-            retune(batch, layout.springs)
+            self._derive(batch, layout)
+
+    def _derive(self, batch: Batch, layout: Layout) -> None:
+        """What follows from masses and inertias: springs and slips stay as they are."""
+        batch.set_const()
+        retune(batch, layout.springs)
+        for link, slot in layout.tyres.items():
+            set_slip(batch, slot, self.read(batch, layout, "wheel_slip", link))
 
     def drop(self, model: str) -> None:
         """Forget what was set for a model that is gone."""

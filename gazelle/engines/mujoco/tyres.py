@@ -13,7 +13,7 @@ before every run of steps.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -117,10 +117,35 @@ def set_slip(batch: Batch, slot: TyreSlot, slip: Floats) -> None:
     step, dofs = float(batch.model.opt.timestep), list(slot.dofs)
     own = batch.expanded("dof_invweight0")
     mobility = batch.model.dof_invweight0[dofs] if own is None else own[:, dofs]
-    share = np.clip(1.0 / (1.0 + slip / (step * mobility)), _LEAST, _MOST)
+    share = _share(slip, step, mobility)
     limits, held = batch.expand("eq_solimp"), list(slot.equalities)
     limits[:, held, 0] = limits[:, held, 1] = share
     batch.expand("eq_solref")[:, held, 1] = -share / step
+
+
+def tune_slips(model: mujoco.MjModel, slips: Mapping[str, tuple[float, float]]) -> None:
+    """Let the tyres of a compiled model slip by so much: [m/s/N] and [rad/s/(N m)]."""
+    step = float(model.opt.timestep)
+    for link, slip in slips.items():
+        slot = tyre_slot(model, link)
+        if slot is not None and any(slip):
+            share = _share(np.array(slip), step, model.dof_invweight0[list(slot.dofs)])
+            held = list(slot.equalities)
+            model.eq_solimp[held, 0] = model.eq_solimp[held, 1] = share
+            model.eq_solref[held, 1] = -share / step
+
+
+def compiled_slip(model: mujoco.MjModel, slot: TyreSlot) -> Floats:
+    """By how much a tyre of a compiled model slips a force: [m/s/N] and [rad/s/(N m)]."""
+    share = model.eq_solimp[list(slot.equalities), 0]
+    mobility = model.dof_invweight0[list(slot.dofs)]
+    slip: Floats = (1.0 / share - 1.0) * float(model.opt.timestep) * mobility
+    return np.where(share < _MOST, slip, 0.0)
+
+
+def _share(slip: Floats, step: float, mobility: Floats) -> Floats:
+    """The impedance of a slip, which is R = slip / step."""
+    return np.clip(1.0 / (1.0 + slip / (step * mobility)), _LEAST, _MOST)
 
 
 def _slide(link: str) -> str:
