@@ -23,7 +23,7 @@ import mujoco
 
 from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere
 from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
-from gazelle.engines.mujoco.native.extras import Rub
+from gazelle.engines.mujoco.laws.extras import Rub
 from gazelle.engines.mujoco.surfaces import rigid_terms, torsional_friction_of
 from gazelle.errors import EngineWarning
 

@@ -10,7 +10,10 @@ indices are neither negative nor checked, as in C.
 from gazelle.engines.native.calls import each, fused, lesser
 from gazelle.engines.native.decorators import Function, inner, kernel, part, whole
 from gazelle.engines.native.function import Native
+from gazelle.engines.native.memory import floats, integers, long_at
+from gazelle.engines.native.outside import c_function
 
 __all__ = [
-    "Function", "Native", "each", "fused", "inner", "kernel", "lesser", "part", "whole",
+    "Function", "Native", "c_function", "each", "floats", "fused", "inner", "integers", "kernel",
+    "lesser", "long_at", "part", "whole",
 ]  # fmt: skip

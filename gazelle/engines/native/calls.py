@@ -11,6 +11,7 @@ import numpy as np
 
 from gazelle.engines.native.code import Code, constant, rebuilt, words
 from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
+from gazelle.engines.native.memory import floats, integers, long_at
 from gazelle.engines.native.operators import compared
 from gazelle.errors import EngineError
 
@@ -139,6 +140,25 @@ def _zeros(code: Code, shape: Value) -> Value:
     return code.room("float64", _sizes(shape), zero=True)
 
 
+def _floats(code: Code, address: Value, count: Value) -> Value:
+    return _at(code, "float64", address, count)
+
+
+def _integers(code: Code, address: Value, count: Value) -> Value:
+    return _at(code, "int32", address, count)
+
+
+def _long_at(code: Code, address: Value) -> Value:
+    return code.element(_at(code, "int64", address, constant(1)), [constant(0)])
+
+
+def _at(code: Code, element: str, address: Value, count: Value) -> Value:
+    if not address.kind == count.kind == WHOLE:
+        raise EngineError("addresses and sizes are whole numbers")
+    place = code.get(WHOLE, f"inttoptr i64 {address.text} to ptr")
+    return Value(Array(element, 1), place.text, (count.text,))
+
+
 def _sizes(shape: Value) -> list[int]:
     sizes = [part.known for part in shape.parts or (shape,)]
     if not all(isinstance(size, int) and 0 < size <= _MOST for size in sizes):
@@ -150,4 +170,5 @@ _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     abs: _absolute, min: _least, max: _most, float: Code.real, bool: Code.truth, int: _whole,
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
     len: _length, fused: _fused, lesser: _lesser, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
+    floats: _floats, integers: _integers, long_at: _long_at,
 }  # fmt: skip

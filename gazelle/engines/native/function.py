@@ -12,7 +12,7 @@ from typing import Any
 
 from gazelle.engines.native.kinds import Kind
 from gazelle.engines.native.library import digest_of, load
-from gazelle.engines.native.machine import LOCK
+from gazelle.engines.native.machine import LOCK, machine
 from gazelle.engines.native.packing import Words
 
 _ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
@@ -60,6 +60,11 @@ class Native:
         """Its name in machine code for arguments of some kinds."""
         digest = hashlib.sha256(f"{self._digest}{kinds!r}".encode()).hexdigest()[:20]
         return f"{self.name}.{digest}"
+
+    def address(self, kinds: tuple[Kind, ...]) -> int:
+        """Where it is, compiled if need be, as a C function of values of some kinds."""
+        self._entry(kinds)
+        return machine().address(self.symbol(kinds))
 
     @functools.cached_property
     def _digest(self) -> str:

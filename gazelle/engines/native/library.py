@@ -90,7 +90,7 @@ def _describe(function: FunctionType, parts: list[str], seen: set[FunctionType])
         value: Any = function.__globals__.get(name)
         if getattr(value, "is_native", False):
             _describe(value.function, parts, seen)
-        elif isinstance(value, (bool, int, float)) or hasattr(value, "dtype"):
+        elif isinstance(value, (bool, int, float, tuple)) or hasattr(value, "dtype"):
             parts.append(f"{name} = {value!r}")
 
 

@@ -4,9 +4,9 @@ Three laws need more than MuJoCo's terms can say: bounces that reach e² of the 
 part of a step the impact falls in, friction by directions that turn with their surfaces, and
 the gyroscopic torque of what tumbles freely. MuJoCo calls one function of the process,
 ``mjcb_control``, in every step of every model; this one looks for a mark in the model and does
-nothing where there is none. It is compiled, by Numba, when a world first needs it.
+nothing where there is none. It is compiled when a world first needs it.
 """
 
-from gazelle.engines.mujoco.native.extras import Extras, finish, prepare
+from gazelle.engines.mujoco.laws.extras import Extras, finish, prepare
 
 __all__ = ["Extras", "finish", "prepare"]

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import ctypes
 from functools import lru_cache
 from typing import Any
 
 import mujoco
-import numba
-from numba.core import types
 
-from gazelle.engines.mujoco.native.kernel import apply
-from gazelle.engines.mujoco.native.layouts import offsets
+from gazelle.engines.mujoco.laws.kernel import apply
+from gazelle.engines.native import c_function
 from gazelle.errors import EngineError
-
-_AT = offsets()
 
 
 def install() -> None:
@@ -35,10 +30,5 @@ def install() -> None:
 
 @lru_cache(maxsize=1)
 def _function() -> Any:
-    """The compiled function, as MuJoCo takes it."""
-
-    @numba.cfunc(types.void(types.int64, types.int64))  # type: ignore[untyped-decorator]
-    def call(model: int, data: int) -> None:
-        apply(model, data, _AT)
-
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(call.address)
+    """The compiled function, as MuJoCo takes it: of the addresses of a model and its data."""
+    return c_function(apply, 2)

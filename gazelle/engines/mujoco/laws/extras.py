@@ -53,7 +53,7 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
     """Make room in a model for what ``finish`` writes."""
     if not extras.any:
         return
-    from gazelle.engines.mujoco.native.kernel import GEOM_NUMBERS, HEAD  # Numba
+    from gazelle.engines.mujoco.laws.kernel import GEOM_NUMBERS, HEAD  # the compiler
 
     size = HEAD + 2 * len(extras.tumbling)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
@@ -69,8 +69,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
     """
     if not extras.any:
         return
-    from gazelle.engines.mujoco.native.callback import install  # Numba
-    from gazelle.engines.mujoco.native.kernel import (
+    from gazelle.engines.mujoco.laws.callback import install  # the compiler
+    from gazelle.engines.mujoco.laws.kernel import (
         BY_THE_NORMAL,
         HEAD,
         ITS_OWN,

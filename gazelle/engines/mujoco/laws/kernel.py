@@ -7,13 +7,17 @@ each is to have, and before it solves for the forces. See ``docs/physics.md`` fo
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TypeAlias
 
-import numba
 import numpy as np
+from numpy.typing import NDArray
 
-from gazelle.engines.mujoco.native.layouts import Offsets
-from gazelle.engines.mujoco.native.memory import floats, integers, long_at
+from gazelle.engines.mujoco.laws.layouts import offsets
+from gazelle.engines.native import floats, integers, kernel, long_at, part
+
+Floats: TypeAlias = NDArray[np.float64]
+
+AT = offsets()
 
 # What the first number of a model says that the laws hold for.
 MARK = 7.0131e57
@@ -44,46 +48,45 @@ HEAD = 3
 _ROUNDS = 8
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def apply(model: int, data: int, at: Offsets) -> None:
+@kernel
+def apply(model: int, data: int) -> None:
     """Change what MuJoCo is about to solve for; of other models, nothing.
 
     Args:
         model: Address of the ``mjModel``.
         data: Address of the ``mjData``.
-        at: Where their fields are.
     """
-    if long_at(model + at.model_nnumeric) == 0:
+    if long_at(model + AT.model_nnumeric) == 0:
         return
-    head = floats(long_at(model + at.model_numeric), HEAD)
+    head = floats(long_at(model + AT.model_numeric), HEAD)
     if head[0] != MARK:
         return
     if head[2] > 0.0:
-        _keep_turning(model, data, at, int(head[2]))
-    contacts = long_at(data + at.contact)
-    for index in range(integers(data + at.ncon, 1)[0]):
-        contact = contacts + index * at.contact_size
-        row = integers(contact + at.contact_address, 1)[0]
+        _keep_turning(model, data, int(head[2]))
+    contacts = long_at(data + AT.contact)
+    for index in range(integers(data + AT.ncon, 1)[0]):
+        contact = contacts + index * AT.contact_size
+        row = integers(contact + AT.contact_address, 1)[0]
         if row < 0:
             continue
-        if long_at(model + at.model_nuser_geom) == GEOM_NUMBERS:
-            _direct(model, data, at, contact, row, head[1])
-        if floats(contact + at.contact_solreffriction, 2)[1] < 0.0:
-            _bounce(model, data, at, contact, row)
+        if long_at(model + AT.model_nuser_geom) == GEOM_NUMBERS:
+            _direct(model, data, contact, row, head[1])
+        if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
+            _bounce(model, data, contact, row)
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _bounce(model: int, data: int, at: Offsets, contact: int, row: int) -> None:
+@part
+def _bounce(model: int, data: int, contact: int, row: int) -> None:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
-    step = floats(model + at.model_timestep, 1)[0]
-    velocity = floats(long_at(data + at.velocity), row + 1)
-    pull = _pull(model, at, contact)
+    step = floats(model + AT.model_timestep, 1)[0]
+    velocity = floats(long_at(data + AT.velocity), row + 1)
+    pull = _pull(model, contact)
     speed, late = -velocity[row], 0.5 * pull * step
     if speed <= _STEPS_TO_REST * abs(pull) * step or speed <= 0.0:
         return
-    e = -floats(contact + at.contact_solref, 2)[1] * step / _FULL - 1.0
-    reference = floats(long_at(data + at.reference), row + 1)
-    height = floats(contact + at.contact_dist, 1)[0] - floats(contact + at.contact_margin, 1)[0]
+    e = -floats(contact + AT.contact_solref, 2)[1] * step / _FULL - 1.0
+    reference = floats(long_at(data + AT.reference), row + 1)
+    height = floats(contact + AT.contact_dist, 1)[0] - floats(contact + AT.contact_margin, 1)[0]
     if height > 0.0:
         # A contact seen ahead: MuJoCo says how high it is by the speed that it wants.
         height = (speed - reference[row] * step) * step / _SPECULATIVE_SHARE
@@ -95,38 +98,39 @@ def _bounce(model: int, data: int, at: Offsets, contact: int, row: int) -> None:
         reference[row] = _NOT_YET
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _pull(model: int, at: Offsets, contact: int) -> Any:
+@part
+def _pull(model: int, contact: int) -> float:
     """How much faster two bodies approach a second later if nothing holds them."""
-    normal = floats(contact + at.contact_frame, 3)
-    geoms = integers(contact + at.contact_geom, 2)
-    gravity = floats(model + at.model_gravity, 3)
+    normal = floats(contact + AT.contact_frame, 3)
+    geoms = integers(contact + AT.contact_geom, 2)
+    gravity = floats(model + AT.model_gravity, 3)
     along = 0.0
     for side in range(2):
         geom = geoms[side]
-        body = integers(long_at(model + at.model_bodyid), geom + 1)[geom]
-        root = integers(long_at(model + at.model_rootid), body + 1)[body]
-        if integers(long_at(model + at.model_jntnum), root + 1)[root] == 0:
+        body = integers(long_at(model + AT.model_bodyid), geom + 1)[geom]
+        root = integers(long_at(model + AT.model_rootid), body + 1)[body]
+        if integers(long_at(model + AT.model_jntnum), root + 1)[root] == 0:
             continue
-        joint = integers(long_at(model + at.model_jntadr), root + 1)[root]
-        if integers(long_at(model + at.model_jnt_type), joint + 1)[joint] != _FREE:
+        joint = integers(long_at(model + AT.model_jntadr), root + 1)[root]
+        if integers(long_at(model + AT.model_jnt_type), joint + 1)[joint] != _FREE:
             continue
-        borne = floats(long_at(model + at.model_gravcomp), body + 1)[body]
+        borne = floats(long_at(model + AT.model_gravcomp), body + 1)[body]
         sign = 1.0 if side == 0 else -1.0
         for axis in range(3):
             along += sign * (1.0 - borne) * gravity[axis] * normal[axis]
     return along
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _direct(model: int, data: int, at: Offsets, contact: int, row: int, sparse: float) -> None:
+@part
+def _direct(model: int, data: int, contact: int, row: int, sparse: float) -> None:
     """Turn the two directions in which a contact rubs to those that its surfaces have."""
-    if integers(contact + at.contact_dim, 1)[0] < 3:
+    if integers(contact + AT.contact_dim, 1)[0] < 3:
         return
-    if integers(model + at.model_cone, 1)[0] != _ELLIPTIC:
+    if integers(model + AT.model_cone, 1)[0] != _ELLIPTIC:
         return
-    frame = floats(contact + at.contact_frame, 9)
-    wanted = _first_direction(model, data, at, contact)
+    frame = floats(contact + AT.contact_frame, 9)
+    wanted = np.zeros(3)
+    _first_direction(model, data, contact, wanted)
     one, two = 0.0, 0.0
     for axis in range(3):
         one += wanted[axis] * frame[3 + axis]
@@ -137,71 +141,69 @@ def _direct(model: int, data: int, at: Offsets, contact: int, row: int, sparse: 
     one, two = one / size, two / size
     for axis in range(3):
         _turn(frame, 3 + axis, 6 + axis, one, two)
-    _turn(floats(long_at(data + at.velocity), row + 3), row + 1, row + 2, one, two)
-    _turn(floats(long_at(data + at.reference), row + 3), row + 1, row + 2, one, two)
+    _turn(floats(long_at(data + AT.velocity), row + 3), row + 1, row + 2, one, two)
+    _turn(floats(long_at(data + AT.reference), row + 3), row + 1, row + 2, one, two)
     if sparse > 0.0:
-        addresses = integers(long_at(data + at.rowadr), row + 3)
+        addresses = integers(long_at(data + AT.rowadr), row + 3)
         first, second = addresses[row + 1], addresses[row + 2]
-        width = integers(long_at(data + at.rownnz), row + 3)[row + 1]
+        width = integers(long_at(data + AT.rownnz), row + 3)[row + 1]
     else:
-        width = long_at(model + at.model_nv)
+        width = long_at(model + AT.model_nv)
         first, second = (row + 1) * width, (row + 2) * width
-    jacobian = floats(long_at(data + at.jacobian), second + width)
+    jacobian = floats(long_at(data + AT.jacobian), second + width)
     for column in range(width):
         _turn(jacobian, first + column, second + column, one, two)
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _turn(array: Any, first: int, second: int, one: float, two: float) -> None:
+@part
+def _turn(array: Floats, first: int, second: int, one: float, two: float) -> None:
     a, b = array[first], array[second]
     array[first] = one * a + two * b
     array[second] = one * b - two * a
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _first_direction(model: int, data: int, at: Offsets, contact: int) -> Any:
-    """ODE's first direction of a contact in the world; zeros where it does not matter."""
-    found = np.zeros(3)
-    geoms = integers(contact + at.contact_geom, 2)
+@part
+def _first_direction(model: int, data: int, contact: int, found: Floats) -> None:
+    """ODE's first direction of a contact in the world; zeros remain where it does not matter."""
+    geoms = integers(contact + AT.contact_geom, 2)
     chosen, least, kind = -1, math.inf, NO_DIRECTION
     for side in range(2):
         geom = geoms[side]
         if geom < 0:
             continue
-        start = long_at(model + at.model_geom_user) + 8 * GEOM_NUMBERS * geom
+        start = long_at(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom
         own = floats(start, GEOM_NUMBERS)
         if own[0] == ITS_OWN and (kind != ITS_OWN or own[4] < least):
             chosen, least, kind = geom, own[4], ITS_OWN
         elif own[0] == BY_THE_NORMAL and kind == NO_DIRECTION:
             kind = BY_THE_NORMAL
     if kind == ITS_OWN:
-        start = long_at(model + at.model_geom_user) + 8 * GEOM_NUMBERS * chosen
+        start = long_at(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * chosen
         own = floats(start, GEOM_NUMBERS)
-        turn = floats(long_at(data + at.geom_xmat) + 72 * chosen, 9)
+        turn = floats(long_at(data + AT.geom_xmat) + 72 * chosen, 9)
         for axis in range(3):
             found[axis] = (
                 turn[3 * axis] * own[1] + turn[3 * axis + 1] * own[2] + turn[3 * axis + 2] * own[3]
             )
     elif kind == BY_THE_NORMAL:
-        normal = floats(contact + at.contact_frame, 3)
+        normal = floats(contact + AT.contact_frame, 3)
         if abs(normal[2]) > math.sqrt(0.5):
             found[1], found[2] = -normal[2], normal[1]
         else:
             found[0], found[1] = -normal[1], normal[0]
-    return found
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _keep_turning(model: int, data: int, at: Offsets, count: int) -> None:
+@part
+def _keep_turning(model: int, data: int, count: int) -> None:
     """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
-    step = floats(model + at.model_timestep, 1)[0]
-    numbers = floats(long_at(model + at.model_numeric), HEAD + 2 * count)
-    spin, middle, rate = np.zeros(3), np.zeros(3), np.zeros(3)
+    step = floats(model + AT.model_timestep, 1)[0]
+    numbers = floats(long_at(model + AT.model_numeric), HEAD + 2 * count)
+    spin, middle, rate, wanted = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     for place in range(count):
         body, dof = int(numbers[HEAD + 2 * place]), int(numbers[HEAD + 2 * place + 1])
-        velocity = floats(long_at(data + at.qvel) + 8 * (dof + 3), 3)
-        moments = floats(long_at(model + at.model_inertia) + 24 * body, 3)
-        axes = floats(long_at(model + at.model_iquat) + 32 * body, 4)
+        velocity = floats(long_at(data + AT.qvel) + 8 * (dof + 3), 3)
+        moments = floats(long_at(model + AT.model_inertia) + 24 * body, 3)
+        axes = floats(long_at(model + AT.model_iquat) + 32 * body, 4)
         _rotate(axes, velocity, -1.0, spin)
         for axis in range(3):
             middle[axis] = spin[axis]
@@ -210,27 +212,26 @@ def _keep_turning(model: int, data: int, at: Offsets, count: int) -> None:
             for axis in range(3):
                 middle[axis] = spin[axis] + 0.5 * step * rate[axis] / moments[axis]
         _gyration(middle, moments, rate)
-        wanted = rate.copy()
-        _gyration(spin, moments, rate)
+        _gyration(spin, moments, wanted)
         for axis in range(3):
-            wanted[axis] -= rate[axis]
+            wanted[axis] = rate[axis] - wanted[axis]
         _rotate(axes, wanted, 1.0, rate)
-        torque = floats(long_at(data + at.passive) + 8 * (dof + 3), 3)
+        torque = floats(long_at(data + AT.passive) + 8 * (dof + 3), 3)
         if math.isfinite(rate[0] + rate[1] + rate[2]):
             for axis in range(3):
                 torque[axis] += rate[axis]
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _gyration(spin: Any, moments: Any, out: Any) -> None:
+@part
+def _gyration(spin: Floats, moments: Floats, out: Floats) -> None:
     """The gyroscopic torque, -w x I w, along principal axes."""
     out[0] = (moments[1] - moments[2]) * spin[1] * spin[2]
     out[1] = (moments[2] - moments[0]) * spin[2] * spin[0]
     out[2] = (moments[0] - moments[1]) * spin[0] * spin[1]
 
 
-@numba.njit(nogil=True, error_model="numpy")  # type: ignore[untyped-decorator]
-def _rotate(turn: Any, vector: Any, sense: float, out: Any) -> None:
+@part
+def _rotate(turn: Floats, vector: Floats, sense: float, out: Floats) -> None:
     """Rotate by a quaternion (w, x, y, z), or back."""
     w, x, y, z = turn[0], sense * turn[1], sense * turn[2], sense * turn[3]
     a = 2.0 * (y * vector[2] - z * vector[1])
