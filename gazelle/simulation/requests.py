@@ -10,12 +10,54 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
+from types import TracebackType
 from typing import Any, TypeVar
 
 T = TypeVar("T")
 
 # How long a waiting thread sleeps before it looks whether the stepping has ended [s].
 _PATIENCE = 0.002
+
+
+class Ownership:
+    """The lock of the state. Who lets go of it looks whether something was posted meanwhile.
+
+    Otherwise what is posted between an owner's last look and its letting go would wait for the
+    next owner: for ever, while the simulation is paused.
+
+    Args:
+        settle: Does what waits, if anything does and nobody else owns the state.
+    """
+
+    def __init__(self, settle: Callable[[], None]) -> None:
+        self._lock = threading.RLock()
+        self._depth = 0
+        self._settle = settle
+
+    def acquire(self, *, blocking: bool = True) -> bool:
+        """Own the state; whether it came to that."""
+        owned = self._lock.acquire(blocking=blocking)
+        self._depth += owned
+        return owned
+
+    def release(self) -> None:
+        """Let go of what ``acquire`` got."""
+        self._depth -= 1
+        outermost = self._depth == 0
+        self._lock.release()
+        if outermost:
+            self._settle()
+
+    def __enter__(self) -> None:
+        self.acquire()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.release()
 
 
 class RequestQueue:
@@ -26,18 +68,14 @@ class RequestQueue:
     """
 
     def __init__(self) -> None:
-        self.lock = threading.RLock()
+        self.lock = Ownership(self._settle)
         self._waiting: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
 
     def post(self, work: Callable[[], T]) -> Future[T]:
         """Have something done between two steps; at once when nothing is stepping."""
         future: Future[T] = Future()
         self._waiting.append((work, future))
-        if self.lock.acquire(blocking=False):
-            try:
-                self.drain()
-            finally:
-                self.lock.release()
+        self._settle()
         return future
 
     def call(self, work: Callable[[], T]) -> T:
@@ -58,11 +96,15 @@ class RequestQueue:
             except TimeoutError:
                 if future.done():
                     return future.result()
-                if self.lock.acquire(blocking=False):
-                    try:
-                        self.drain()
-                    finally:
-                        self.lock.release()
+                self._settle()
+
+    def _settle(self) -> None:
+        """Do what waits, if anything does and nobody else owns the state."""
+        if self._waiting and self.lock.acquire(blocking=False):
+            try:
+                self.drain()
+            finally:
+                self.lock.release()
 
     def drain(self) -> None:
         """Do all that waits; the caller owns the state."""
