@@ -17,8 +17,8 @@ from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
+from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.loose import tumbling
-from gazelle.engines.mujoco.native import Extras, finish, prepare
 from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_slip

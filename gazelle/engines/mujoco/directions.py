@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.description import Collision, Pose
-from gazelle.engines.mujoco.native.extras import Rub
+from gazelle.engines.mujoco.laws.extras import Rub
 from gazelle.engines.mujoco.surfaces import friction_of, second_friction_of
 from gazelle.rotations import rotate
 
