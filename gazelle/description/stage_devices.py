@@ -31,7 +31,8 @@ class StagePosition:
         localization_origin: Pose that odometry starts from [m, rad]; None: where the robot is.
         odom_error: Largest share by which odometry errs in x, y, z and yaw.
         wheelbase: Of a car [m].
-        velocity_bounds: (least, greatest) along x, y, z [m/s] and about yaw [rad/s].
+        velocity_bounds: (least, greatest) along x, y, z [m/s] and about yaw [rad/s] of the body,
+            also of a car.
         acceleration_bounds: Likewise [m/s², rad/s²]; they hold when it is driven by
             accelerations.
     """
@@ -123,7 +124,8 @@ class StageFiducial:
     """``fiducial``: finds models that have a ``fiducial_return``.
 
     Attributes:
-        range: Nearest and farthest distance at which it sees one [m].
+        range: Nearest and farthest distance at which it sees one [m]; Stage 4.3 reads the
+            nearest, and sees nearer ones too.
         range_id: Distance up to which it can read the number [m].
         fov: [rad].
         ignore_height: Whether it sees models lower or higher than itself too.

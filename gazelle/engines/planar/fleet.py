@@ -33,7 +33,8 @@ class Drive:
     Attributes:
         kind: ``diff`` goes forward and turns, ``omni`` also goes sideways, ``car`` steers: its
             command is the speed of its front wheel and, as turning, the steering angle.
-        slowest: Least velocity along x and y and about z [m/s, rad/s].
+        slowest: Least velocity along x and y and about z [m/s, rad/s]; of a car that of its body,
+            whatever its command.
         fastest: Greatest.
         brake: Least acceleration [m/s², rad/s²].
         push: Greatest.

@@ -31,9 +31,14 @@ from gazelle.engines.planar.tables import Flags, Floats, Marks
 
 
 @inner
+def bounded(value: float, drives: Floats, k: int, axis: int) -> float:
+    """A velocity along an axis within the bounds of a drive."""
+    return float(min(max(value, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis]))
+
+
+@inner
 def toward(now: float, wanted: float, drives: Floats, k: int, axis: int, dt: float) -> float:
-    """The velocity along an axis after a step, within the bounds of a drive."""
-    wanted = min(max(wanted, drives[k, SLOWEST + axis]), drives[k, FASTEST + axis])
+    """The velocity along an axis after a step, within a drive's bounds of acceleration."""
     change = wanted - now
     least, most = drives[k, BRAKE + axis] * dt, drives[k, PUSH + axis] * dt
     return wanted if least <= change <= most else now + min(max(change, least), most)
@@ -114,12 +119,16 @@ def propose(
         if kind == PASSIVE:
             continue
         for axis in range(3):
-            velocity[b, axis] = toward(velocity[b, axis], command[b, axis], drives, k, axis, dt)
+            wanted = command[b, axis]
+            if kind != CAR:
+                wanted = bounded(wanted, drives, k, axis)
+            velocity[b, axis] = toward(velocity[b, axis], wanted, drives, k, axis, dt)
         vx, vy, turn = velocity[b, 0], velocity[b, 1], velocity[b, 2]
         if kind in (DIFFERENTIAL, CAR):
             vy = velocity[b, 1] = 0.0
         if kind == CAR:
             vx, turn = vx * math.cos(turn), vx * math.sin(turn) / drives[k, WHEELBASE]
+            vx, turn = bounded(vx, drives, k, 0), bounded(turn, drives, k, 2)
         if vx == 0.0 and vy == 0.0 and turn == 0.0:
             continue
         go(pose, goal, b, vx, vy, turn, dt, euler)

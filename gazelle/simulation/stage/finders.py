@@ -64,7 +64,7 @@ class Blob:
         color: Of the models in it.
         left: Its first column.
         right: Its last column.
-        distance: To the nearest of it [m].
+        distance: To it, the mean of its columns [m].
     """
 
     color: Color
@@ -167,7 +167,7 @@ def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> 
     finder = around.mounted(robot, StageFiducial, which, world)
     device, here = finder.device, finder.pose
     models, lines = around.around(robot, device.range[1], world)
-    level = lines if device.ignore_height else lines.at(here.z)
+    level = lines.at(here.z)
     found = []
     for index, each in enumerate(models):
         returns = each.model.returns
@@ -176,19 +176,23 @@ def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> 
         dx, dy = each.pose.x - here.x, each.pose.y - here.y
         distance = math.hypot(dx, dy)
         bearing = _wrapped(math.atan2(dy, dx) - here.yaw)
-        if not device.range[0] <= distance <= device.range[1] or abs(bearing) > device.fov / 2.0:
-            continue
+        if distance >= device.range[1] or abs(bearing) > device.fov / 2.0:
+            continue  # as in Stage it does not matter how near something is
         met = distances(here.x, here.y, np.array([here.yaw + bearing]), level)[0]
         own = float(met[level.owners == index].min(initial=np.inf))
-        if math.isfinite(own) and own <= met.min():
-            number = returns.fiducial if distance <= device.range_id else 0
+        if math.isinf(own) and device.ignore_height:
+            own = distance
+        if math.isfinite(own) and own <= met.min(initial=np.inf):
+            number = returns.fiducial if distance < device.range_id else 0
             heading = _wrapped(each.pose.yaw - here.yaw)
             found.append(Fiducial(each.name, number, distance, bearing, heading))
     return sorted(found, key=lambda each: each.distance)
 
 
 def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list[Blob]:
-    """What a blob finder of a robot sees, from left to right.
+    """What a blob finder of a robot sees, from left to right, whatever its height.
+
+    Its columns are spread from edge to edge of its field of view, as in Stage.
 
     Raises:
         SimulationError: It has no such finder.
@@ -196,14 +200,13 @@ def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list
     finder = around.mounted(robot, StageBlobfinder, which, world)
     device, here = finder.device, finder.pose
     models, lines = around.around(robot, device.range, world)
-    level = lines.at(here.z)
     columns = device.image[0]
-    aside = device.fov * (0.5 - (np.arange(columns) + 0.5) / columns)
-    met = distances(here.x, here.y, here.yaw + device.pan + aside, level)
+    aside = np.linspace(0.5, -0.5, columns) * device.fov if columns > 1 else np.zeros(1)
+    met = distances(here.x, here.y, here.yaw + device.pan + aside, lines)
     nearest = met.min(axis=1, initial=np.inf)
     blobs: list[Blob] = []
     for column in np.flatnonzero(nearest <= device.range).tolist():
-        seen = models[int(level.owners[int(met[column].argmin())])].model
+        seen = models[int(lines.owners[int(met[column].argmin())])].model
         color = color_of(seen)
         if seen.returns.blob and (not device.colors or color in device.colors):
             _add(blobs, Blob(color, column, column, float(nearest[column])))
@@ -216,7 +219,9 @@ def _add(blobs: list[Blob], new: Blob) -> None:
     if last is None or last.right != new.left - 1 or last.color != new.color:
         blobs.append(new)
         return
-    blobs[-1] = replace(last, right=new.right, distance=min(last.distance, new.distance))
+    width = last.right - last.left + 1
+    mean = (width * last.distance + new.distance) / (width + 1)
+    blobs[-1] = replace(last, right=new.right, distance=mean)
 
 
 def _wrapped(angle: float) -> float:

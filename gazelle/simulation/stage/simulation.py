@@ -105,6 +105,8 @@ class StageSimulation(Senses):
         positions = [robot.position for robot in self.robots]
         self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
         self._wheelbase = np.array([p.wheelbase for p in positions])
+        bounds = [p.velocity_bounds for p in positions if p.drive == _CAR]
+        self._car_bounds = np.array(bounds).reshape(-1, 4, 2)[:, (0, 1, 3)].transpose(2, 0, 1)
         self._now = self.poses
         self._before = self._now.copy()
         self._listeners: list[Listener] = []
@@ -167,6 +169,7 @@ class StageSimulation(Senses):
         speed, angle = driven[:, self._cars, 0], driven[:, self._cars, 2]
         velocity[:, self._cars, 0] = speed * np.cos(angle)
         velocity[:, self._cars, 2] = speed * np.sin(angle) / self._wheelbase[self._cars]
+        velocity[:, self._cars] = np.clip(velocity[:, self._cars], *self._car_bounds)
         return velocity
 
     @property

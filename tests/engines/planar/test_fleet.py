@@ -83,6 +83,14 @@ def test_bounds_hold():
     assert fleet.velocity[0, 0] == pytest.approx([0.3, 0.0, 0.25])
 
 
+def test_bounds_of_a_car_hold_for_its_body_not_its_steering():
+    fleet = one(Drive("car", fastest=(1.0, 0.0, 0.5), wheelbase=0.3), euler=True)
+    fleet.command[:] = 0.9, 0.0, 1.2
+    fleet.step()
+    step = fleet.time_step
+    assert fleet.pose[0, 0] == pytest.approx([0.9 * math.cos(1.2) * step, 0.0, 0.5 * step])
+
+
 def test_a_move_into_a_wall_is_not_made_at_all():
     wall = Part.box(0.1, 4.0, x=1.0)
     fleet = Fleet([Body((Part.box(0.3, 0.2),), drive=Drive())], [wall])

@@ -37,7 +37,6 @@ def test_a_fiducial_is_told_with_where_it_is(start):
     ("finder", "mark"),
     [
         ("range_max 2", ""),
-        ("range_min 3", ""),
         ("fov 40", ""),
         ("fiducial_key 1", ""),
         ("", "fiducial_return 0"),
@@ -52,6 +51,18 @@ def test_what_a_finder_does_not_see(start, finder, mark):
 def test_height_can_be_left_out(start):
     text = FINDER.format("ignore_zloc 1") + MARK.format("size [.2 .2 .1]")
     assert len(start(text).fiducials("r")) == 1
+
+
+def test_leaving_out_height_does_not_look_through_walls(start):
+    text = FINDER.format("ignore_zloc 1") + MARK.format("size [.2 .2 .1]")
+    low, high = (f"model ( size [.1 .9 {z}] pose [1 .5 0 27] )" for z in (0.1, 1.0))
+    behind = "model ( size [.1 .9 1] pose [4 2 0 27] )"
+    assert len(start(text + low + behind).fiducials("r")) == 1
+    assert start(text + high).fiducials("r") == []
+
+
+def test_one_may_be_nearer_than_range_min_as_in_stage(start):
+    assert len(start(FINDER.format("range_min 3") + MARK.format("")).fiducials("r")) == 1
 
 
 def test_one_that_is_far_cannot_be_read(start):
@@ -101,7 +112,7 @@ def test_blobs_are_found_from_left_to_right(start):
     assert (left.color, right.color) == (GREEN, BLUE)
     assert left.left < left.right < right.left < right.right
     assert left.left == 99 - right.right
-    assert left.distance == pytest.approx(math.hypot(2.75, 0.75), abs=0.02)
+    assert math.hypot(2.75, 0.75) < left.distance < math.hypot(3.25, 0.75)
 
 
 def test_only_wanted_colours_are_found(start):
@@ -121,7 +132,17 @@ def test_a_blob_is_the_size_that_it_looks(start):
         'position ( name "r" size [.2 .2 .2] blobfinder ( image [90 60] fov 90 ) )'
         'model ( size [.1 2 1] pose [1.05 0 0 0] color "green" )'
     )
-    assert sim.blobs("r") == [Blob(GREEN, 0, 89, pytest.approx(1.0, abs=1e-3))]
+    sides = [math.radians(45 - 90 * column / 89) for column in range(90)]
+    mean = sum(1.0 / math.cos(side) for side in sides) / 90
+    assert sim.blobs("r") == [Blob(GREEN, 0, 89, pytest.approx(mean, abs=1e-3))]
+
+
+def test_blobs_are_seen_at_any_height(start):
+    sim = start(
+        'position ( name "r" size [.2 .2 1] blobfinder ( image [90 60] fov 40 ) )'
+        'model ( size [.1 2 .1] pose [1.05 0 0 0] color "green" )'
+    )
+    assert [(b.left, b.right) for b in sim.blobs("r")] == [(0, 89)]
 
 
 def test_a_robot_without_a_finder_says_so(start):
