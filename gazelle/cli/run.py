@@ -1,11 +1,13 @@
 """Simulate a file, without a window: an SDF or .world, a URDF or xacro, a Stage
-.world, a model's folder, or a bundled name (see 'gazelle worlds').
+.world, a map_server map, a model's folder, or a bundled name (see 'gazelle
+worlds').
 
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
   gazelle run fleet --view
+  gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
 Gazebo has them. A master is started where ROS_MASTER_URI names none that
