@@ -1,4 +1,4 @@
-"""The pause for compiling the planar engine's kernels, at first use on a machine and later.
+"""The pause for compiling the engines' kernels, at first use on a machine and later.
 
 Each case runs in a process of its own with an empty cache, then again with what the first run
 kept; the difference is the pause. Processor time counts little of what else a machine does.
@@ -27,10 +27,12 @@ env = gymnasium.make("gazelle/TurtleBot3Stage4-v0", engine="planar")
 env.reset(seed=0)
 env.step(2)
 """
+LAWS = "from gazelle.engines.mujoco.laws.callback import install; install()"
 CASES = {
     "a Fleet's step and scan": ["-c", FLEET],
     "gazelle run fleet": ["-m", "gazelle", "run", "fleet", "--for", "1", "--rate", "max"],
     "TurtleBot3Stage4, engine planar": ["-c", SINGLE],
+    "laws that MuJoCo calls": ["-c", LAWS],
 }
 
 

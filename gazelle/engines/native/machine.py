@@ -11,8 +11,8 @@ from typing import Final
 from gazelle.errors import MissingExtraError
 
 try:
-    import llvmlite  # type: ignore[import-untyped]
-    import llvmlite.binding as llvm  # type: ignore[import-untyped]
+    import llvmlite
+    import llvmlite.binding as llvm
 except ImportError as error:
     raise MissingExtraError("llvmlite", "planar") from error
 

@@ -11,9 +11,9 @@ from gazelle.errors import EngineError
 
 
 def processors() -> int:
-    """Processors this process may use; ``NUMBA_NUM_THREADS`` says fewer."""
+    """Processors this process may use; ``GAZELLE_NUM_THREADS`` says fewer."""
     available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    wanted = os.environ.get("NUMBA_NUM_THREADS", "")
+    wanted = os.environ.get("GAZELLE_NUM_THREADS", "")
     return min(available or 1, int(wanted)) if wanted.isdigit() and int(wanted) else available or 1
 
 
