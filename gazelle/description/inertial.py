@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
 
@@ -18,6 +21,23 @@ class Inertia:
     ixy: float = 0.0
     ixz: float = 0.0
     iyz: float = 0.0
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> Inertia:
+        """From a symmetric matrix, shape (3, 3) [kg m²]."""
+        rows = np.asarray(matrix, np.float64).tolist()
+        (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = rows
+        return cls(ixx, iyy, izz, ixy, ixz, iyz)
+
+    def matrix(self) -> NDArray[np.float64]:
+        """The tensor as a matrix, shape (3, 3) [kg m²]."""
+        return np.array(
+            [
+                [self.ixx, self.ixy, self.ixz],
+                [self.ixy, self.iyy, self.iyz],
+                [self.ixz, self.iyz, self.izz],
+            ]
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,7 +41,7 @@ class Solid:
     """A body of density 1 kg/m³.
 
     Attributes:
-        volume: [m³].
+        volume: [m³]; of one that is scaled by a density, its mass [kg].
         center: Centre of mass [m], shape (3,).
         inertia: About the centre of mass [m⁵], shape (3, 3).
     """
@@ -100,20 +100,8 @@ def joined(solids: Iterable[Solid]) -> Solid | None:
 
 def inertial_of(solid: Solid) -> Inertial:
     """Mass and inertia of a body whose volume is already its mass [kg]."""
-    i = solid.inertia
     x, y, z = solid.center.tolist()
-    return Inertial(
-        mass=solid.volume,
-        pose=Pose(x, y, z),
-        inertia=Inertia(
-            ixx=float(i[0, 0]),
-            iyy=float(i[1, 1]),
-            izz=float(i[2, 2]),
-            ixy=float(i[0, 1]),
-            ixz=float(i[0, 2]),
-            iyz=float(i[1, 2]),
-        ),
-    )
+    return Inertial(solid.volume, Pose(x, y, z), Inertia.from_matrix(solid.inertia))
 
 
 def _even(volume: float, moments: tuple[float, float, float], z: float = 0.0) -> Solid:

@@ -13,7 +13,6 @@ from gazelle import Error, formats
 from gazelle.formats import xacro
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.formats.urdf.lump import tensor
 
 ROBOTS = "ROBOTIS-GIT__turtlebot3/turtlebot3_description/urdf"
 MODELS = "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models"
@@ -123,7 +122,7 @@ def under_own_name(name, lumped):
 
 def turned(link):
     axes = link.inertial.pose.matrix()[:3, :3]
-    return axes @ tensor(link.inertial.inertia) @ axes.T
+    return axes @ link.inertial.inertia.matrix() @ axes.T
 
 
 def assert_same_joint(joint, theirs):

@@ -11,7 +11,7 @@ from xml_samples import INERTIAL, joint, link, urdf, urdf_joint, urdf_link
 from gazelle import FormatError, Pose
 from gazelle.description import Box, Inertia, Inertial
 from gazelle.errors import FormatWarning
-from gazelle.formats.urdf.lump import combine, tensor
+from gazelle.formats.urdf.lump import combine
 
 BOX = "<geometry><box size='1 1 1'/></geometry>"
 
@@ -341,7 +341,7 @@ def test_a_lumped_body_has_the_kinetic_energy_of_its_parts(pieces, rotation, spi
         center = pose * inertial.pose
         turn = center.matrix()[:3, :3]
         v = np.cross(w, center.position)
-        return inertial.mass * v @ v + w @ turn @ tensor(inertial.inertia) @ turn.T @ w
+        return inertial.mass * v @ v + w @ turn @ inertial.inertia.matrix() @ turn.T @ w
 
     assert energy(Pose(), whole) == pytest.approx(sum(energy(*piece) for piece in pieces), rel=1e-9)
 

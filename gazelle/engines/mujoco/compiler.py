@@ -306,10 +306,8 @@ class _Builder:
 
 def _set_inertial(handle: Any, body: Body) -> None:
     inertial = body.link.inertial or Inertial()
-    i = inertial.inertia
-    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     rotation = inertial.pose.matrix()[:3, :3]
-    turned = rotation @ tensor @ rotation.T
+    turned = rotation @ inertial.inertia.matrix() @ rotation.T
     if inertial.mass <= 0.0:
         raise EngineError(
             f"link '{body.name}' moves but has the mass {inertial.mass:g} kg",

@@ -158,7 +158,5 @@ def _turn(link: str) -> str:
 
 def _moment_about(axis: Floats, inertial: Inertial) -> float:
     """A wheel's moment of inertia about its axle [kg m²]."""
-    i = inertial.inertia
-    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     turned = np.asarray(inertial.pose.matrix())[:3, :3].T @ axis
-    return float(turned @ tensor @ turned)
+    return float(turned @ inertial.inertia.matrix() @ turned)

@@ -20,6 +20,7 @@ from gazelle.description import (
     World,
 )
 from gazelle.formats.judge.finding import Finding, moving_links_of
+from gazelle.formats.solids import solid_of
 
 # An inertia this many times off the one of a solid of the link's shape is a typing error.
 _FACTOR = 10.0
@@ -29,6 +30,8 @@ _ROUNDING = 1e-3
 
 # Masses of joined links this far apart make constraint solvers slow and soft.
 _MASS_RATIO = 1e4
+
+_SIMPLE = (Box, Capsule, Cylinder, Ellipsoid, Sphere)
 
 
 def judge(world: World) -> Iterator[Finding]:
@@ -52,8 +55,7 @@ def judge(world: World) -> Iterator[Finding]:
 
 def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
     """Principal moments of inertia, smallest first [kg m²]."""
-    i = inertia
-    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    tensor = inertia.matrix()
     if not np.isfinite(tensor).all():
         return (math.nan, math.nan, math.nan)
     low, middle, high = np.linalg.eigvalsh(tensor)
@@ -62,29 +64,11 @@ def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
 
 def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
     """Principal moments of a solid of even density, smallest first [kg m²]; None if unknown."""
-    try:
-        return _solid_moments(shape, mass)
-    except OverflowError:  # a size that no number can hold the square of
+    # Others are seldom in files, and a mesh is a hull as often as it is the part itself.
+    solid = solid_of(shape) if isinstance(shape, _SIMPLE) else None
+    if solid is None:
         return None
-
-
-def _solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
-    if isinstance(shape, Box):
-        x, y, z = (side * side for side in shape.size)
-        found = (y + z) / 12.0, (x + z) / 12.0, (x + y) / 12.0
-    elif isinstance(shape, Sphere):
-        found = (0.4 * shape.radius**2,) * 3
-    elif isinstance(shape, Cylinder | Capsule):
-        length = shape.length + (shape.radius if isinstance(shape, Capsule) else 0.0)
-        across = shape.radius**2 / 4.0 + length**2 / 12.0
-        found = shape.radius**2 / 2.0, across, across
-    elif isinstance(shape, Ellipsoid):
-        a, b, c = (radius * radius for radius in shape.radii)
-        found = (b + c) / 5.0, (a + c) / 5.0, (a + b) / 5.0
-    else:
-        return None
-    low, middle, high = sorted(mass * value for value in found)
-    return (low, middle, high)
+    return principal_moments(Inertia.from_matrix(solid.scaled(mass / solid.volume).inertia))
 
 
 def _triangle(name: str, inertial: Inertial) -> Iterator[Finding]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.description import Inertia, Inertial, Pose
+from gazelle.formats.solids import Solid, joined
 from gazelle.formats.urdf.tree import Body
 
 
@@ -30,33 +30,18 @@ def body_inertial(body: Body) -> Inertial | None:
     return combine(parts, rotation)
 
 
-def combine(parts: Sequence[tuple[Pose, Inertial]], rotation: Pose) -> Inertial:
-    """The sum of inertials, each at a pose, in axes turned by ``rotation``.
-
-    Steiner's theorem: about a point at distance d from the centre of mass, the inertia is
-    I + m (d.d E - d d^T).
-    """
-    masses = np.array([inertial.mass for _, inertial in parts])
-    placed = [pose * inertial.pose for pose, inertial in parts]
-    centers = np.array([pose.position for pose in placed])
-    mass = float(masses.sum())
-    center = masses @ centers / mass
-    total = np.zeros((3, 3))
-    for (_, inertial), pose, own in zip(parts, placed, centers, strict=True):
-        turn = pose.matrix()[:3, :3]
-        d = own - center
-        total += turn @ tensor(inertial.inertia) @ turn.T
-        total += inertial.mass * (d @ d * np.eye(3) - np.outer(d, d))
+def combine(parts: Sequence[tuple[Pose, Inertial]], rotation: Pose) -> Inertial | None:
+    """The sum of inertials at poses, in axes turned by ``rotation``; None without mass."""
+    whole = joined(
+        Solid(inertial.mass, np.zeros(3), inertial.inertia.matrix()).placed(pose * inertial.pose)
+        for pose, inertial in parts
+    )
+    if whole is None:
+        return None
     axes = rotation.matrix()[:3, :3]
-    i = axes.T @ total @ axes
     return Inertial(
-        mass=mass,
-        pose=Pose.from_quaternion([float(c) for c in center], rotation.quaternion),
-        inertia=Inertia(*(float(i[k]) for k in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))),
+        mass=whole.volume,
+        pose=Pose.from_quaternion(whole.center.tolist(), rotation.quaternion),
+        inertia=Inertia.from_matrix(axes.T @ whole.inertia @ axes),
         source=parts[0][1].source,
     )
-
-
-def tensor(i: Inertia) -> NDArray[np.float64]:
-    """The inertia as a matrix, shape (3, 3) [kg m²]."""
-    return np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
