@@ -41,18 +41,24 @@ class DiffDrive(ModelPlugin):
 
     The last command holds for ever. With ``odometrySource`` ``world`` the odometry is the
     model's true pose; with ``encoder`` it is what the wheels' turning adds up to.
+
+    Attributes:
+        separation: Between the wheels [m].
+        radius: Of a wheel [m].
+        acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit.
+        wheel_joints: Names of the left and the right joint, as the file has them.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, put motors on the wheels, open ``cmd_vel`` and ``odom``."""
         self._robot = robot
-        self._separation = parameters.get("wheelSeparation", 0.34)
-        self._radius = parameters.get("wheelDiameter", 0.15) / 2.0
-        self._acceleration = parameters.get("wheelAcceleration", 0.0)
+        self.separation = parameters.get("wheelSeparation", 0.34)
+        self.radius = parameters.get("wheelDiameter", 0.15) / 2.0
+        self.acceleration = parameters.get("wheelAcceleration", 0.0)
         self._frame = parameters.get("odometryFrame", "odom")
         self._base = parameters.get("robotBaseFrame", "base_footprint")
         self._from_encoders = _source(parameters) == "encoder"
-        if self._separation <= 0.0 or self._radius <= 0.0:
+        if self.separation <= 0.0 or self.radius <= 0.0:
             raise SimulationError(
                 "wheelSeparation and wheelDiameter must be positive", source=parameters.source
             )
@@ -60,14 +66,14 @@ class DiffDrive(ModelPlugin):
         torque = parameters.get("wheelTorque", 5.0)
         names = [parameters.get("leftJoint", "left_joint")]
         names.append(parameters.get("rightJoint", "right_joint"))
-        self._names = (names[0], names[1])
+        self.wheel_joints = (names[0], names[1])
         self._wheels = tuple(robot.joints[name] for name in names)
         for wheel in self._wheels:
             wheel.add_motor(torque)
         nworld = robot.simulation.nworld
         self._speeds = np.zeros((nworld, 2))
         self._settled = -1  # the command whose speeds the motors already have
-        self._reckoning = DeadReckoning(self._separation, self._radius, self._angles())
+        self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
         self._last_time = robot.simulation.time
         self._open_ports(robot, parameters, nworld)
 
@@ -83,7 +89,7 @@ class DiffDrive(ModelPlugin):
         if sent:
             published.append(odometry)
         if parameters.get("publishWheelTF", False):
-            self._wheel_joints = [robot.joint_description(name) for name in self._names[::-1]]
+            self._wheel_joints = [robot.joint_description(name) for name in self.wheel_joints[::-1]]
             robot.outputs["wheel_tf"] = Output(
                 "/tf", Transforms, self._wheel_frames, namespace=namespace
             )
@@ -109,19 +115,19 @@ class DiffDrive(ModelPlugin):
         if self._settled == self._command.revision:
             return
         forward, turning = self._command.linear[:, 0], self._command.angular[:, 2]
-        half = self._separation / 2.0
+        half = self.separation / 2.0
         target = np.stack((forward - turning * half, forward + turning * half), axis=1)
-        if self._acceleration > 0.0:
+        if self.acceleration > 0.0:
             lack = target - self._speeds
             ramping = (np.abs(lack) >= _RAMP_DEADBAND).all(axis=1, keepdims=True)
-            most = self._acceleration * interval
+            most = self.acceleration * interval
             self._speeds = np.where(ramping, self._speeds + np.clip(lack, -most, most), target)
         else:
             self._speeds = target
         if (self._speeds == target).all():
             self._settled = self._command.revision
         for column, wheel in enumerate(self._wheels):
-            wheel.drive(self._speeds[:, column] / self._radius)
+            wheel.drive(self._speeds[:, column] / self.radius)
 
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
@@ -144,7 +150,7 @@ class DiffDrive(ModelPlugin):
         nothing = np.zeros((len(self._speeds), 0))
         now = self._robot.simulation.clock.now_ns
         # The original names the right wheel first.
-        return JointStates(now, self._names[::-1], self._angles()[:, ::-1], nothing)
+        return JointStates(now, self.wheel_joints[::-1], self._angles()[:, ::-1], nothing)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Stand still at the origin of the odometry."""

@@ -33,59 +33,70 @@ class ScriptedMotion(ModelPlugin):
     Waypoints are joined by straight lines, those of a ``<trajectory>`` by a spline as Gazebo's
     actors follow; several trajectories follow each other, each from its ``start`` on. Every
     world has a time of its own that starts at its reset.
+
+    Attributes:
+        robot: The model that moves.
+        loop: Whether the script starts over at its end.
+        spin: Turning rate about the model's origin, in its own frame [rad/s], shape (3,).
+        times: Of the k waypoints [s], shape (k,).
+        positions: Of the waypoints [m], shape (k, 3).
+        quaternions: Of the waypoints, (x, y, z, w), shape (k, 4).
+        velocities: On the legs between them [m/s], shape (k - 1, 3).
+        splines: Starts [s] and paths of the trajectories, instead of waypoints.
+        start: Position [m] and quaternion that the model was spawned with.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the script and take hold of the model."""
-        self._robot = robot
-        self._loop = parameters.get("loop", False)
-        self._spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
-        self._times, self._positions, self._quaternions = _waypoints(parameters)
-        self._velocities, self._turnings = self._rates()
-        self._splines = [_spline(tag) for tag in parameters.find_all("trajectory")]
+        self.robot = robot
+        self.loop = parameters.get("loop", False)
+        self.spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
+        self.times, self.positions, self.quaternions = _waypoints(parameters)
+        self.velocities, self._turnings = self._rates()
+        self.splines = [_spline(tag) for tag in parameters.find_all("trajectory")]
         self.update_rate = parameters.get("updateRate", 10.0)
         start = robot.description.pose
-        self._start = np.asarray(start.position), np.asarray(start.quaternion)
+        self.start = np.asarray(start.position), np.asarray(start.quaternion)
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
         robot.simulation.engine.make_kinematic(robot.name)
 
     def _rates(self) -> tuple[Floats, Floats]:
         """Change of position and quaternion a second on each leg, shapes (k, 3) and (k, 4)."""
-        if len(self._times) < 2:
-            return np.zeros_like(self._positions), np.zeros_like(self._quaternions)
-        span = np.diff(self._times)[:, None]
-        return np.diff(self._positions, axis=0) / span, np.diff(self._quaternions, axis=0) / span
+        if len(self.times) < 2:
+            return np.zeros_like(self.positions), np.zeros_like(self.quaternions)
+        span = np.diff(self.times)[:, None]
+        return np.diff(self.positions, axis=0) / span, np.diff(self.quaternions, axis=0) / span
 
     def on_update(self, time: float) -> None:
         """Put the model where the script says."""
         elapsed = time - self._epoch
-        if self._splines:
+        if self.splines:
             position, quaternion = self._on_splines(elapsed)
-        elif self._times.size:
+        elif self.times.size:
             position, quaternion = self._on_path(elapsed)
         else:
-            position = np.broadcast_to(self._start[0], (len(elapsed), 3))
-            quaternion = multiply(_turned(self._spin, elapsed), self._start[1][None])
-        self._robot.simulation.engine.set_model_placement(self._robot.name, position, quaternion)
+            position = np.broadcast_to(self.start[0], (len(elapsed), 3))
+            quaternion = multiply(_turned(self.spin, elapsed), self.start[1][None])
+        self.robot.simulation.engine.set_model_placement(self.robot.name, position, quaternion)
 
     def _on_path(self, elapsed: Floats) -> tuple[Floats, Floats]:
-        first, last = self._times[0], self._times[-1]
-        moment = elapsed % last if self._loop and last > 0.0 else np.minimum(elapsed, last)
+        first, last = self.times[0], self.times[-1]
+        moment = elapsed % last if self.loop and last > 0.0 else np.minimum(elapsed, last)
         moment = np.maximum(moment, first)
-        leg = np.searchsorted(self._times[1:-1], moment, side="right")
-        since = (moment - self._times[leg])[:, None]
-        position = self._positions[leg] + since * self._velocities[leg]
-        quaternion = self._quaternions[leg] + since * self._turnings[leg]
+        leg = np.searchsorted(self.times[1:-1], moment, side="right")
+        since = (moment - self.times[leg])[:, None]
+        position = self.positions[leg] + since * self.velocities[leg]
+        quaternion = self.quaternions[leg] + since * self._turnings[leg]
         return position, quaternion
 
     def _on_splines(self, elapsed: Floats) -> tuple[Floats, Floats]:
-        end = self._splines[-1][0] + self._splines[-1][1].duration
-        moment = elapsed % end if self._loop and end > 0.0 else np.minimum(elapsed, end)
-        starts = np.array([start for start, _ in self._splines[1:]])
+        end = self.splines[-1][0] + self.splines[-1][1].duration
+        moment = elapsed % end if self.loop and end > 0.0 else np.minimum(elapsed, end)
+        starts = np.array([start for start, _ in self.splines[1:]])
         # A moment at which one ends and the next begins is the one's.
         chosen = np.searchsorted(starts, moment, side="left")
         position, quaternion = np.zeros((len(moment), 3)), np.zeros((len(moment), 4))
-        for index, (start, spline) in enumerate(self._splines):
+        for index, (start, spline) in enumerate(self.splines):
             rows = np.flatnonzero(chosen == index)
             position[rows], quaternion[rows] = spline.at(moment[rows] - start)
         return position, quaternion
@@ -93,7 +104,7 @@ class ScriptedMotion(ModelPlugin):
     def reset(self, worlds: Worlds | None) -> None:
         """Start the script over."""
         rows = slice(None) if worlds is None else worlds
-        self._epoch[rows] = self._robot.simulation.time
+        self._epoch[rows] = self.robot.simulation.time
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """When each world's script started."""

@@ -59,19 +59,19 @@ class LidarModel:
     ) -> None:
         self.lidar = lidar
         self._engine = engine
-        self._link = link
+        self.link = link
         self.angles = angles_of(lidar.horizontal)
         self.vertical_angles = angles_of(lidar.vertical)
         local = directions_of(self.angles, self.vertical_angles)
         rotation = pose.matrix()[:3, :3]
-        self._directions = local @ rotation.T
-        self._origins = np.asarray(pose.position) + lidar.range_min * self._directions
-        self._noise = NoiseModel(lidar.noise, seed, name, engine.nworld, len(self._directions))
+        self.directions = local @ rotation.T
+        self.origins = np.asarray(pose.position) + lidar.range_min * self.directions
+        self._noise = NoiseModel(lidar.noise, seed, name, engine.nworld, len(self.directions))
 
     @property
     def samples(self) -> int:
         """Rays a measurement has, all rows together."""
-        return len(self._directions)
+        return len(self.directions)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``.
@@ -80,7 +80,7 @@ class LidarModel:
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        hits = self._engine.cast_rays(self._link, self._origins, self._directions, worlds)
+        hits = self._engine.cast_rays(self.link, self.origins, self.directions, worlds)
         lidar = self.lidar
         distance = hits.distance + lidar.range_min
         measured = self._noise.apply(distance, interval, worlds)

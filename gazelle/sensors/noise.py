@@ -58,6 +58,15 @@ class NoiseModel:
         self._spread = bool(self._stddev.any())
         self._active = self._noise.type != "none" or self._spread
 
+    @property
+    def white(self) -> tuple[Floats, NDArray[np.uint64], NDArray[np.uint64]]:
+        """What white noise is drawn with, to be used in place by native code.
+
+        Returns:
+            Standard deviations, shape (nworld, 1), and the keys and counters of the stream.
+        """
+        return self._stddev, self._stream.keys, self._stream.counters
+
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
         """Use the random numbers of another seed, from their start; a reset draws new biases."""
         self._stream.reseed(seed, worlds)

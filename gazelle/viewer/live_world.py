@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engines.planar import Fleet
+from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan import colour_of, extent_of, fleet_of, rays_of
-from gazelle.viewer.plan_scans import PictureScanner, scanners_of
+from gazelle.viewer.plan_scans import scanners_of
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ class LiveWorld:
         if not 0 <= world < self._fleet.nworld:
             raise Error(f"there is no world {world}; there are {self._fleet.nworld}")
         self._version = 0
-        self._scanners: list[PictureScanner] | None = None
+        self._scanners: list[Scanner] | None = None
 
     def scenery(self) -> dict[str, Any]:
         """What stands still, and what the bodies look like."""

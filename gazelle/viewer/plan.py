@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from gazelle.engines.planar import Fleet, PlanarEngine
+from gazelle.engines.planar import Fleet, PlanarEngine, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
-from gazelle.viewer.plan_scans import PictureScanner, scanners_of
+from gazelle.viewer.plan_scans import scanners_of
 
 Floats = NDArray[np.float64]
 Picture = NDArray[np.uint8]
@@ -69,7 +69,7 @@ class TopView:
             raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
         self._frame = _Frame(extent or extent_of(fleet, world), size)
         self._been: list[Floats] = []
-        self._scanners: tuple[Fleet | None, list[PictureScanner]] = (None, [])
+        self._scanners: tuple[Fleet | None, list[Scanner]] = (None, [])
 
     def look(self) -> Picture:
         """The world now, shape (height, width, 3); goes on with the trails."""
@@ -178,7 +178,7 @@ def fleet_of(simulation: Simulation | StageSimulation) -> Fleet:
     )
 
 
-def rays_of(scanner: PictureScanner, world: int) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+def rays_of(scanner: Scanner, world: int) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Where sensors of one world are, where their beams end, and which of these met something.
 
     Shapes (sensors, 2), (sensors, beams, 2) and (sensors, beams), all in the world's frame [m].

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import math
-
 from gazelle.engines.planar import Fleet, Mount, PlanarEngine, Scanner
 from gazelle.engines.planar.fans import Fan
 from gazelle.sensors import LidarModel
@@ -13,24 +11,13 @@ from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
 
 
-class PictureScanner(Scanner):
-    """A scanner that remembers where its fans are."""
-
-    mounts: list[Mount]
-
-
-def scanners_of(simulation: Simulation | StageSimulation, fleet: Fleet) -> list[PictureScanner]:
+def scanners_of(simulation: Simulation | StageSimulation, fleet: Fleet) -> list[Scanner]:
     """Scanners without noise, with the beams of all rangers and lidars."""
     if isinstance(simulation, StageSimulation):
         pairs = list(zip(simulation._fans, simulation._mounts, strict=True))
     else:
         pairs = _lidars(simulation)
-    made = []
-    for fan, mounts in pairs:
-        scanner = PictureScanner(fleet, fan, mounts)
-        scanner.mounts = list(mounts)
-        made.append(scanner)
-    return made
+    return [Scanner(fleet, fan, mounts) for fan, mounts in pairs]
 
 
 def _lidars(simulation: Simulation) -> list[tuple[Fan, list[Mount]]]:
@@ -42,19 +29,8 @@ def _lidars(simulation: Simulation) -> list[tuple[Fan, list[Mount]]]:
             model = sensor.model
             if not isinstance(model, LidarModel) or not isinstance(engine, PlanarEngine):
                 continue
-            engine.cast_rays(model._link, model._origins, model._directions)
-            key = (model._link, model._origins.tobytes(), model._directions.tobytes())
-            scanner = engine._casters[key][0].scanner
+            scanner = engine.caster(model.link, model.origins, model.directions).scanner
             old, reach = scanner.fan, model.lidar.range_max
             fan = Fan(old.start, old.step, old.count, reach, min(old.begin, 0.9 * reach))
-            bodies = scanner._carriers.tolist()
-            mounts = [
-                Mount(body, x, y, _angle(cos, sin), z)
-                for body, (x, y, cos, sin, z) in zip(bodies, scanner._mounts.tolist(), strict=True)
-            ]
-            found.append((fan, mounts))
+            found.append((fan, scanner.mounts))
     return found
-
-
-def _angle(cos: float, sin: float) -> float:
-    return math.atan2(sin, cos)

@@ -206,16 +206,24 @@ class PlanarAccess(ABC):
         ignore_own: bool = False,  # noqa: ARG002  rays never meet their own model
     ) -> Hits:
         """Follow level rays to the nearest collision shape of another model."""
+        distance, inside = self.caster(link, origins, directions).cast(worlds)
+        return Hits(distance, inside)
+
+    def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
+        """What casts the rays of ``cast_rays``: the same one as long as nothing turns its link.
+
+        Raises:
+            EngineError: The rays are not level, or their link not the same in all worlds.
+        """
         key = (link, origins.tobytes(), directions.tobytes())
         found = self._casters.get(key)
         angles = self._own(self._owner(link), None)[0]
         if found is None or not np.array_equal(found[1], angles[0]):
-            found = self._caster(link, origins, directions), angles[0].copy()
+            found = self._new_caster(link, origins, directions), angles[0].copy()
             self._casters[key] = found
-        distance, inside = found[0].cast(worlds)
-        return Hits(distance, inside)
+        return found[0]
 
-    def _caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
+    def _new_caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
         model = self._owner(link)
         each = self._model(model)
         if model not in self._layout.bodies:

@@ -96,6 +96,11 @@ class PlanarEngine(Refusals, PlanarAccess):
         return self._fleet
 
     @property
+    def layout(self) -> Layout:
+        """Where models, joints and links are among the bodies; to be read."""
+        return self._layout
+
+    @property
     def bodies(self) -> dict[str, int]:
         """Index in the fleet of each model that can move."""
         return dict(self._layout.bodies)

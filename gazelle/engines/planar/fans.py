@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -167,6 +168,12 @@ class Scanner:
         self._flat = self.ranges.reshape(-1, fan.count)
         self.names = np.zeros((total if named else 0, fan.count))
 
+    @cached_property
+    def mounts(self) -> list[Mount]:
+        """Where the fans are, in one world."""
+        carried = zip(self._carriers.tolist(), self._mounts.tolist(), strict=True)
+        return [Mount(body, x, y, math.atan2(sin, cos), z) for body, (x, y, cos, sin, z) in carried]
+
     @property
     def flat_ranges(self) -> Floats:
         """``ranges`` with one row a sensor, shape (nworld * mounts, count)."""
@@ -246,11 +253,12 @@ class Scanner:
         own = self.arguments(part)
         extra = () if self._look is scan else self._ahead(part)
         return (
-            own[0], owners, *own[2:5], self.fleet.widest, *self._looks(), *own[5:], *extra,
+            own[0], owners, *own[2:5], self.fleet.widest, *self.surroundings(), *own[5:], *extra,
             self._flat, self.names,
         )  # fmt: skip
 
-    def _looks(self) -> tuple[Any, ...]:
+    def surroundings(self) -> tuple[Any, ...]:
+        """What ``kernels_scan.scan`` works on of the fleet, but for the largest radius."""
         fleet, scene = self.fleet, self.fleet.scene
         return (
             scene.grid, scene.table.rows, scene.start, scene.items, scene.lanes, fleet.kinds, fleet.looks,

@@ -152,7 +152,7 @@ class Fleet:
     def _make_state(self) -> None:
         total = self.nworld * self.nbody
         self.rows = _rows_of(np.tile(self._start, (self.nworld, 1)))
-        self._goal = self.rows[:, : c.Z + 1].copy()
+        self.goal = self.rows[:, : c.Z + 1].copy()
         self._command = np.zeros((total, 3))
         self._velocity = np.zeros((total, 3))
         self._state = np.zeros(total, np.int8)
@@ -163,8 +163,8 @@ class Fleet:
         self._relink(slice(None))
 
     @property
-    def _initial(self) -> Floats:
-        """The rows of a world's bodies as they were made."""
+    def initial(self) -> Floats:
+        """The rows of a world's bodies as they were made, shape (nbody, columns.BODY)."""
         return _rows_of(self._start)
 
     # -- state -------------------------------------------------------------------------
@@ -249,7 +249,7 @@ class Fleet:
         """Put worlds back to how they were made: poses, rest, no commands."""
         which = np.arange(self.nworld) if worlds is None else worlds
         rows = (which[:, None] * self.nbody + np.arange(self.nbody)).ravel()
-        self.rows[rows] = np.tile(self._initial, (len(which), 1))
+        self.rows[rows] = np.tile(self.initial, (len(which), 1))
         self._command[rows], self._velocity[rows], self._stalled[rows] = 0.0, 0.0, False
         self._relink(rows)
 
@@ -257,12 +257,13 @@ class Fleet:
         """Keep the lists of the grid right for some bodies."""
         which = np.arange(len(self.rows))[rows]
         if len(which) == len(self.rows):
-            relink(0, len(self.rows), self.nbody, *self._lists())
+            relink(0, len(self.rows), self.nbody, *self.lists())
             return
         for b in which.tolist():
-            relink(b, b + 1, self.nbody, *self._lists())
+            relink(b, b + 1, self.nbody, *self.lists())
 
-    def _lists(self) -> tuple[Any, ...]:
+    def lists(self) -> tuple[Any, ...]:
+        """What ``kernels_grid.relink`` works on, after the range and the number of bodies."""
         return self.scene.grid, self.rows, self.head, self.follow, self.cell
 
     # -- time --------------------------------------------------------------------------
@@ -286,7 +287,7 @@ class Fleet:
     def arguments(self) -> tuple[Any, ...]:
         """What ``kernels_step.advance`` works on, after the range and the count."""
         return (
-            self._widest, self.drives, self._command, self._velocity, self.rows, self._goal,
+            self._widest, self.drives, self._command, self._velocity, self.rows, self.goal,
             self._state, self._stalled, self.time_step, self.euler, self.kinds, self.pieces,
             self.corners, *self._statics(), self.head, self.follow, self.cell,
         )  # fmt: skip
@@ -295,7 +296,7 @@ class Fleet:
         """A step of one large world, by several threads."""
         ways = self.crew.share(
             lambda a, b, _: kernels_step.plan(
-                a, b, self.drives, self._command, self._velocity, self.rows, self._goal,
+                a, b, self.drives, self._command, self._velocity, self.rows, self.goal,
                 self._state, self.time_step, self.euler, self.kinds, self.pieces, self.corners,
                 *self._statics(),
             ),
@@ -303,7 +304,7 @@ class Fleet:
             _SHARE,
         )  # fmt: skip
         reach = self._widest + max(ways)
-        bodies = (self.kinds, self.pieces, self.corners, self.rows, self._goal, self._state)
+        bodies = (self.kinds, self.pieces, self.corners, self.rows, self.goal, self._state)
         lists = (self.scene.grid, self.head, self.follow)
         self.crew.share(
             lambda a, b, _: kernels_step.screen(a, b, reach, *bodies, *lists), self.nbody, _SHARE

@@ -1,7 +1,5 @@
 """What a simulation holds that native kernels can step, read from its parts as tables."""
 
-# ruff: noqa: SLF001  # done in one go is what these parts do one by one, with their own numbers
-
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -132,17 +130,17 @@ def drive_of(simulation: Simulation, robot: Robot) -> Drive | None:
     drives = [entry for entry in own if type(entry.plugin) is DiffDrive]
     others = [entry for entry in own if type(entry.plugin) not in (DiffDrive, ImuPlugin, Laser)]
     body = engine.bodies.get(robot.name)
-    rolls = [each for each in engine._layout.rollings if each.body == body]
-    if len(drives) != 1 or others or len(rolls) != 1 or len(engine._layout.rollings) != 1:
+    rolls = [each for each in engine.layout.rollings if each.body == body]
+    if len(drives) != 1 or others or len(rolls) != 1 or len(engine.layout.rollings) != 1:
         return None
     plugin = drives[0].plugin
-    wheels = [f"{robot.name}::{name}" for name in getattr(plugin, "_names", ())]
-    columns = [engine._layout.joints[name][0] for name in wheels if name in engine._layout.joints]
+    wheels = [f"{robot.name}::{name}" for name in getattr(plugin, "wheel_joints", ())]
+    columns = [engine.layout.joints[name][0] for name in wheels if name in engine.layout.joints]
     if not isinstance(plugin, DiffDrive) or list(rolls[0].columns) != columns or body is None:
         return None
     row = np.zeros(LAW)
-    row[LAW_BODY], row[LAW_HALF], row[LAW_RADIUS] = body, plugin._separation / 2.0, plugin._radius
-    row[LAW_RAMP], row[LAW_REACH] = plugin._acceleration, engine.fleet.kinds[body, c.RADIUS]
+    row[LAW_BODY], row[LAW_HALF], row[LAW_RADIUS] = body, plugin.separation / 2.0, plugin.radius
+    row[LAW_RAMP], row[LAW_REACH] = plugin.acceleration, engine.fleet.kinds[body, c.RADIUS]
     return Drive(drives[0], plugin, row, np.ascontiguousarray(rolls[0].matrix))
 
 
@@ -164,11 +162,11 @@ def paths_of(simulation: Simulation, robot: Robot, period: float) -> Paths | Non
     for row, script in zip(table, scripts, strict=True):
         legs = _legs_of(script)
         points.append(legs)
-        body = engine.bodies[script._robot.name]
+        body = engine.bodies[script.robot.name]
         row[PATH_BODY], row[PATH_FIRST], row[PATH_LAST] = body, first, first + len(legs)
-        row[PATH_LOOP], row[PATH_SPIN] = script._loop, script._spin[2]
-        row[PATH_START : PATH_START + 3] = script._start[0]
-        row[PATH_START + 3] = yaw_of(script._start[1][None])[0]
+        row[PATH_LOOP], row[PATH_SPIN] = script.loop, script.spin[2]
+        row[PATH_START : PATH_START + 3] = script.start[0]
+        row[PATH_START + 3] = yaw_of(script.start[1][None])[0]
         first += len(legs)
         speed = np.hypot(legs[:, 4], legs[:, 5]).max(initial=0.0)
         # One period more: what is due now may have been due for that long.
@@ -179,11 +177,11 @@ def paths_of(simulation: Simulation, robot: Robot, period: float) -> Paths | Non
 
 def _is_plain(script: ScriptedMotion) -> bool:
     """Whether a body keeps its height and turns about z alone, and follows no spline."""
-    if script._splines:
+    if script.splines:
         return False
-    if script._times.size:
-        return bool(np.ptp(script._quaternions, axis=0).max() < _SAME) and not script._spin.any()
-    return not script._spin[:2].any()
+    if script.times.size:
+        return bool(np.ptp(script.quaternions, axis=0).max() < _SAME) and not script.spin.any()
+    return not script.spin[:2].any()
 
 
 def caster_of(robot: Robot, sensor: str) -> Caster | None:
@@ -196,9 +194,7 @@ def caster_of(robot: Robot, sensor: str) -> Caster | None:
     plain = noise.type in ("none", "gaussian") and noise.dynamic_bias_stddev == 0.0
     if not plain or noise.bias_mean != 0.0 or noise.bias_stddev != 0.0:
         return None
-    model._engine.cast_rays(model._link, model._origins, model._directions)
-    key = (model._link, model._origins.tobytes(), model._directions.tobytes())
-    caster = engine._casters[key][0]
+    caster = engine.caster(model.link, model.origins, model.directions)
     single = caster.scanner.ranges.shape[1] == 1 and caster.begin == caster.scanner.fan.begin
     return caster if single and (caster.scanner.names >= 0.0).all() else None
 
@@ -267,8 +263,8 @@ def _extent(
 
 def _legs_of(script: ScriptedMotion) -> Floats:
     """Time, place and velocity from there on of each way-point, shape (n, 7)."""
-    legs = np.zeros((len(script._times), 7))
-    legs[:, 0], legs[:, 1:4] = script._times, script._positions
+    legs = np.zeros((len(script.times), 7))
+    legs[:, 0], legs[:, 1:4] = script.times, script.positions
     if len(legs) > 1:
-        legs[:-1, 4:] = script._velocities
+        legs[:-1, 4:] = script.velocities
     return legs

@@ -1,7 +1,5 @@
 """One robot with two driven wheels and a lidar, stepped in many worlds by native kernels."""
 
-# ruff: noqa: SLF001  # it does in one go what these parts do one by one, on their own arrays
-
 from __future__ import annotations
 
 import math
@@ -12,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from gazelle.engines.native import Function
-from gazelle.engines.planar import PlanarEngine
+from gazelle.engines.planar import PlanarEngine, Scanner
 from gazelle.envs.planar import kernels_drive
 from gazelle.envs.planar.parts import (
     Drive,
@@ -56,6 +54,7 @@ class Swift:
         sensor: Name of its lidar.
         period: Of a control step [s].
         cap: Ranges are cut here, and stand for nothing met [m].
+        parts: What casts the rays, the drive, and bodies that follow paths.
 
     Attributes:
         fleet: The bodies of all worlds.
@@ -72,12 +71,16 @@ class Swift:
         paths = paths_of(robot.simulation, robot, period)
         if caster is None or drive is None or paths is None or robot.simulation.loads.any:
             return None
-        swift = cls.__new__(cls)
-        swift._set_up(robot, sensor, period, cap)
-        swift._bind(caster.scanner, drive, paths)
-        return swift
+        return cls(robot, sensor, period, cap, (caster.scanner, drive, paths))
 
-    def _set_up(self, robot: Robot, sensor: str, period: float, cap: float) -> None:
+    def __init__(
+        self,
+        robot: Robot,
+        sensor: str,
+        period: float,
+        cap: float,
+        parts: tuple[Scanner, Drive, Paths],
+    ) -> None:
         simulation = robot.simulation
         engine, model = simulation.engine, robot.sensors[sensor].model
         if not isinstance(engine, PlanarEngine) or not isinstance(model, LidarModel):
@@ -91,15 +94,15 @@ class Swift:
             [lidar.range_min, lidar.range_max, lidar.range_resolution, lidar.noise.mean, cap]
         )
         self._everywhere = np.arange(self.nworld)
+        self._bind(*parts)
 
-    def _bind(self, scanner: Any, drive: Drive, paths: Paths) -> None:
+    def _bind(self, scanner: Scanner, drive: Drive, paths: Paths) -> None:
         fleet = self.fleet
         self._scanner, self._drive, self._paths = scanner, drive, paths
         self.body = int(drive.law[0])
-        mounts = scanner._mounts
-        height = float(fleet.rows[self.body, 5] + mounts[0, 4])
+        height = float(fleet.rows[self.body, 5] + scanner.mounts[0].z)
         self._statics: Statics = statics_of(fleet, height)
-        self._fan = scanner._fan.copy()
+        self._fan = scanner.arguments(0)[3].copy()
         self._fan[2] = self._law[1]
         self._looks = looks_of(fleet)
         spans = self._looks.spans
@@ -116,7 +119,7 @@ class Swift:
             )
             for _ in range(fleet.crew.size)
         ]
-        self._initial = fleet._initial.copy()
+        self._initial = fleet.initial.copy()
         self._speeds = np.zeros((self.nworld, 2))
         self._epochs = np.zeros((len(paths.plugins), self.nworld))
         self._last = 0.0
@@ -168,22 +171,32 @@ class Swift:
     def begin(self, worlds: Worlds) -> None:
         """Put worlds back to their start."""
         fleet = self.fleet
+        grid, _, head, follow, cell = fleet.lists()
         kernels_drive.begin(
             worlds, self._initial, self._simulation.clock.now, self._speeds, self._epochs,
-            fleet._command, fleet._velocity, fleet._stalled, fleet.rows, fleet.nbody,
-            *[fleet._lists()[index] for index in (0, 2, 3, 4)],
+            *self._flat_state(), fleet.rows, fleet.nbody, grid, head, follow, cell,
         )  # fmt: skip
         self._lidar.noise.reset(worlds)
+
+    def _flat_state(self) -> tuple[Floats, Floats, Any]:
+        """Commands, velocities and stalls of the fleet, with one row a body of all worlds."""
+        fleet = self.fleet
+        return (
+            fleet.command.reshape(-1, 3),
+            fleet.velocity.reshape(-1, 3),
+            fleet.stalled.reshape(-1),
+        )
 
     def _drive_with(self, drive: Drive, paths: Paths) -> tuple[Any, ...]:
         """What ``kernels_drive.drive`` takes after the range of worlds."""
         fleet, statics = self.fleet, self._statics
-        grid, _, head, follow, cell = fleet._lists()
+        grid, _, head, follow, cell = fleet.lists()
+        command, velocity, stalled = self._flat_state()
         return (
             self._linear, self.angular, drive.law, drive.matrix, self._intervals, self._moments,
             self._speeds, self._epochs, paths.table, paths.points, paths.drift,
-            statics.room, statics.corner, fleet.time_step, fleet._command, fleet._velocity,
-            fleet.rows, fleet._goal, fleet._stalled, fleet.kinds, fleet.pieces, fleet.corners, grid,
+            statics.room, statics.corner, fleet.time_step, command, velocity,
+            fleet.rows, fleet.goal, stalled, fleet.kinds, fleet.pieces, fleet.corners, grid,
             head, follow, cell, fleet.scene.table.rows, statics.cells, statics.start,
             statics.items, _NOTHING, fleet.arguments(),
         )  # fmt: skip
@@ -195,7 +208,7 @@ class Swift:
         worlds those for one thread.
         """
         noise = self._lidar.noise
-        parts = (worlds, noise._stddev, noise._stream.keys, noise._stream.counters)
+        parts = (worlds, *noise.white)
         if worlds is not self._everywhere:
             return [self._measure_with(0, *parts)]
         if self._parts is None or not all(map(is_, parts, self._parts)):
@@ -209,7 +222,7 @@ class Swift:
         scanner, fleet = self._scanner, self.fleet
         own = scanner.arguments(room)
         own_scan = (
-            *own[:3], self._fan, own[4], fleet.widest, *scanner._looks(), *own[5:],
+            *own[:3], self._fan, own[4], fleet.widest, *scanner.surroundings(), *own[5:],
             self._ranges, scanner.names,
         )  # fmt: skip
         space, looks = self._rooms[room], self._looks
