@@ -1,5 +1,7 @@
 """Bumpers, fiducials and blobs on the graph."""
 
+import math
+
 import pytest
 
 BUMPER, FIDUCIALS, BLOBS = (f"gazelle_msgs/{kind}" for kind in ("Bumper", "Fiducials", "Blobs"))
@@ -29,7 +31,9 @@ def test_blobs(stage):
     (blob,) = message.blobs
     assert (message.width, blob.left, blob.right) == (80, 0, 79)
     assert (blob.color.r, blob.color.g, blob.color.b) == (1.0, 0.0, 0.0)
-    assert blob.range == pytest.approx(0.21, abs=1e-3)
+    sides = [math.radians(30 - 60 * column / 79) for column in range(80)]
+    mean = sum(0.21 / math.cos(side) for side in sides) / 80
+    assert blob.range == pytest.approx(mean, abs=1e-3)
 
 
 def test_names_of_several(stage):
