@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import math
 from collections.abc import Callable
 from typing import Any, Final
@@ -43,13 +44,32 @@ def call(code: Code, function: Any, values: list[Value]) -> Value:
 
     Floors and ceilings are real numbers here: ``int`` makes whole ones of them.
     """
-    if function in _OWN:
+    name = getattr(function, "__name__", function)
+    if not _is_known(function):
+        raise EngineError(f"kernels cannot call {name}")
+    if function in _OWN and len(values) == 1:
         return _own(code, f"llvm.{_OWN[function]}.f64", values)
-    if function in _OTHERS:
+    if function in _OTHERS and len(values) == 2:
         return _own(code, _OTHERS[function], values)
-    if function not in _CALLS:
-        raise EngineError(f"kernels cannot call {getattr(function, '__name__', function)}")
-    return _CALLS[function](code, *values)
+    make = _CALLS.get(function)
+    if make is None or not _fits(make, values):
+        raise EngineError(f"kernels cannot call {name} with {len(values)} arguments")
+    return make(code, *values)
+
+
+def _is_known(function: Any) -> bool:
+    try:
+        return function in _OWN or function in _OTHERS or function in _CALLS
+    except TypeError:  # what has no hash
+        return False
+
+
+def _fits(make: Callable[..., Value], values: list[Value]) -> bool:
+    try:
+        inspect.signature(make).bind(None, *values)
+    except TypeError:
+        return False
+    return True
 
 
 def _own(code: Code, name: str, values: list[Value]) -> Value:
@@ -71,19 +91,22 @@ def _lesser(code: Code, a: Value, b: Value) -> Value:
 def _absolute(code: Code, value: Value) -> Value:
     if value.kind == REAL:
         return _own(code, "llvm.fabs.f64", [value])
+    if value.kind == BITS:
+        return value
+    value = code.turned(value, WHOLE)
     low = code.get(TRUTH, f"icmp slt i64 {value.text}, 0")
     turned = code.get(WHOLE, f"sub i64 0, {value.text}")
     return choose(code, low, turned, value)
 
 
-def _least(code: Code, first: Value, *others: Value) -> Value:
-    for other in others:
+def _least(code: Code, first: Value, second: Value, *others: Value) -> Value:
+    for other in (second, *others):
         first = choose(code, compared(code, ast.Lt, other, first), other, first)
     return first
 
 
-def _most(code: Code, first: Value, *others: Value) -> Value:
-    for other in others:
+def _most(code: Code, first: Value, second: Value, *others: Value) -> Value:
+    for other in (second, *others):
         first = choose(code, compared(code, ast.Gt, other, first), other, first)
     return first
 
@@ -103,16 +126,16 @@ def choose(code: Code, condition: Value, yes: Value, no: Value) -> Value:
 
 def _whole(code: Code, value: Value) -> Value:
     """As a whole number, towards zero; 0 of what is no number, and the ends of what is beyond."""
-    if value.known is not None and value.kind != BITS:
+    if isinstance(value.known, int):
         return constant(int(value.known))
-    if value.kind != REAL:
-        return Value(WHOLE, code.turned(value, WHOLE).text if value.kind == TRUTH else value.text)
-    name = "llvm.fptosi.sat.i64.f64"
-    code.declared[name] = f"declare i64 @{name}(double)"
-    return code.get(WHOLE, f"call i64 @{name}(double {value.text})")
+    if value.kind == REAL:
+        return code.whole(value)
+    return Value(WHOLE, value.text if value.kind == BITS else code.turned(value, WHOLE).text)
 
 
 def _bits(code: Code, value: Value) -> Value:
+    if value.kind == REAL:
+        return code.whole(value, BITS)
     return Value(BITS, _whole(code, value).text)
 
 
@@ -162,7 +185,9 @@ def _at(code: Code, element: str, address: Value, count: Value) -> Value:
 def _sizes(shape: Value) -> list[int]:
     sizes = [part.known for part in shape.parts or (shape,)]
     if not all(isinstance(size, int) and 0 < size <= _MOST for size in sizes):
-        raise EngineError("the size of an array that a kernel makes must be known, and small")
+        raise EngineError(
+            f"the size of an array that a kernel makes must be known, and at most {_MOST}"
+        )
     return sizes
 
 

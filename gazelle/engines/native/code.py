@@ -17,6 +17,7 @@ from gazelle.engines.native.kinds import (
     TRUTH,
     UNSIGNED,
     WHOLE,
+    WIDTH,
     Array,
     Group,
     Kind,
@@ -40,9 +41,12 @@ def constant(known: Any) -> Value:
     """
     if isinstance(known, (bool, np.bool_)):
         return Value(TRUTH, "true" if known else "false", known=bool(known))
-    if isinstance(known, np.uint64):
+    if isinstance(known, np.uint64) or (isinstance(known, int) and 0 <= known >> 63 == 1):
+        known = np.uint64(known)
         return Value(BITS, str(int(known)), known=known)
     if isinstance(known, (int, np.integer)):
+        if not -(2 ** (WIDTH - 1)) <= known < 2 ** (WIDTH - 1):
+            raise EngineError(f"{known} does not fit 64 bits")
         return Value(WHOLE, str(int(known)), known=int(known))
     if isinstance(known, (float, np.floating)):
         bits = struct.unpack("<Q", struct.pack("<d", float(known)))[0]
@@ -185,6 +189,8 @@ class Code:
             raise TypesChanged
         if name not in self._places:
             self._places[name] = self.place(kind)
+            for place, each in zip(self._places[name], flat(kind), strict=True):
+                self._entry.append(f"  store {each} zeroinitializer, ptr {place}")
         self.write(self._places[name], self.turned(value, kind))
 
     def write(self, places: list[str], value: Value) -> None:
@@ -238,7 +244,15 @@ class Code:
             return value
         if value.kind == REAL:
             return self.get(TRUTH, f"fcmp une double {value.text}, 0.0")
+        if value.kind not in (WHOLE, BITS):
+            raise EngineError("only numbers are true or false")
         return self.get(TRUTH, f"icmp ne i64 {value.text}, 0")
+
+    def whole(self, value: Value, kind: Kind = WHOLE) -> Value:
+        """A real number as a whole one, towards zero; 0 of what is no number, else the ends."""
+        name = f"llvm.fpto{'u' if kind == BITS else 's'}i.sat.i64.f64"
+        self.declared[name] = f"declare i64 @{name}(double)"
+        return self.get(kind, f"call i64 @{name}(double {value.text})")
 
     def index(self, value: Value) -> str:
         """A number as an index."""
@@ -296,10 +310,7 @@ class Code:
             )
             return
         if kind != REAL and value.kind == REAL:
-            self.declared["llvm.fptosi.sat.i64.f64"] = (
-                "declare i64 @llvm.fptosi.sat.i64.f64(double)"
-            )
-            value = self.get(WHOLE, f"call i64 @llvm.fptosi.sat.i64.f64(double {value.text})")
+            value = self.whole(value, kind)
         elif kind == REAL or low(value.kind) != WHOLE:
             value = self.turned(value, kind)
         text = value.text

@@ -9,12 +9,18 @@ from typing import Any, Protocol
 
 from gazelle.engines.native.calls import call, choose
 from gazelle.engines.native.code import Code, constant
-from gazelle.engines.native.kinds import TRUTH, WHOLE, Array, Group, Value, joined
+from gazelle.engines.native.kinds import TRUTH, WHOLE, Array, Group, Kind, Value, joined
 from gazelle.engines.native.operators import binary, compared, negative
+from gazelle.engines.native.wording import spelled, unknown
 from gazelle.errors import EngineError
 
 _NOTHING = object()
 _CHEAP = (ast.Name, ast.Constant, ast.UnaryOp, ast.BinOp, ast.Load, ast.operator, ast.unaryop)
+
+
+def _is_cheap(*nodes: ast.expr) -> bool:
+    """Whether making values that are not needed costs less than a branch, and does no harm."""
+    return all(isinstance(part, _CHEAP) for node in nodes for part in ast.walk(node))
 
 
 class Linker(Protocol):
@@ -47,11 +53,17 @@ class Expressions:
 
     def value(self, node: ast.expr) -> Value:
         """The value of an expression."""
-        make = getattr(self, f"_{type(node).__name__.lower()}", None)
-        if make is None:
-            raise EngineError(f"kernels know no {type(node).__name__}")
-        made: Value = make(node)
+        make = getattr(self, f"_{type(node).__name__.lower()}", self._unknown)
+        try:
+            made: Value = make(node)
+        except EngineError as error:
+            if error.line is not None:
+                raise
+            raise EngineError(error.message, line=node.lineno) from error
         return made
+
+    def _unknown(self, node: ast.expr) -> Value:
+        raise EngineError(unknown(node))
 
     def meaning(self, node: ast.expr) -> Any:
         """What an expression of names alone stands for, outside of the function."""
@@ -138,11 +150,13 @@ class Expressions:
             return self.code.get(TRUTH, f"xor i1 {self.code.truth(value).text}, true")
         if isinstance(node.op, ast.USub):
             return negative(self.code, value)
-        raise EngineError(f"kernels know no {type(node.op).__name__}")
+        raise EngineError(unknown(node.op, node))
 
     def _compare(self, node: ast.Compare) -> Value:
-        if isinstance(node.ops[0], ast.In):
+        if any(isinstance(op, (ast.In, ast.NotIn)) for op in node.ops):
             return self._among(node)
+        if len(node.ops) > 1 and not _is_cheap(*node.comparators[1:]):
+            return self._chain(node)
         left, values = self.value(node.left), []
         for op, each in zip(node.ops, node.comparators, strict=True):
             right = self.value(each)
@@ -150,10 +164,35 @@ class Expressions:
             left = right
         return self._all(values, "and")
 
+    def _chain(self, node: ast.Compare) -> Value:
+        """Comparisons, of which those after a false one are not made."""
+        code, end, left = self.code, self.code.label(), self.value(node.left)
+        ways = []
+        for place, (op, each) in enumerate(zip(node.ops, node.comparators, strict=True), 1):
+            right = self.value(each)
+            made = compared(code, type(op), left, right)
+            if place == len(node.ops):
+                break
+            ways.append(f"[ false, %{code.block} ]")
+            after = code.label()
+            code.fork(made, after, end)
+            code.begin(after)
+            left = right
+        ways.append(f"[ {made.text}, %{code.block} ]")
+        code.jump(end)
+        code.begin(end)
+        return code.get(TRUTH, f"phi i1 {', '.join(ways)}")
+
     def _among(self, node: ast.Compare) -> Value:
         left, group = self.value(node.left), self.value(node.comparators[0])
-        parts = [compared(self.code, ast.Eq, left, part) for part in group.parts]
-        return self._all(parts, "or")
+        if len(node.ops) > 1 or not group.parts:
+            raise EngineError("kernels look for numbers in tuples, one at a time")
+        if isinstance(node.ops[0], ast.In):
+            return self._all(
+                [compared(self.code, ast.Eq, left, part) for part in group.parts], "or"
+            )
+        parts = [compared(self.code, ast.NotEq, left, part) for part in group.parts]
+        return self._all(parts, "and")
 
     def _all(self, values: list[Value], how: str) -> Value:
         made = values[0]
@@ -164,24 +203,29 @@ class Expressions:
     # -- choices -----------------------------------------------------------------------------
 
     def _boolop(self, node: ast.BoolOp) -> Value:
+        """The first value that decides, or the last one."""
         code, end = self.code, self.code.label()
-        early = "true" if isinstance(node.op, ast.Or) else "false"
-        ways = []
-        for each in node.values[:-1]:
-            value, after = self.value(each), code.label()
-            ways.append(f"[ {early}, %{code.block} ]")
-            code.fork(value, *((end, after) if isinstance(node.op, ast.Or) else (after, end)))
+        ways, values, gaps = [], [], []
+        for each in node.values:
+            values.append(self.value(each))
+            gaps.append(code.gap())
+            ways.append(code.block)
+            if each is node.values[-1]:
+                break
+            after = code.label()
+            labels = (end, after) if isinstance(node.op, ast.Or) else (after, end)
+            code.fork(values[-1], *labels)
             code.begin(after)
-        last = code.truth(self.value(node.values[-1]))
-        ways.append(f"[ {last.text}, %{code.block} ]")
         code.jump(end)
         code.begin(end)
-        return code.get(TRUTH, f"phi i1 {', '.join(ways)}")
+        if all(value.kind == TRUTH for value in values):
+            pairs = zip(values, ways, strict=True)
+            return code.get(TRUTH, "phi i1 " + ", ".join(f"[ {v.text}, %{w} ]" for v, w in pairs))
+        return self._met(values, gaps)
 
     def _ifexp(self, node: ast.IfExp) -> Value:
         condition = self.value(node.test)
-        arms = (node.body, node.orelse)
-        if all(isinstance(part, _CHEAP) for arm in arms for part in ast.walk(arm)):
+        if _is_cheap(node.body, node.orelse):
             return choose(self.code, condition, self.value(node.body), self.value(node.orelse))
         return self._branched(condition, node)
 
@@ -195,14 +239,20 @@ class Expressions:
             values.append(self.value(arm))
             gaps.append(code.gap())
             code.jump(end)
-        kind = joined(values[0].kind, values[1].kind)
-        if kind is None:
-            raise EngineError(f"{values[0].kind} or {values[1].kind} is no one kind of value")
-        places = code.place(kind)
-        for value, gap in zip(values, gaps, strict=True):
-            code.fill(gap, places, kind, value)
         code.begin(end)
-        return code.read(places, kind)
+        return self._met(values, gaps)
+
+    def _met(self, values: list[Value], gaps: list[int]) -> Value:
+        """That one of some values that was made, where the ways to it meet."""
+        kind: Kind | None = values[0].kind
+        for value in values[1:]:
+            kind = None if kind is None else joined(kind, value.kind)
+        if kind is None:
+            raise EngineError(f"{' or '.join(str(v.kind) for v in values)} is no one kind of value")
+        places = self.code.place(kind)
+        for value, gap in zip(values, gaps, strict=True):
+            self.code.fill(gap, places, kind, value)
+        return self.code.read(places, kind)
 
     # -- calls -------------------------------------------------------------------------------
 
@@ -219,7 +269,10 @@ class Expressions:
     def _call(self, node: ast.Call) -> Value:
         callee = self.meaning(node.func)
         if callee is _NOTHING or node.keywords:
-            raise EngineError("kernels call functions by name, with arguments in order")
+            text = spelled(node)
+            raise EngineError(
+                f"kernels call functions by name, with arguments in order, not {text}"
+            )
         values = self.arguments(node.args)
         if self._linker.knows(callee):
             return self._linker.invoke(self.code, callee, values)

@@ -13,6 +13,8 @@ REAL: Final = "double"  # numbers go by the names that LLVM has for them
 WHOLE: Final = "i64"
 TRUTH: Final = "i1"
 BITS: Final = "u64"  # 64 bits without a sign, the same to LLVM as WHOLE
+RESULTS: Final = 8  # numbers that a kernel hands to Python at most
+WIDTH: Final = 64  # bits of whole numbers
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gazelle.engines.native.code import Code, rebuilt, words
-from gazelle.engines.native.kinds import Kind, Value, flat
+from gazelle.engines.native.kinds import RESULTS, Group, Kind, Value, flat
 from gazelle.engines.native.statements import Statements, argument, returned
 from gazelle.errors import EngineError
 
@@ -37,6 +37,7 @@ class Module:
     def __init__(self) -> None:
         self._texts: list[str] = []
         self._made: dict[tuple[Native, tuple[Kind, ...]], Made] = {}
+        self._open: set[tuple[Native, tuple[Kind, ...]]] = set()
         self._declared: dict[str, str] = {}
         self._notes: list[str] = []
         self._numbers = itertools.count()
@@ -73,17 +74,27 @@ class Module:
     def add(self, native: Native, kinds: tuple[Kind, ...]) -> Made:
         """Make a function, if it is not made yet."""
         key = (native, kinds)
+        if key in self._open:
+            raise EngineError(f"kernels do not call themselves: {native.name}")
         if key not in self._made:
-            symbol = f"f{len(self._made)}.{native.name}"
+            self._open.add(key)
+            symbol = f"f{len(self._made) + len(self._open)}.{native.name}"
             how = "alwaysinline" if native.inline else "nounwind"
             self._made[key] = self._define(native, kinds, symbol, "internal ", how)
+            self._open.discard(key)
         return self._made[key]
 
     def add_whole(
         self, native: Native, kinds: tuple[Kind, ...], symbol: str, entry: str
     ) -> Kind | None:
-        """Make a kernel that is called from without, and what calls it with words; its result."""
+        """Make a kernel that is called from without, and what calls it with words; its result.
+
+        Raises:
+            EngineError: Its result is none that can be handed over.
+        """
+        self._open.add((native, kinds))
         made = self._define(native, kinds, symbol, "", "nounwind")
+        _check_result(native, made.result)
         lines, texts = [], []
         for place, low in enumerate(_flat(kinds)):
             lines.append(f"  %p{place} = getelementptr i64, ptr %words, i64 {place}")
@@ -115,9 +126,12 @@ class Module:
     ) -> Made:
         function = native.function
         file = function.__code__.co_filename
-        tree = _functions_of(file).get(function.__name__)
+        tree = _functions_of(file).get((function.__name__, function.__code__.co_firstlineno))
         if tree is None:
-            raise EngineError(f"there is no source of the kernel {function.__name__}", file=file)
+            raise EngineError(
+                f"there is no source of the kernel {function.__name__}",
+                file=file, hint="it may have changed since it was imported",
+            )  # fmt: skip
         maker = Statements(tree, list(kinds), function.__globals__, self, file, self._numbers)
         maker.make()
         code = maker.code
@@ -137,8 +151,26 @@ def _flat(kinds: tuple[Kind, ...]) -> list[str]:
     return [low for kind in kinds for low in flat(kind)]
 
 
+def _check_result(native: Native, result: Kind | None) -> None:
+    """Refuse what words have no room for, and results of what is compiled on its own."""
+    parts = result.parts if isinstance(result, Group) else (result,)
+    if native.whole and result is not None:
+        message = "a kernel that others call as it is must return nothing"
+    elif len(parts) > RESULTS or any(isinstance(part, Group) for part in parts):
+        message = f"kernels hand at most {RESULTS} numbers to Python"
+    else:
+        return
+    code = native.function.__code__
+    raise EngineError(message, file=code.co_filename, line=code.co_firstlineno, element=native.name)
+
+
 @functools.cache
-def _functions_of(file: str) -> dict[str, ast.FunctionDef]:
-    """The functions of a source file."""
+def _functions_of(file: str) -> dict[tuple[str, int], ast.FunctionDef]:
+    """The functions of a source file, by name and first line."""
     tree = ast.parse("".join(linecache.getlines(file)), file)
-    return {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    return {(node.name, min(_lines(node))): node for node in found}
+
+
+def _lines(node: ast.FunctionDef) -> list[int]:
+    return [node.lineno, *(each.lineno for each in node.decorator_list)]

@@ -1,4 +1,4 @@
-"""Arithmetic and comparisons in kernels, with Python's meaning."""
+"""Arithmetic and comparisons in kernels, with Python's meaning; see the package for what differs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import operator
 from typing import Any, Final
 
 from gazelle.engines.native.code import Code, constant
-from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Value
+from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, WIDTH, Value
 from gazelle.errors import EngineError
 
 _REAL: Final[dict[type, str]] = {
@@ -32,28 +32,43 @@ _COMPARED: Final = {
 
 def binary(code: Code, kind: type, a: Value, b: Value) -> Value:
     """``a`` and ``b`` under an operator, by its class in ``ast``."""
+    _numbers(a, b)
     plain = isinstance(a.known, (int, float)) and isinstance(b.known, (int, float))
     if plain and kind in _FOLDED:
-        return constant(_FOLDED[kind](a.known, b.known))
+        return folded(kind, a.known, b.known)
     if kind is ast.Pow:
         return power(code, a, b)
     if a.kind == TRUTH and b.kind == TRUTH and kind in (ast.BitAnd, ast.BitOr, ast.BitXor):
         return code.get(TRUTH, f"{_WHOLE[kind]} i1 {a.text}, {b.text}")
     if kind is ast.Div or REAL in (a.kind, b.kind):
         return real(code, kind, code.real(a), code.real(b))
-    if (a.kind == BITS) != (b.kind == BITS):
-        raise EngineError("numbers with and without a sign do not mix; say which is meant")
-    if a.kind == BITS:
+    if BITS in (a.kind, b.kind):
         return bits(code, kind, a, b)
-    a, b = code.turned(a, WHOLE), code.turned(b, WHOLE)
+    return whole(code, kind, code.turned(a, WHOLE), code.turned(b, WHOLE))
+
+
+def whole(code: Code, kind: type, a: Value, b: Value) -> Value:
+    """An operator of whole numbers, which wrap around."""
     if kind in (ast.FloorDiv, ast.Mod):
         return divided(code, kind, a, b)
-    if kind is ast.RShift:
-        return code.get(WHOLE, f"ashr i64 {a.text}, {b.text}")
+    if kind in (ast.LShift, ast.RShift):
+        return shifted(code, kind, a, b)
     if kind not in _WHOLE:
         raise EngineError(f"kernels know no operator {kind.__name__} of whole numbers")
-    flag = " nsw" if kind in (ast.Add, ast.Sub, ast.Mult) else ""
-    return code.get(WHOLE, f"{_WHOLE[kind]}{flag} i64 {a.text}, {b.text}")
+    return code.get(WHOLE, f"{_WHOLE[kind]} i64 {a.text}, {b.text}")
+
+
+def _numbers(*values: Value) -> None:
+    if not all(isinstance(value.kind, str) and value.kind != "void" for value in values):
+        raise EngineError("operators take numbers, not arrays or tuples")
+
+
+def folded(kind: type, a: float, b: float) -> Value:
+    """An operator of numbers that are known."""
+    try:
+        return constant(_FOLDED[kind](a, b))
+    except ArithmeticError as error:
+        raise EngineError(f"{a} and {b} have no {kind.__name__}") from error
 
 
 def real(code: Code, kind: type, a: Value, b: Value) -> Value:
@@ -67,16 +82,42 @@ def real(code: Code, kind: type, a: Value, b: Value) -> Value:
 
 def bits(code: Code, kind: type, a: Value, b: Value) -> Value:
     """An operator of numbers without a sign, which wrap around."""
-    name = "lshr" if kind is ast.RShift else _WHOLE.get(kind)
-    if name is None:
+    if a.kind != b.kind:
+        raise EngineError("numbers with and without a sign do not mix; say which is meant")
+    if kind in (ast.LShift, ast.RShift):
+        return shifted(code, kind, a, b)
+    if kind not in _WHOLE:
         raise EngineError(f"kernels know no operator {kind.__name__} of numbers without a sign")
-    return code.get(BITS, f"{name} i64 {a.text}, {b.text}")
+    return code.get(BITS, f"{_WHOLE[kind]} i64 {a.text}, {b.text}")
+
+
+def shifted(code: Code, kind: type, a: Value, b: Value) -> Value:
+    """A number moved by some bits; by 64 or more, nothing but the sign is left of it."""
+    name = "shl" if kind is ast.LShift else "lshr" if a.kind == BITS else "ashr"
+    if b.known is not None and 0 <= b.known < WIDTH:
+        return code.get(a.kind, f"{name} i64 {a.text}, {b.text}")
+    most = code.get(WHOLE, f"call i64 @llvm.umin.i64(i64 {b.text}, i64 {WIDTH - 1})")
+    code.declared["llvm.umin.i64"] = "declare i64 @llvm.umin.i64(i64, i64)"
+    moved = code.get(a.kind, f"{name} i64 {a.text}, {most.text}")
+    if name == "ashr":
+        return moved
+    inside = code.get(TRUTH, f"icmp ult i64 {b.text}, {WIDTH}")
+    return code.get(a.kind, f"select i1 {inside.text}, i64 {moved.text}, i64 0")
 
 
 def power(code: Code, a: Value, b: Value) -> Value:
-    """A power; squares are products."""
+    """A power; squares are products, as all known powers of whole numbers are."""
     if b.known == 2:
         return binary(code, ast.Mult, a, a)
+    if BITS in (a.kind, b.kind):
+        raise EngineError("kernels know no powers of numbers without a sign")
+    if REAL not in (a.kind, b.kind):
+        if b.known is None or not 0 <= b.known < WIDTH:
+            raise EngineError("powers of whole numbers must be known, and from 0 to 63")
+        made = constant(1)
+        for _ in range(b.known):
+            made = binary(code, ast.Mult, made, a)
+        return made
     code.declared["llvm.pow.f64"] = "declare double @llvm.pow.f64(double, double)"
     a, b = code.real(a), code.real(b)
     return code.get(REAL, f"call double @llvm.pow.f64(double {a.text}, double {b.text})")
@@ -86,13 +127,36 @@ def remainder(code: Code, a: Value, b: Value) -> Value:
     """The remainder of real numbers, of the sign of b."""
     rest = code.get(REAL, f"frem double {a.text}, {b.text}")
     moved = code.get(REAL, f"fadd double {rest.text}, {b.text}")
-    product = code.get(REAL, f"fmul double {rest.text}, {b.text}")
-    other = code.get(TRUTH, f"fcmp olt double {product.text}, 0.0")
-    return code.get(REAL, f"select i1 {other.text}, double {moved.text}, double {rest.text}")
+    below = [code.get(TRUTH, f"fcmp olt double {each.text}, 0.0") for each in (rest, b)]
+    other = code.get(TRUTH, f"xor i1 {below[0].text}, {below[1].text}")
+    made = code.get(REAL, f"select i1 {other.text}, double {moved.text}, double {rest.text}")
+    code.declared["llvm.copysign.f64"] = "declare double @llvm.copysign.f64(double, double)"
+    zero = code.get(REAL, f"call double @llvm.copysign.f64(double 0.0, double {b.text})")
+    some = code.get(TRUTH, f"fcmp une double {rest.text}, 0.0")
+    return code.get(REAL, f"select i1 {some.text}, double {made.text}, double {zero.text}")
 
 
 def divided(code: Code, kind: type, a: Value, b: Value) -> Value:
-    """The quotient, rounded down, or the remainder of whole numbers."""
+    """The quotient, rounded down, or the remainder of whole numbers; 0 if ``b`` is 0.
+
+    The processor would stop the process at a division by 0, and at that of the least number by
+    -1; both are done by 1 here, and put right.
+    """
+    if b.known is not None and b.known not in (0, -1):
+        return _divided(code, kind, a, b)
+    if b.known == 0:
+        raise EngineError("kernels do not divide whole numbers by 0")
+    above = code.get(WHOLE, f"add i64 {b.text}, 1")
+    special = code.get(TRUTH, f"icmp ult i64 {above.text}, 2")
+    by = code.get(WHOLE, f"select i1 {special.text}, i64 1, i64 {b.text}")
+    made = _divided(code, kind, a, by)
+    if kind is ast.Mod:
+        return made
+    turned = code.get(WHOLE, f"mul i64 {a.text}, {b.text}")
+    return code.get(WHOLE, f"select i1 {special.text}, i64 {turned.text}, i64 {made.text}")
+
+
+def _divided(code: Code, kind: type, a: Value, b: Value) -> Value:
     rest = code.get(WHOLE, f"srem i64 {a.text}, {b.text}")
     signs = code.get(WHOLE, f"xor i64 {rest.text}, {b.text}")
     other = code.get(TRUTH, f"icmp slt i64 {signs.text}, 0")
@@ -110,15 +174,18 @@ def compared(code: Code, kind: type, a: Value, b: Value) -> Value:
     """Whether ``a`` and ``b`` are as an operator says, by its class in ``ast``."""
     if kind not in _COMPARED:
         raise EngineError(f"kernels know no comparison {kind.__name__}")
-    ordered, whole = _COMPARED[kind]
+    _numbers(a, b)
+    ordered, signed = _COMPARED[kind]
     if REAL in (a.kind, b.kind):
         a, b = code.real(a), code.real(b)
         return code.get(TRUTH, f"fcmp {ordered} double {a.text}, {b.text}")
     if BITS in (a.kind, b.kind):
-        whole = whole.replace("s", "u") if whole.startswith("s") else whole
+        if any(v.kind != BITS and (v.known is None or v.known < 0) for v in (a, b)):
+            raise EngineError("numbers with and without a sign do not mix; say which is meant")
+        signed = signed.replace("s", "u") if signed.startswith("s") else signed
     a = code.turned(a, WHOLE) if a.kind == TRUTH else a
     b = code.turned(b, WHOLE) if b.kind == TRUTH else b
-    return code.get(TRUTH, f"icmp {whole} i64 {a.text}, {b.text}")
+    return code.get(TRUTH, f"icmp {signed} i64 {a.text}, {b.text}")
 
 
 def negative(code: Code, a: Value) -> Value:
@@ -127,4 +194,7 @@ def negative(code: Code, a: Value) -> Value:
         return constant(-a.known)
     if a.kind == REAL:
         return code.get(REAL, f"fneg double {a.text}")
+    if a.kind == BITS:
+        return code.get(BITS, f"sub i64 0, {a.text}")
+    _numbers(a)
     return code.get(WHOLE, f"sub i64 0, {code.turned(a, WHOLE).text}")

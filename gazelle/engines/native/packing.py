@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.engines.native.kinds import BITS, REAL, TRUTH, Array, Group, Kind, kind_of
-
-_RESULTS = 8  # words after the values, for what comes out
+from gazelle.engines.native.kinds import BITS, REAL, RESULTS, TRUTH, Array, Group, Kind, kind_of
+from gazelle.errors import EngineError
 
 
 def spread(values: tuple[Any, ...]) -> list[Any]:
@@ -49,8 +48,9 @@ class Words:
             self._places.append(size)
             size += 1 + kind.axes if isinstance(kind, Array) else 1
         self._results = size
-        self._wholes = (ctypes.c_int64 * (size + _RESULTS))()
-        self._reals = (ctypes.c_double * (size + _RESULTS)).from_buffer(self._wholes)
+        size += RESULTS  # words after the values, for what comes out
+        self._wholes = (ctypes.c_int64 * size)()
+        self._reals = (ctypes.c_double * size).from_buffer(self._wholes)
         self.address = ctypes.addressof(self._wholes)
         for place, kind, value in zip(self._places, self._kinds, self._values, strict=True):
             self._write(place, kind, value)
@@ -99,7 +99,10 @@ class Words:
         elif kind == BITS:
             self._wholes[place] = int(np.int64(np.uint64(value).astype(np.int64)))
         else:
-            self._wholes[place] = int(value)
+            whole = int(value)
+            if whole >> 63 not in (0, -1):
+                raise EngineError(f"{value} does not fit 64 bits with a sign")
+            self._wholes[place] = whole
 
     def result(self, kind: Kind) -> Any:
         """What the call has written."""

@@ -12,7 +12,6 @@ from gazelle.engines.native.code import Code, TypesChanged, constant, words
 from gazelle.engines.native.expressions import Expressions, Linker
 from gazelle.engines.native.kinds import (
     BITS,
-    REAL,
     WHOLE,
     Array,
     Group,
@@ -22,6 +21,7 @@ from gazelle.engines.native.kinds import (
     joined,
 )
 from gazelle.engines.native.operators import binary
+from gazelle.engines.native.wording import spelled, unknown
 from gazelle.errors import EngineError
 
 _TRIES = 20
@@ -67,6 +67,7 @@ class Statements:
         Raises:
             EngineError: It has what kernels may not have.
         """
+        self._check()
         for _ in range(_TRIES):
             self.code.clear()
             try:
@@ -76,15 +77,25 @@ class Statements:
                 continue
             self._end()
             return
-        raise EngineError("its types do not settle", file=self._file, element=self._tree.name)
+        raise self._fault("its types do not settle")
+
+    def _check(self) -> None:
+        """Refuse arguments that only the interpreter knows, and ends without a value."""
+        args, returns = self._tree.args, _returns(self._tree)
+        if args.posonlyargs or args.kwonlyargs or args.vararg or args.kwarg or args.defaults:
+            raise self._fault("kernels have plain arguments only")
+        valued = [node for node in returns if node.value is not None]
+        if valued and (len(valued) < len(returns) or not _ends(self._tree.body)):
+            raise self._fault("it returns a value on some ways and none on others")
+
+    def _fault(self, message: str) -> EngineError:
+        line, name = self._tree.lineno, self._tree.name
+        return EngineError(message, file=self._file, line=line, element=name)
 
     def _take_arguments(self) -> None:
         names = [arg.arg for arg in self._tree.args.args]
         if len(names) != len(self._kinds):
-            raise EngineError(
-                f"it takes {len(names)} arguments, not {len(self._kinds)}",
-                file=self._file, line=self._tree.lineno, element=self._tree.name,
-            )  # fmt: skip
+            raise self._fault(f"it takes {len(names)} arguments, not {len(self._kinds)}")
         for number, (name, kind) in enumerate(zip(names, self._kinds, strict=True)):
             value = argument(f"a{number}", kind)
             if isinstance(kind, Group):
@@ -100,15 +111,15 @@ class Statements:
             try:
                 getattr(self, f"_{type(node).__name__.lower()}", self._unknown)(node)
             except EngineError as error:
-                if error.line is not None:
+                if error.file is not None:
                     raise
-                line = node.lineno
+                line = node.lineno if error.line is None else error.line
                 raise EngineError(
                     error.message, file=self._file, line=line, element=self._tree.name
                 ) from error
 
     def _unknown(self, node: ast.stmt) -> None:
-        raise EngineError(f"kernels know no {type(node).__name__}")
+        raise EngineError(unknown(node))
 
     # -- values ------------------------------------------------------------------------------
 
@@ -124,6 +135,11 @@ class Statements:
         value = self._expressions.value(node.value)
         for each_target in node.targets:
             self._give(each_target, value)
+
+    def _annassign(self, node: ast.AnnAssign) -> None:
+        """What comes after the colon is for readers: kinds follow from values."""
+        if node.value is not None:
+            self._give(node.target, self._expressions.value(node.value))
 
     def _element_wise(self, node: ast.BinOp, count: int) -> Value:
         """The first elements of what two arrays give under an operator."""
@@ -147,7 +163,9 @@ class Statements:
             for part, its in zip(target.elts, value.parts, strict=True):
                 self._give(part, its)
         else:
-            raise EngineError("kernels give values to names, elements and tuples of them")
+            raise EngineError(
+                f"kernels give values to names, elements and tuples of them, not {spelled(target)}"
+            )
 
     def _augassign(self, node: ast.AugAssign) -> None:
         if isinstance(node.target, ast.Name):
@@ -160,7 +178,7 @@ class Statements:
             made = binary(self.code, type(node.op), before, self._expressions.value(node.value))
             self.code.put(array, indices, made)
         else:
-            raise EngineError("kernels change names and elements")
+            raise EngineError(f"kernels change names and elements, not {spelled(node.target)}")
 
     def _return(self, node: ast.Return) -> None:
         if node.value is None:
@@ -174,6 +192,10 @@ class Statements:
         kind = joined(before, value.kind)
         if kind is None:
             raise EngineError(f"it would return {before} and {value.kind}")
+        if isinstance(kind, Array) or (
+            isinstance(kind, Group) and any(isinstance(part, Array) for part in kind.parts)
+        ):
+            raise EngineError("kernels return no arrays; let them write into those they are given")
         known, self.code.result = self.code.result is not None, kind
         if known and kind != before:
             raise TypesChanged
@@ -205,6 +227,8 @@ class Statements:
         self.code.begin(end)
 
     def _while(self, node: ast.While) -> None:
+        if node.orelse:
+            raise EngineError("kernels know no else of a loop")
         head, body, end = self.code.label(), self.code.label(), self.code.label()
         self.code.jump(head)
         self.code.begin(head)
@@ -228,20 +252,28 @@ class Statements:
         self.code.begin(self.code.label())
 
     def _for(self, node: ast.For) -> None:
+        if node.orelse:
+            raise EngineError("kernels know no else of a loop")
         if not isinstance(node.iter, ast.Call):
             self._for_elements(node, self._expressions.value(node.iter))
             return
         callee = self._expressions.meaning(node.iter.func)
-        if callee not in (range, each) or node.orelse:
-            raise EngineError("kernels loop over ranges and arrays")
-        values = [self._whole(arg) for arg in node.iter.args]
+        most = 3 if callee is range else 2 if callee is each else 0
+        values = [self._whole(value) for value in self._expressions.arguments(node.iter.args)]
+        if (
+            not 0 < len(values) <= most
+            or node.iter.keywords
+            or (callee is each and len(values) < 2)
+        ):
+            raise EngineError(f"kernels loop over ranges and arrays, not {spelled(node.iter)}")
         first, last = (constant(0), values[0]) if len(values) == 1 else (values[0], values[1])
         step = values[2] if len(values) > 2 else constant(1)
+        if step.known == 0:
+            raise EngineError("a range's step must not be 0")
         self._count(node, first, last, step, free=callee is each)
 
-    def _whole(self, node: ast.expr) -> Value:
-        value = self._expressions.value(node)
-        if value.kind == REAL:  # a floor or ceiling
+    def _whole(self, value: Value) -> Value:
+        if value.kind != BITS:  # floors and ceilings are real numbers
             value = call(self.code, int, [value])
         return Value(WHOLE, value.text, known=None if value.kind == BITS else value.known)
 
@@ -270,12 +302,16 @@ class Statements:
         if step.known is not None and step.known > 0:
             return up
         down = code.get("i1", f"icmp sgt i64 {now.text}, {last.text}")
+        if step.known is not None:
+            return down
         rising = code.get("i1", f"icmp sgt i64 {step.text}, 0")
-        return code.get("i1", f"select i1 {rising.text}, i1 {up.text}, i1 {down.text}")
+        falling = code.get("i1", f"icmp slt i64 {step.text}, 0")
+        back = code.get("i1", f"and i1 {falling.text}, {down.text}")
+        return code.get("i1", f"select i1 {rising.text}, i1 {up.text}, i1 {back.text}")
 
     def _for_elements(self, node: ast.For, array: Value) -> None:
         if not isinstance(array.kind, Array) or not isinstance(node.target, ast.Name):
-            raise EngineError("kernels loop over ranges and arrays")
+            raise EngineError(f"kernels loop over ranges and arrays, not {spelled(node.iter)}")
         code = self.code
         head, body, again, end = code.label(), code.label(), code.label(), code.label()
         place = code.place(WHOLE)
@@ -292,6 +328,21 @@ class Statements:
         code.write(place, binary(code, ast.Add, code.read(place, WHOLE), constant(1)))
         code.jump(head)
         code.begin(end)
+
+
+def _returns(tree: ast.FunctionDef) -> list[ast.Return]:
+    return [node for node in ast.walk(tree) if isinstance(node, ast.Return)]
+
+
+def _ends(body: list[ast.stmt]) -> bool:
+    """Whether nothing comes after a body, because all ways through it return or go on forever."""
+    last = body[-1]
+    if isinstance(last, ast.If):
+        return _ends(last.body) and bool(last.orelse) and _ends(last.orelse)
+    if isinstance(last, ast.While):
+        forever = isinstance(last.test, ast.Constant) and bool(last.test.value)
+        return forever and not any(isinstance(node, ast.Break) for node in ast.walk(last))
+    return isinstance(last, ast.Return)
 
 
 def argument(name: str, kind: Kind) -> Value:

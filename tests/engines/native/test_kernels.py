@@ -26,7 +26,7 @@ def whole_numbers(a, b):
 
 def real_numbers(a, b):
     ratio = a / b if b != 0.0 else 0.0
-    return ratio, max(a, b), math.floor(a) + 0.0, math.sqrt(a * a + b * b), -a, float(int(a)), a**2
+    return ratio, max(a, b), math.floor(a) + 0.0, math.sqrt(a * a + b * b), -a, float(int(a)), a * a
 
 
 def choices(a, b):
