@@ -68,6 +68,13 @@ class Pose:
         return pose
 
     @classmethod
+    def exactly(cls, position: Vector3, quaternion: Quaternion) -> Pose:
+        """A pose of the very numbers that ``position`` and ``quaternion`` of another gave."""
+        pose = cls(*position)
+        pose._quaternion = quaternion  # its own class
+        return pose
+
+    @classmethod
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
         """A pose from a homogeneous transform, shape (4, 4), or a rotation, shape (3, 3)."""
         position = matrix[:3, 3] if matrix.shape == (4, 4) else (0.0, 0.0, 0.0)

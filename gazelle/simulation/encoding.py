@@ -89,9 +89,7 @@ def _array(value: dict[str, Any]) -> Any:
 
 def _pose(value: dict[str, Any]) -> Pose:
     # Not ``from_quaternion``: normalising again could change the last bit.
-    pose = Pose(*value["position"])
-    pose._quaternion = tuple(value["quaternion"])  # noqa: SLF001
-    return pose
+    return Pose.exactly(tuple(value["position"]), tuple(value["quaternion"]))
 
 
 _READERS: dict[str, Callable[[dict[str, Any]], Any]] = {

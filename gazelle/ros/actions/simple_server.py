@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.actions.server import ActionServer, ServerGoalHandle
 from gazelle.ros.actions.states import GoalStatus
 from gazelle.ros.errors import report
+from gazelle.ros.messages import load_message
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
@@ -149,7 +150,7 @@ class SimpleActionServer:
 
     def _current(self) -> ServerGoalHandle:
         if self.current_goal is None:
-            status: Any = self.action_server._goal_status()  # noqa: SLF001  # a class beside this one
+            status: Any = load_message("actionlib_msgs/GoalStatus")()
             return ServerGoalHandle(self.action_server, status, None)
         return self.current_goal
 

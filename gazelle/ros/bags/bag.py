@@ -194,7 +194,7 @@ class Bag:
     @property
     def size(self) -> int:
         """Bytes of the file."""
-        return len(self._bytes().view())
+        return len(self.stored().view())
 
     @property
     def index(self) -> BagIndex:
@@ -226,7 +226,7 @@ class Bag:
         Raises:
             BagError: There are none.
         """
-        return min(chunk.start for chunk in self._chunks()) / records.SECOND
+        return min(chunk.start for chunk in self.chunks()) / records.SECOND
 
     def get_end_time(self) -> float:
         """When the last message came [s].
@@ -234,9 +234,10 @@ class Bag:
         Raises:
             BagError: There are none.
         """
-        return max(chunk.end for chunk in self._chunks()) / records.SECOND
+        return max(chunk.end for chunk in self.chunks()) / records.SECOND
 
-    def _chunks(self) -> list[records.Chunk]:
+    def chunks(self) -> list[records.Chunk]:
+        """Where messages are; `BagError` if there are none."""
         chunks = [chunk for chunk in self.index.chunks if chunk.counts]
         if not chunks:
             raise BagError("Bag contains no message", file=self.filename)
@@ -246,11 +247,11 @@ class Bag:
         self, topic_filters: str | list[str] | None = None
     ) -> TypesAndTopicsTuple:
         """Types with their checksums, and what there is of each topic."""
-        return types_and_topics(self._bytes(), self.index, self._ids(topic_filters))
+        return types_and_topics(self.stored(), self.index, self._ids(topic_filters))
 
     def get_compression_info(self) -> CompressionTuple:
         """The most frequent compression, and bytes without and with it."""
-        return compression_of(self._bytes(), self.index, self._compression)
+        return compression_of(self.stored(), self.index, self._compression)
 
     # Messages ------------------------------------------------------------------------------
 
@@ -284,7 +285,7 @@ class Bag:
         if connection_filter is not None:
             wanted = self._filtered(wanted, connection_filter)
         start, end = _nanoseconds(start_time), _nanoseconds(end_time)
-        for entry in messages_of(self._bytes(), self.index, wanted, start, end):
+        for entry in messages_of(self.stored(), self.index, wanted, start, end):
             message = self._raw(entry) if raw else self._decoded(entry)
             seconds, nanoseconds = divmod(entry.time, records.SECOND)
             topic, stamp = entry.connection.topic, Time(seconds, nanoseconds)
@@ -388,7 +389,8 @@ class Bag:
 
         return describe(self)
 
-    def _bytes(self) -> BagFile:
+    def stored(self) -> BagFile:
+        """What is on disk, with all that was written so far."""
         if self._file is None:
             raise ValueError("I/O operation on closed bag")
         self.flush()

@@ -136,10 +136,7 @@ class Player:
     def _first_ns(self) -> int:
         """When the first message of all bags came; seconds as a float would round it away."""
         return min(
-            chunk.start
-            for bag in self._bags
-            if bag.get_message_count()
-            for chunk in bag._chunks()  # noqa: SLF001  # the same room
+            chunk.start for bag in self._bags if bag.get_message_count() for chunk in bag.chunks()
         )
 
     # Before ------------------------------------------------------------------------------
@@ -191,7 +188,7 @@ class Player:
         duration = self._options.duration
         end = None if duration is None else start + round(duration * records.SECOND)
         streams = [
-            messages_of(bag._bytes(), bag.index, wanted, start, end)  # noqa: SLF001  # the same room
+            messages_of(bag.stored(), bag.index, wanted, start, end)
             for bag, wanted in zip(self._bags, self._wanted, strict=True)
         ]
         return heapq.merge(*streams, key=lambda entry: entry.time)
