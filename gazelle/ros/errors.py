@@ -23,6 +23,7 @@ __all__ = [
     "ServiceError",
     "ServiceFailedError",
     "ServiceNotFoundError",
+    "SilentPeerError",
     "TimeMovedBackwardsError",
     "UnreachableError",
     "report",
@@ -61,8 +62,12 @@ class UnreachableError(RosError):
     """A peer does not answer: no connection, or it broke before the answer."""
 
 
+class SilentPeerError(UnreachableError):
+    """A peer takes the call, and says nothing for too long."""
+
+
 class MasterUnreachableError(UnreachableError):
-    """The ROS master does not answer."""
+    """The ROS master does not answer, or what answers is none."""
 
 
 class ApiError(RosError):

@@ -120,7 +120,7 @@ class Node(TopicUser, ServiceUser):
             opened.append(lambda: self.loop.run(self._tcpros.close))
             self.uri = self._server.uri
             self.tcpros_port = self._tcpros.port
-            self.master.get_pid()
+            self.master.greet()
         except BaseException as error:
             for close in opened:
                 close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 import socket
 import subprocess
@@ -11,7 +12,7 @@ import time
 
 import pytest
 
-from gazelle.ros import MasterProxy
+from gazelle.ros import Master, MasterProxy
 from gazelle.ros.errors import RosError
 
 
@@ -81,7 +82,15 @@ def test_a_taken_port_is_one_clear_error(cli):
         code, _, err = cli("master", "--port", port, "--no-rosout")
     assert code == 1
     assert f"cannot listen on 127.0.0.1:{port}" in err
-    assert "hint: another master may run there" in err
+    assert "a program that is no ROS master has that port" in err
+    assert "--port 11312" in err
+
+
+def test_a_second_master_hears_of_the_first(cli):
+    with Master(port=0, rosout=False) as first:
+        code, _, err = cli("master", "--port", first.port, "--no-rosout")
+    assert code == 1
+    assert f"a ROS master runs there already, process {os.getpid()}" in err
 
 
 def test_a_bad_port_is_wrong_usage(cli):

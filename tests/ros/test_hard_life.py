@@ -15,8 +15,10 @@ from ros.graph import Flag, Text, Word, until
 
 from gazelle.ros import Master, MasterProxy, Node, RawMessage
 from gazelle.ros.errors import (
+    MasterUnreachableError,
     Md5MismatchError,
     NodeClosedError,
+    RosError,
     RosTimeoutError,
     ServiceError,
     ServiceNotFoundError,
@@ -370,3 +372,25 @@ def test_statistics_tell_what_subscribers_measure(master, make_node, strangers):
     assert 5 <= report.delivered_msgs <= 25
     assert report.traffic == report.delivered_msgs * 8
     assert 0.008 < report.period_mean.to_sec() < 0.1
+
+
+@pytest.mark.parametrize(
+    "answer", [b"HTTP/1.0 501 No\r\n\r\n", b"HTTP/1.0 200 OK\r\n\r\n<p>hi</p>"]
+)
+def test_a_port_that_something_else_has_is_called_so(answer):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+
+        def serve():
+            for _ in range(2):
+                connection = taken.accept()[0]
+                connection.recv(65536)
+                connection.sendall(answer)
+                connection.close()
+
+        threading.Thread(target=serve, daemon=True).start()
+        port = taken.getsockname()[1]
+        with pytest.raises(MasterUnreachableError, match="is no ROS master") as caught:
+            Node("lost", master_uri=f"http://127.0.0.1:{port}")
+        assert "--port 11312" in caught.value.hint
+        with pytest.raises(RosError, match="no ROS master has that port"):
+            Master(port=port)

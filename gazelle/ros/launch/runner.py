@@ -184,7 +184,7 @@ class Launch:
         said = False
         while True:
             try:
-                self._proxy.get_pid()
+                self._proxy.greet()
                 break
             except MasterUnreachableError:
                 if not self.options.wait:

@@ -6,12 +6,22 @@ from typing import Any
 
 from gazelle.ros.errors import (
     ApiError,
+    FaultError,
+    MarshalError,
     MasterUnreachableError,
     ProtocolError,
+    SilentPeerError,
     UnreachableError,
 )
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.xmlrpc.client import BlockingClient
+
+GREETING_S = 10.0
+"""A master that does not say who it is within this time is none [s]."""
+TAKEN_HINT = (
+    "give the master another port, 'gazelle master --port 11312' or 'gazelle launch --port 11312', "
+    "and everything else ROS_MASTER_URI=http://localhost:11312"
+)
 
 
 def value_of(method: str, triple: Any) -> Any:
@@ -55,6 +65,10 @@ class MasterProxy:
         """Call any method; returns the whole triple."""
         try:
             return self._client.call(method, self.caller, *params)
+        except SilentPeerError:
+            raise _no_master(self.uri, "it does not answer") from None
+        except ProtocolError as error:
+            raise _no_master(self.uri, error.message) from None
         except UnreachableError as error:
             reason = error.message.removeprefix(f"{self.uri} does not answer: ")
             raise MasterUnreachableError(
@@ -69,6 +83,20 @@ class MasterProxy:
     def get_pid(self) -> int:
         """Process of the master."""
         return int(self.call("getPid"))
+
+    def greet(self) -> int:
+        """Process of the master, asked with little patience.
+
+        Raises:
+            MasterUnreachableError: Nobody answers, or somebody who is no master.
+        """
+        shy = MasterProxy(self.uri, self.caller, GREETING_S)
+        try:
+            return shy.get_pid()
+        except (FaultError, MarshalError, ProtocolError, ValueError) as error:
+            raise _no_master(self.uri, str(error)) from None
+        finally:
+            shy.close()
 
     def get_uri(self) -> str:
         """The URI the master has for itself."""
@@ -152,3 +180,10 @@ class MasterProxy:
     def unsubscribe_param(self, key: str, uri: str) -> None:
         """Be told no more."""
         self.call("unsubscribeParam", uri, key)
+
+
+def _no_master(uri: str, why: str) -> MasterUnreachableError:
+    """The error for a port that something else has."""
+    return MasterUnreachableError(
+        f"what listens at {uri} is no ROS master ({why})", hint=TAKEN_HINT
+    )

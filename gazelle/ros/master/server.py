@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import threading
 import uuid
@@ -14,11 +15,15 @@ from gazelle.ros import loop, net
 from gazelle.ros.errors import RosError
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.master.api import MasterApi
+from gazelle.ros.master.proxy import TAKEN_HINT, MasterProxy
 from gazelle.ros.xmlrpc.client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 _PATIENCE_S = 3.0
 """Seconds to wait for a node that is told something; dead nodes stay registered."""
+
+_GREETING_S = 1.0
+"""A master on this machine that somebody asks who it is answers within this time."""
 
 
 class Master:
@@ -60,10 +65,7 @@ class Master:
             self._server = XmlRpcServer(self._loop, host, port, self.api.dispatch, limits)
         except OSError as error:
             loop.release(self._loop)
-            raise RosError(
-                f"cannot listen on {host}:{port}: {error.strerror or error}",
-                hint="another master may run there; give another port, or 0 for any free one",
-            ) from None
+            raise _cannot_listen(error, host, port) from None
         self.uri = self.api.uri = self._server.uri
         self.port = self._server.port
         self._rosout: Any = None
@@ -118,6 +120,24 @@ class Master:
         except BaseException:
             self.close()
             raise
+
+
+def _cannot_listen(error: OSError, host: str, port: int) -> RosError:
+    """The error that says who has the port, as far as can be seen."""
+    text = f"cannot listen on {host}:{port}: "
+    if error.errno != errno.EADDRINUSE:
+        return RosError(text + (error.strerror or str(error)))
+    there = MasterProxy(net.uri_of(host, port), "/master", _GREETING_S)
+    try:
+        process = there.get_pid()
+    except (RosError, ValueError):
+        return RosError(text + "a program that is no ROS master has that port", hint=TAKEN_HINT)
+    finally:
+        there.close()
+    return RosError(
+        text + f"a ROS master runs there already, process {process}",
+        hint="use that one, or end it, or give another port (0 for any free one)",
+    )
 
 
 def run_master(

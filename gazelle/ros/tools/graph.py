@@ -10,7 +10,7 @@ from typing import Self
 from gazelle.errors import did_you_mean
 from gazelle.ros import names, net
 from gazelle.ros.errors import ApiError
-from gazelle.ros.master.proxy import MasterProxy
+from gazelle.ros.master.proxy import GREETING_S, MasterProxy
 from gazelle.ros.tools.errors import ToolError
 
 Uses = list[tuple[str, str, list[str]]]
@@ -33,7 +33,7 @@ class Graph:
         self.master_uri = master_uri or net.default_master_uri()
         space = os.environ.get("ROS_NAMESPACE", "/") if namespace is None else namespace
         self.caller = names.canonical(names.as_namespace(space) + tool)
-        self.master = MasterProxy(self.master_uri, self.caller)
+        self.master = MasterProxy(self.master_uri, self.caller, GREETING_S)
         self._uris: dict[str, str | None] = {}
 
     def resolve(self, name: str) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.ros import net
-from gazelle.ros.errors import ProtocolError, RosError, UnreachableError
+from gazelle.ros.errors import ProtocolError, RosError, SilentPeerError, UnreachableError
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.loop import READ, WRITE, EventLoop, Timer, give_way
 from gazelle.ros.xmlrpc.http import Message, MessageReader, request
@@ -28,7 +28,7 @@ _MOST_QUEUED = 10_000
 def _value(message: Message, limits: Limits) -> Any:
     status = message.first[1]
     if status != "200":
-        raise ProtocolError(f"HTTP status {status}: {message.body[:80]!r}")
+        raise ProtocolError(f"HTTP status {status}")
     return read_response(message.body, limits)
 
 
@@ -56,6 +56,7 @@ class BlockingClient:
             MarshalError: A parameter cannot be sent, or the answer is no XML-RPC.
             FaultError: The server answered with a fault.
             UnreachableError: There is no answer.
+            SilentPeerError: There is none, but somebody listens.
         """
         document = write_call(method, params)
         data = request(f"{self._host}:{self._port}", self._path, document)
@@ -91,9 +92,11 @@ class BlockingClient:
             if message is None:
                 raise ConnectionResetError("it closed the connection instead of answering")  # noqa: TRY301
         except OSError as error:
+            kind = UnreachableError
             if sock is not None:
                 sock.close()
-            raise UnreachableError(f"{self.uri} does not answer: {error}") from None
+                kind = SilentPeerError if isinstance(error, TimeoutError) else kind
+            raise kind(f"{self.uri} does not answer: {error}") from None
         except BaseException:
             if sock is not None:
                 sock.close()

@@ -202,6 +202,19 @@ def test_errors_of_services_have_rospys_texts(node, srvs):
     assert seen[0][1] is ValueError
 
 
+def test_arguments_that_no_request_can_hold_fail_as_in_rospy(node, msgs, srvs):
+    genpy = importlib.import_module("genpy")
+    node.Service("flag", srvs.SetBool, lambda request: (True, ""))
+    proxy = node.ServiceProxy("flag", srvs.SetBool)
+    for wrong in ("yes", [1], srvs.SetBoolRequest("yes")):
+        with pytest.raises(genpy.SerializationError, match="field data is not a bool"):
+            proxy(wrong)
+    with pytest.raises(TypeError, match="does not match service type"):
+        proxy(msgs.Bool(True))
+    with pytest.raises(node.ServiceException, match=r"service \[/nowhere\] unavailable"):
+        node.ServiceProxy("nowhere", srvs.SetBool)("yes")
+
+
 def test_services_can_be_called_before_there_is_a_node(rospy, srvs, make_node):
     server = make_node("server")
     server.serve("/flag", srvs.SetBool, lambda request: {"success": True})

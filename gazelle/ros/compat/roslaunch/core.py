@@ -118,7 +118,7 @@ class Master:
 
         proxy = MasterProxy(self.uri, "/roslaunch")
         try:
-            proxy.get_pid()
+            proxy.greet()
         except RosError:
             return False
         finally:

@@ -152,7 +152,7 @@ def _answers(uri: str) -> bool:
     proxy = MasterProxy(uri, "/roslaunch")
     try:
         with contextlib.suppress(Error):
-            proxy.get_pid()
+            proxy.greet()
             return True
     finally:
         proxy.close()

@@ -20,6 +20,7 @@ from gazelle.ros.compat.rospy.msg import args_kwds_to_message
 from gazelle.ros.compat.rospy.names import resolve_name
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.errors import (
+    ApiError,
     InvalidNameError,
     MasterUnreachableError,
     NodeClosedError,
@@ -170,14 +171,22 @@ class ServiceProxy(_Service):
 
         Raises:
             ServiceException: The call failed; the text says how.
+            SerializationError: A field holds what it cannot.
+            TypeError: The message is not a request of this service.
             ROSInterruptException: The node was shut down meanwhile.
         """
         request = args_kwds_to_message(self.request_class, args, kwds)
+        if request._type != self.request_class._type:  # noqa: SLF001  # genpy's name
+            raise TypeError(
+                f"request object type [{type(request)}] does not match service type "
+                f"[{self.request_class}]"
+            )
         client = self._find_client()
         try:
             return client.call(request)
-        except SerializationError as error:
-            raise ServiceException(f"unable to serialize the request: {error}") from error
+        except SerializationError:
+            self._check_there()
+            raise
         except ServiceNotFoundError:
             raise ServiceException(f"service [{self.resolved_name}] unavailable") from None
         except MasterUnreachableError:
@@ -192,6 +201,13 @@ class ServiceProxy(_Service):
             raise ServiceException(f"transport error completing service call: {error}") from None
         except RosError as error:
             raise ServiceException(f"unable to connect to service: {error}") from None
+
+    def _check_there(self) -> None:
+        """Say so if nobody offers it: rospy connects before it looks at the request."""
+        try:
+            user().master.lookup_service(self.resolved_name)
+        except ApiError:
+            raise ServiceException(f"service [{self.resolved_name}] unavailable") from None
 
     def _find_client(self) -> ServiceClient:
         owner = user()
