@@ -29,7 +29,7 @@ class StagePosition:
         velocity: At the start, x, y, z [m/s] and yaw [rad/s].
         localization: Whether it reports where it is, or where its odometry puts it.
         localization_origin: Pose that odometry starts from [m, rad]; None: where the robot is.
-        odom_error: Largest share by which odometry errs in x, y, z and yaw.
+        odom_error: Share by which odometry errs in x, y, z and yaw; None: each robot draws one.
         wheelbase: Of a car [m].
         velocity_bounds: (least, greatest) along x, y, z [m/s] and about yaw [rad/s] of the body,
             also of a car.
@@ -41,7 +41,7 @@ class StagePosition:
     velocity: Quartet = (0.0, 0.0, 0.0, 0.0)
     localization: Localization = "gps"
     localization_origin: Quartet | None = None
-    odom_error: Quartet = (0.03, 0.03, 0.0, 0.05)
+    odom_error: Quartet | None = None
     wheelbase: float = 1.0
     velocity_bounds: tuple[Range, Range, Range, Range] = _BOUNDS
     acceleration_bounds: tuple[Range, Range, Range, Range] = _BOUNDS
@@ -57,8 +57,8 @@ class StageSensor:
         range: Nearest and farthest distance [m].
         fov: Angle from the first to the last ray [rad].
         samples: Rays.
-        noise: Standard deviation of the distance [m], its share of the distance, and that
-            of the angle [rad].
+        noise: Variance of the distance [m²], largest share of the distance, and standard
+            deviation of the angle [rad].
         color: Of the rays.
     """
 

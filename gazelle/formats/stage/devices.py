@@ -40,7 +40,7 @@ def read_position(given: Properties) -> StagePosition:
     given.note("odom", "'odom' is no longer used", "say 'localization_origin'")
     drive = given.choice("drive", ("diff", "omni", "car"), "diff")
     localization = given.choice("localization", ("gps", "odom"), "gps")
-    origin = given.get("localization_origin")
+    origin, error = given.get("localization_origin"), given.get("odom_error")
     return StagePosition(
         drive="omni" if drive == "omni" else "car" if drive == "car" else "diff",
         velocity=quartet(given, "velocity", _ORIGIN),
@@ -48,7 +48,7 @@ def read_position(given: Properties) -> StagePosition:
         localization_origin=(
             None if origin is None else quartet(given, "localization_origin", _ORIGIN)
         ),
-        odom_error=quartet(given, "odom_error", default.odom_error),
+        odom_error=None if error is None else quartet(given, "odom_error", _ORIGIN),
         wheelbase=_positive(given, "wheelbase", default.wheelbase),
         velocity_bounds=_bounds(given, "velocity_bounds", default.velocity_bounds),
         acceleration_bounds=_bounds(given, "acceleration_bounds", default.acceleration_bounds),
@@ -95,7 +95,7 @@ def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
     given = Properties(entity, outer.reading, outer.units)
     default = StageSensor()
     size = given.size("size", StageSize(*default.size))
-    constant, share, angle = given.numbers("noise", "lfa", default.noise)
+    constant, share, angle = _noise(given, default.noise)
     color = given.color()
     for name in ("range_min", "range_max", "view"):
         given.note(
@@ -122,6 +122,13 @@ def _range(given: Properties, name: str, default: tuple[float, float]) -> tuple[
     if written is not None and not 0.0 <= low <= high:
         raise written.fail(f"'{name}' must be [ nearest farthest ], found {written.token.text}")
     return low, high
+
+
+def _noise(given: Properties, default: tuple[float, ...]) -> tuple[float, ...]:
+    values, written = given.numbers("noise", "lfa", default), given.get("noise")
+    if written is not None and values[0] < 0.0:
+        raise written.fail("the first number of 'noise' is a variance, which is never negative")
+    return values
 
 
 def _samples(given: Properties, default: int) -> int:

@@ -311,8 +311,8 @@ def _sensors(model: StageModel, pose: StagePose, name: str) -> list[Sensor]:
 def _lidar(sensor: StageSensor, pose: StagePose, name: str, rate: float) -> Sensor:
     here = pose.then(StagePose(*sensor.pose)).then(StagePose(z=sensor.size[2] / 2.0))
     half = sensor.fov / 2.0
-    constant = sensor.noise[0]
-    noise = Noise("gaussian", stddev=constant) if constant > 0.0 else Noise()
+    variance = sensor.noise[0]
+    noise = Noise("gaussian", stddev=math.sqrt(variance)) if variance > 0.0 else Noise()
     return Sensor(
         name,
         "ray",

@@ -111,8 +111,8 @@ class Layout:
         statics: All that never moves.
         fans: Of each scanner.
         mounts: Of each scanner, one a sensor.
-        noises: Of each scanner: constant [m], proportional and angular [rad] standard deviation
-            of each sensor.
+        noises: Of each scanner: of each sensor the standard deviation [m], the largest share
+            of the distance, and the standard deviation of angles [rad].
     """
 
     bodies: list[Body] = field(default_factory=list)
@@ -294,7 +294,8 @@ class _Maker:
             self.layout.noises.append([])
         at = placed.pose.then(StagePose(*sensor.pose))
         place = (at.x, at.y, at.yaw, at.z + sensor.size[2] / 2.0)
-        return _View(which, place, sensor.noise)
+        variance, share, angle = sensor.noise
+        return _View(which, place, (math.sqrt(variance), share, angle))
 
 
 def _all_parts(own: list[PlacedStageModel]) -> Iterator[Part]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,17 +13,21 @@ from gazelle.streams import Stream
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
+_WIDTHS = (0.03, 0.03, 0.05)
+"""Between the least and the greatest share of x, y and yaw that Stage 4.3 draws."""
+
 
 class Odometry:
-    """Adds up what the wheels say, wrong by a constant share that each robot draws at the start.
+    """Adds up what the wheels say, wrong by the constant share ``odom_error``.
 
-    As in Stage the share is uniform within half of ``odom_error`` either way, and wheels of a
-    robot that is stalled slip.
+    As in Stage a robot whose file has no ``odom_error`` draws its share at the start, and wheels
+    of a robot that is stalled slip.
 
     Args:
         robots: All robots of a world.
         nworld: Worlds.
         seed: The run's seed.
+        euler: Turn first and then go straight on, as Stage's odometry does, not along the arc.
 
     Attributes:
         needed: Whether any robot uses it.
@@ -30,14 +36,16 @@ class Odometry:
             uses it.
     """
 
-    def __init__(self, robots: list[StageRobot], nworld: int, seed: int) -> None:
+    def __init__(
+        self, robots: list[StageRobot], nworld: int, seed: int, *, euler: bool = False
+    ) -> None:
         positions = [robot.position for robot in robots]
         self.used = np.array([p.localization == "odom" for p in positions], np.bool_)
         self.needed = bool(self.used.any())
-        errors = np.array([(p.odom_error[0], p.odom_error[1], p.odom_error[3]) for p in positions])
-        self._limits: Floats = errors.reshape(-1, 3)
+        self._euler = euler
         if not self.needed:  # for tens of thousands of robots it would be something
-            robots, self._limits = [], np.zeros((0, 3))
+            robots, positions = [], []
+        self._given: Floats = np.array([_given(p.odom_error) for p in positions]).reshape(-1, 3)
         self._first = np.array([_start_of(robot) for robot in robots]).reshape(-1, 3)
         self._stream = Stream(seed, "odometry", nworld)
         self.pose = np.tile(self._first, (nworld, 1, 1))
@@ -48,10 +56,12 @@ class Odometry:
         """Add what a step of ``dt`` at body velocities, shape (nworld, nrobot, 3), comes to."""
         moved = velocity * (dt * (1.0 + self.share))
         turn = moved[..., 2]
-        middle = self.pose[..., 2] + turn / 2.0
-        # the chord of the arc that the robot drives
-        chord = np.sinc(turn / (2.0 * np.pi))
-        cos, sin = np.cos(middle) * chord, np.sin(middle) * chord
+        if self._euler:
+            cos, sin = np.cos(self.pose[..., 2] + turn), np.sin(self.pose[..., 2] + turn)
+        else:
+            middle = self.pose[..., 2] + turn / 2.0
+            chord = np.sinc(turn / (2.0 * np.pi))  # of the arc that the robot drives
+            cos, sin = np.cos(middle) * chord, np.sin(middle) * chord
         self.pose[..., 0] += cos * moved[..., 0] - sin * moved[..., 1]
         self.pose[..., 1] += sin * moved[..., 0] + cos * moved[..., 1]
         yaw = self.pose[..., 2] + turn
@@ -67,9 +77,15 @@ class Odometry:
 
     def _draw(self, worlds: Worlds | None) -> None:
         rows = slice(None) if worlds is None else worlds
-        drawn = self._stream.uniform(self._limits.size, worlds)
-        numbers = drawn.reshape(len(drawn), *self._limits.shape)
-        self.share[rows] = (numbers - 0.5) * self._limits
+        drawn = self._stream.uniform(self._given.size, worlds)
+        numbers = drawn.reshape(len(drawn), *self._given.shape)
+        own = (numbers - 0.5) * _WIDTHS
+        self.share[rows] = np.where(np.isnan(self._given), own, self._given)
+
+
+def _given(error: tuple[float, float, float, float] | None) -> tuple[float, float, float]:
+    """Of x, y and yaw what the file says; not a number: it says nothing."""
+    return (math.nan,) * 3 if error is None else (error[0], error[1], error[3])
 
 
 def _start_of(robot: StageRobot) -> tuple[float, float, float]:

@@ -18,11 +18,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(slots=True)
 class RangeNoise:
-    """White noise of the sensors of one scanner.
+    """Noise of the sensors of one scanner: that of Stage 4.3, but for the angles.
 
     Attributes:
         constant: Standard deviation [m], shape (sensors,).
-        share: Standard deviation as a share of the distance, shape (sensors,).
+        share: Of the distance, by which it is off at most, all being equally likely, shape
+            (sensors,).
         angle: Standard deviation of the angle of each beam [rad], shape (sensors,).
     """
 
@@ -55,7 +56,7 @@ class Eyes:
     ) -> None:
         self.fan = fan
         self._fleet, self._mounts, self._noise = fleet, mounts, noise
-        self._noisy = bool(noise.constant.any() or noise.share.any())
+        self._noisy = [bool(each.any()) for each in (noise.constant, noise.share)]
         self._seed = seed
         self._scanner = self._make(named=False)
         self._named = False
@@ -65,12 +66,15 @@ class Eyes:
     def scan(self) -> Floats:
         """Distances [m], shape (nworld, sensors, samples); the array is used again."""
         ranges = self._scanner.scan()
-        if not self._noisy:
+        if not any(self._noisy):
             return ranges
-        noise = self._noise
-        spread = noise.constant[:, None] + noise.share[:, None] * ranges
-        drawn = self._stream.normal(self._shape[1] * self._shape[2]).reshape(self._shape)
-        measured: Floats = np.where(ranges < self.fan.reach, ranges + spread * drawn, ranges)
+        count, noise, off = self._shape[1] * self._shape[2], self._noise, np.zeros(self._shape)
+        if self._noisy[0]:
+            off += noise.constant[:, None] * self._stream.normal(count).reshape(self._shape)
+        if self._noisy[1]:
+            drawn = 2.0 * self._stream.uniform(count).reshape(self._shape) - 1.0
+            off += noise.share[:, None] * ranges * drawn
+        measured: Floats = np.where(ranges < self.fan.reach, ranges + off, ranges)
         return np.clip(measured, 0.0, self.fan.reach, out=measured)
 
     def returns(self, sensor: int, world: int = 0) -> Floats:

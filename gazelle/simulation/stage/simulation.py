@@ -101,7 +101,7 @@ class StageSimulation(Senses):
         ]
         self._eyes: dict[int, Eyes] = {}
         self._seen: dict[int, Floats] = {}
-        self._odometry = Odometry(layout.robots, nworld, seed)
+        self._odometry = Odometry(layout.robots, nworld, seed, euler=euler)
         positions = [robot.position for robot in self.robots]
         self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
         self._wheelbase = np.array([p.wheelbase for p in positions])

@@ -15,6 +15,9 @@ from gazelle.formats.terrain import rectangles
 
 Floats = NDArray[np.float64]
 
+_TOUCH = 1e-9
+"""In Stage bodies meet, and sensors see, also at the very heights where bodies end [m]."""
+
 
 def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
     """The blocks of one model, and the walls of its bitmap as rectangles."""
@@ -29,8 +32,8 @@ def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
         x0, x1, y0, y1 = x + left * width, x + right * width, y + low * depth, y + high * depth
         yield Part(
             _turned(frame, ((x0, y0), (x1, y0), (x1, y1), (x0, y1))),
-            low=frame.z + bitmap.z[0],
-            high=frame.z + bitmap.z[1],
+            low=frame.z + bitmap.z[0] - _TOUCH,
+            high=frame.z + bitmap.z[1] + _TOUCH,
             glow=returns.ranger,
             solid=returns.obstacle,
         )
@@ -42,8 +45,8 @@ def blocks_of(placed: PlacedStageModel) -> Iterator[Part]:
     for block in placed.model.blocks:
         yield Part(
             _turned(frame, block.points),
-            low=frame.z + block.z[0],
-            high=frame.z + block.z[1],
+            low=frame.z + block.z[0] - _TOUCH,
+            high=frame.z + block.z[1] + _TOUCH,
             glow=returns.ranger,
             solid=returns.obstacle,
         )
@@ -70,7 +73,7 @@ def table_of(models: Iterable[PlacedStageModel]) -> Table:
 
 def _raster_of(placed: PlacedStageModel, bitmap: StageBitmap, first: int, last: int) -> Raster:
     frame = placed.body_pose
-    z = (frame.z + bitmap.z[0], frame.z + bitmap.z[1])
+    z = (frame.z + bitmap.z[0] - _TOUCH, frame.z + bitmap.z[1] + _TOUCH)
     pose = (frame.x, frame.y, frame.yaw)
     return Raster(bitmap.cells, bitmap.low, bitmap.cell_size, pose, z, first, last)
 
@@ -115,7 +118,8 @@ def _outline_rows(placed: PlacedStageModel, bitmap: StageBitmap) -> Floats:
     lines = bitmap_lines(bitmap, frame)
     rows = np.zeros((len(lines), c.PRIMITIVE))
     rows[:, c.X0 : c.Y1 + 1] = lines
-    rows[:, c.LOW], rows[:, c.HIGH] = frame.z + bitmap.z[0], frame.z + bitmap.z[1]
+    rows[:, c.LOW] = frame.z + bitmap.z[0] - _TOUCH
+    rows[:, c.HIGH] = frame.z + bitmap.z[1] + _TOUCH
     rows[:, c.GLOW] = returns.ranger
     rows[:, c.KIND] = c.SEGMENT if returns.obstacle else c.SEGMENT + c.GHOST
     return rows
