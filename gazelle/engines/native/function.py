@@ -68,7 +68,7 @@ class Native:
 
     @functools.cached_property
     def _digest(self) -> str:
-        return digest_of(self.function)  # when it is first called, all that it calls is there
+        return digest_of(self)  # when it is first called, all that it calls is there
 
     def _entry(self, kinds: tuple[Kind, ...]) -> Entry:
         """What calls it with words, compiled if need be, and what it returns."""

@@ -6,13 +6,13 @@ import functools
 import hashlib
 import sys
 from pathlib import Path
-from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from gazelle.engines.native import store
 from gazelle.engines.native.kinds import Group, Kind
 from gazelle.engines.native.machine import machine
 from gazelle.engines.native.module import Module
+from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
     from gazelle.engines.native.function import Native
@@ -33,7 +33,13 @@ def _compile(native: Native, kinds: tuple[Kind, ...]) -> None:
     result = module.add_whole(native, kinds, symbol, f"{symbol}.entry")
     for other, its in module.outside:
         load(other, its)
-    code = machine().compile(module.text())
+    try:
+        code = machine().compile(module.text())
+    except RuntimeError as error:
+        raise EngineError(
+            f"the compiler fails at this kernel: {' '.join(str(error).split())}",
+            file=native.function.__code__.co_filename, element=native.name,
+        ) from error  # fmt: skip
     needs = [other.symbol(its) for other, its in module.outside]
     head = " ".join([_spelled(result), *needs]) + "\n"
     store.write(_key(symbol), head.encode() + code)
@@ -71,27 +77,46 @@ def _read(text: str) -> Kind | None:
     return None if text == "-" else text
 
 
-def digest_of(function: FunctionType) -> str:
-    """A hash of all that a function's machine code depends on but types and processor."""
+def digest_of(native: Native) -> str:
+    """A hash of all that a kernel's machine code depends on but types and processor."""
     parts: list[str] = [_compiler()]
-    seen: set[FunctionType] = set()
-    _describe(function, parts, seen)
+    _describe(native, parts, set())
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def _describe(function: FunctionType, parts: list[str], seen: set[FunctionType]) -> None:
-    if function in seen:
+def _describe(native: Native, parts: list[str], seen: set[int]) -> None:
+    """What a kernel says, and what the names in it mean."""
+    if id(native) in seen:
         return
-    seen.add(function)
+    seen.add(id(native))
+    function = native.function
     code = function.__code__
-    parts.append(f"{code.co_name} {code.co_varnames} {code.co_names} {code.co_consts[1:]}")
-    parts.append(code.co_code.hex())
+    constants = [each for each in code.co_consts if each != function.__doc__]
+    parts.append(f"{code.co_name} {native.inline} {native.whole} {code.co_varnames} {constants}")
+    parts.append(f"{code.co_names} {code.co_code.hex()}")
     for name in code.co_names:
-        value: Any = function.__globals__.get(name)
-        if getattr(value, "is_native", False):
-            _describe(value.function, parts, seen)
-        elif isinstance(value, (bool, int, float, tuple)) or hasattr(value, "dtype"):
-            parts.append(f"{name} = {value!r}")
+        if name in function.__globals__:
+            _mean(name, function.__globals__[name], code.co_names, parts, seen)
+
+
+def _mean(name: str, value: Any, names: tuple[str, ...], parts: list[str], seen: set[int]) -> None:
+    """What a name means, and what names mean that may be looked up in that."""
+    if getattr(value, "is_native", False):
+        _describe(value, parts, seen)
+        return
+    plain = isinstance(value, (bool, int, float)) or hasattr(value, "dtype")
+    if plain or isinstance(value, tuple):
+        parts.append(f"{name} = {value!r}")
+    else:
+        parts.append(f"{name} is {getattr(value, '__module__', '')}.{_title(value)}")
+    for other in () if plain else names:
+        if hasattr(value, other):
+            others = tuple(each for each in names if each != other)
+            _mean(f"{name}.{other}", getattr(value, other), others, parts, seen)
+
+
+def _title(value: Any) -> str:
+    return str(getattr(value, "__qualname__", type(value).__name__))
 
 
 @functools.cache

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.engines.native import Native, each, machine, store
+from gazelle.engines.native import Native, each, machine
 from gazelle.errors import EngineError
 
 WHOLE = st.integers(-1000, 1000)
@@ -157,24 +154,6 @@ def doubled(a):
     return 2 * a
 
 
-def test_machine_code_is_kept_and_damaged_files_are_not_used(tmp_path, monkeypatch):
-    monkeypatch.setenv("GAZELLE_CACHE_DIR", str(tmp_path))
-    assert Native(tripled)(2) == 6
-    (file,) = tmp_path.glob("*.o")
-    assert store.read(file.stem) is not None
-    file.write_bytes(file.read_bytes()[:-1])
-    assert store.read(file.stem) is None
-
-
-def test_what_was_kept_longest_ago_is_dropped(tmp_path, monkeypatch):
-    monkeypatch.setenv("GAZELLE_CACHE_DIR", str(tmp_path))
-    for number in range(402):
-        store.write(str(number), b"code")
-        os.utime(tmp_path / f"{number}.o", (number, number))
-    assert store.read("0") is None
-    assert store.read("401") == b"code"
-
-
 def test_one_line_says_that_code_is_compiled_where_that_takes_long(caplog, monkeypatch):
     monkeypatch.setattr("gazelle.engines.native.machine._PATIENCE", 0.0)
     own = machine.Machine()
@@ -184,24 +163,3 @@ def test_one_line_says_that_code_is_compiled_where_that_takes_long(caplog, monke
     assert [record.getMessage() for record in caplog.records] == [
         "native code is compiled for this machine, which is done once"
     ]
-
-
-def tripled(a):
-    return 3 * a
-
-
-def test_a_later_process_loads_what_was_kept(tmp_path):
-    use = (
-        "from gazelle.engines.planar.kernels_motion import turned\n"
-        "from gazelle.engines.native.machine import Machine\n"
-        "print(turned(0.25))\n"
-    )
-    forbid = use.replace("print", "Machine.compile = None\nprint")
-    environment = {**os.environ, "GAZELLE_CACHE_DIR": str(tmp_path)}
-    printed = [
-        subprocess.run(
-            [sys.executable, "-c", code], env=environment, check=True, capture_output=True
-        ).stdout
-        for code in (use, forbid)
-    ]
-    assert printed[0] == printed[1] != b""
