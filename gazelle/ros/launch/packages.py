@@ -123,7 +123,7 @@ class Packages:
             hint = f"make it executable: chmod +x {rejected[0]}"
             return LaunchError(f"'{kind}' of package '{package}' cannot be executed", hint=hint)
         known = self.program_names(package)
-        hint = did_you_mean(kind, known) if known else "it is written in C++ and not built here"
+        hint = did_you_mean(kind, known) if known else _unbuilt(kind)
         return LaunchError(f"package '{package}' has no program '{kind}'", hint=hint)
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
@@ -171,3 +171,10 @@ def _files(root: Path) -> Iterator[Path]:
         folders[:] = sorted(f for f in folders if f[0] != "." and f not in _SKIPPED)
         for name in sorted(files):
             yield Path(folder, name)
+
+
+def _unbuilt(kind: str) -> str:
+    """Why a package that has no programs at all may lack one of this name."""
+    if kind.endswith(".py"):
+        return "the package has no programs; is its 'scripts' folder missing?"
+    return "it is written in C++ and not built here"

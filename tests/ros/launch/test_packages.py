@@ -50,6 +50,14 @@ def test_a_missing_program_is_named_with_the_closest(script):
         program_of("robot", "talkr.py", Packages())
 
 
+def test_a_missing_script_is_not_said_to_be_compiled(tmp_path):
+    (tmp_path / "arm").mkdir()
+    (tmp_path / "arm" / "package.xml").write_text("<package><name>arm</name></package>")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path)})
+    assert "'scripts' folder" in str(packages.missing_program("arm", "move.py"))
+    assert "C++" in str(packages.missing_program("arm", "move"))
+
+
 def test_a_missing_package_says_where_it_is_looked_for(monkeypatch):
     with pytest.raises(MissingPackageError, match="ROS_PACKAGE_PATH, which is not set"):
         program_of("nowhere", "x", Packages({}))
