@@ -29,7 +29,6 @@ from gazelle.formats.reading import Reading
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
 _PREFIX = "xacro:"
-_NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "xacro")
 
 
 MAX_MADE = 60_000

@@ -86,11 +86,6 @@ def uri_of(host: str, port: int, scheme: str = "http") -> str:
     return f"{scheme}://{name}:{port}" + ("/" if scheme == "http" else "")
 
 
-def same_server(one: str, other: str) -> bool:
-    """True if two URIs differ in no more than a slash at the end."""
-    return one.rstrip("/") == other.rstrip("/")
-
-
 _names: dict[str, tuple[float, str]] = {}
 _names_lock = threading.Lock()
 

@@ -232,8 +232,3 @@ class Duration(TVal):
             return NotImplemented
         quotient, rest = divmod(self.to_sec(), divisor.to_sec())
         return int(quotient), self.from_sec(rest)
-
-
-def is_time_value(value: Any) -> bool:
-    """Whether a value is a time or a duration, of this package or of genpy's kind."""
-    return isinstance(value, TVal)

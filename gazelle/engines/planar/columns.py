@@ -90,7 +90,6 @@ RATE: Final = 1
 REACH: Final = 2
 NEAR: Final = 3
 SLACK: Final = 4
-FAN: Final = 5
 
 # What a beam met: 0 for nothing; 1 + index of a static primitive; NAMES * (1 + body) + index
 # of its primitive. Negative if met from inside.

@@ -34,7 +34,6 @@ from gazelle.engines.planar.kernels_fan import FEW, beams_in, cover
 from gazelle.engines.planar.kernels_scan import aim, scan
 from gazelle.envs.planar.tables import Floats, Indices, Table, Worlds
 
-_TURN = 2.0 * math.pi
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)

@@ -13,8 +13,6 @@ from gazelle.ros.limits import LIMITS, Limits
 _SCALARS = frozenset(
     {"i4", "int", "i8", "boolean", "double", "string", "dateTime.iso8601", "base64", "nil"}
 )
-_CONTAINERS = frozenset({"array", "data", "struct", "member"})
-_FRAME = frozenset({"methodCall", "methodResponse", "methodName", "params", "param", "fault"})
 _EXPECTED_IN: dict[str, frozenset[str]] = {
     "methodName": frozenset({"methodCall"}),
     "params": frozenset({"methodCall", "methodResponse"}),
