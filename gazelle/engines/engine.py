@@ -252,7 +252,11 @@ class Engine(Protocol):
         """
 
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
-        """Position [m or rad], shape (n, axes)."""
+        """Position [m or rad], shape (n, axes).
+
+        Of a ball joint it is a quaternion (x, y, z, w), shape (n, 4); of a floating one a
+        position and a quaternion, shape (n, 7).
+        """
 
     def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Velocity [m/s or rad/s], shape (n, axes)."""
@@ -260,7 +264,7 @@ class Engine(Protocol):
     def set_joint_position(
         self, joint: str, position: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Put a joint somewhere [m or rad], shape (axes,) or (n, axes)."""
+        """Put a joint somewhere [m or rad], shape as read or (axes,), to its limits at most."""
 
     def set_joint_velocity(
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None

@@ -10,14 +10,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Inertia, Link, Pose
 from gazelle.engines import Motion, Placement, Wrench
-from gazelle.errors import SimulationError
+from gazelle.errors import Error, SimulationError
 from gazelle.rotations import from_yaw
+from gazelle.simulation.inputs import VECTORS, chosen, finite, motion, numbers, placement, size_of
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
+
+_LIMITS = ("joint_lower", "joint_upper")
 
 
 class LinkHandle:
@@ -61,11 +64,13 @@ class LinkHandle:
 
         Raises:
             EngineError: The link is held to the world by a joint.
-            SimulationError: Both a quaternion and a heading are given.
+            SimulationError: A value cannot be, or both a quaternion and a heading are given.
         """
+        some = chosen(worlds, self._engine.nworld)
         turned = orientation_of(quaternion, yaw)
+        place = placement(self.name, position, turned, size_of(some, self._engine.nworld))
         self._simulation.requests.call(
-            lambda: self._engine.set_link_placement(self.name, position, turned, worlds)
+            lambda: self._engine.set_link_placement(self.name, *place, some)
         )
 
     def set_twist(
@@ -74,9 +79,14 @@ class LinkHandle:
         """Give the link a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
 
         The joints of what hangs together with it keep their speeds.
+
+        Raises:
+            SimulationError: A value cannot be.
         """
+        some = chosen(worlds, self._engine.nworld)
+        twist = motion(self.name, linear, angular, size_of(some, self._engine.nworld))
         self._simulation.requests.call(
-            lambda: self._engine.set_link_motion(self.name, linear, angular, worlds)
+            lambda: self._engine.set_link_motion(self.name, *twist, some)
         )
 
     def apply_wrench(
@@ -110,17 +120,20 @@ class LinkHandle:
             SimulationError: A value is not finite, or the duration is negative.
         """
         simulation = self._simulation
+        some = chosen(worlds, simulation.nworld)
+        count = size_of(some, simulation.nworld)
+        push = numbers("a force", force, 3, count), numbers("a torque", torque, 3, count)
+        where = None if point is None else finite("the point of a force", point, 3, count)
         simulation.requests.call(
             lambda: simulation.loads.push(
                 self.name,
-                force,
-                torque,
-                point=point,
+                *push,
+                point=where,
                 frame="" if frame is None else frame.name,
                 follow=follow,
                 start=start,
                 duration=duration,
-                worlds=worlds,
+                worlds=some,
             )
         )
 
@@ -155,10 +168,10 @@ class LinkHandle:
             i = inertia
             inertia = (i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz)
         given = {
-            "link_mass": _column(mass),
+            "link_mass": mass,
             "link_centre": centre,
             "link_inertia": inertia,
-            "link_gravity": _column(gravity),
+            "link_gravity": gravity,
         }
         _set_parameters(self._simulation, self.name, given, worlds)
 
@@ -173,12 +186,18 @@ class JointHandle:
 
     @property
     def position(self) -> float:
-        """Position of the first axis [m or rad]; setting it teleports the joint."""
+        """Position of the first axis [m or rad].
+
+        Setting it teleports the joint, to its limits at most, as in Gazebo. It takes a number
+        an axis, of a ball joint a quaternion (x, y, z, w).
+        """
         return float(self._engine.joint_position(self.name, np.array([0]))[0, 0])
 
     @position.setter
     def position(self, value: ArrayLike) -> None:
-        self._engine.set_joint_position(self.name, _rows(value))
+        width = self.positions(np.array([0])).shape[1]
+        what = f"the position of joint '{self.name}'"
+        self._engine.set_joint_position(self.name, finite(what, value, width, self._engine.nworld))
 
     @property
     def velocity(self) -> float:
@@ -187,7 +206,9 @@ class JointHandle:
 
     @velocity.setter
     def velocity(self, value: ArrayLike) -> None:
-        self._engine.set_joint_velocity(self.name, _rows(value))
+        what, nworld = f"the velocity of joint '{self.name}'", self._engine.nworld
+        given = finite(what, value, self.axes, nworld, alike=True)
+        self._engine.set_joint_velocity(self.name, given)
 
     @property
     def effort(self) -> None:
@@ -196,7 +217,12 @@ class JointHandle:
 
     @effort.setter
     def effort(self, value: ArrayLike) -> None:
-        self._simulation.loads.set_lasting(self.name, _rows(value))
+        self._simulation.loads.set_lasting(self.name, self._effort_of(value, None))
+
+    @property
+    def axes(self) -> int:
+        """How many ways the joint can move: numbers of a velocity or an effort."""
+        return int(self._engine.joint_velocity(self.name, np.array([0])).shape[1])
 
     def apply_effort(
         self,
@@ -218,8 +244,10 @@ class JointHandle:
             SimulationError: A value is not finite, or the duration is negative.
         """
         simulation = self._simulation
+        some = chosen(worlds, self._engine.nworld)
+        rows = self._effort_of(effort, some)
         simulation.requests.call(
-            lambda: simulation.loads.turn(self.name, _rows(effort), start, duration, worlds)
+            lambda: simulation.loads.turn(self.name, rows, start, duration, some)
         )
 
     def clear_efforts(self) -> None:
@@ -227,8 +255,13 @@ class JointHandle:
         simulation = self._simulation
         simulation.requests.call(lambda: simulation.loads.clear_joint(self.name))
 
+    def _effort_of(self, values: ArrayLike, worlds: Worlds | None) -> Floats:
+        """Efforts of the right shape. One that is not finite breaks its own world, no other."""
+        count = size_of(worlds, self._engine.nworld)
+        return numbers(f"the effort on joint '{self.name}'", values, self.axes, count, alike=True)
+
     def positions(self, worlds: Worlds | None = None) -> Floats:
-        """Positions of all axes, shape (n, axes)."""
+        """Positions of all axes, shape (n, axes); of ball joints quaternions, shape (n, 4)."""
         return self._engine.joint_position(self.name, worlds)
 
     def velocities(self, worlds: Worlds | None = None) -> Floats:
@@ -268,14 +301,15 @@ class JointHandle:
             worlds: Which worlds; all if None.
 
         Raises:
-            EngineError: A value cannot be, or there is no motor.
+            EngineError: A value cannot be, or there is no motor; nothing is changed.
+            SimulationError: The lower limit would be above the upper.
         """
         given = {
-            "joint_damping": _column(damping),
-            "joint_friction": _column(friction),
-            "joint_lower": _column(lower),
-            "joint_upper": _column(upper),
-            "motor_effort": _column(motor_effort),
+            "joint_damping": damping,
+            "joint_friction": friction,
+            "joint_lower": lower,
+            "joint_upper": upper,
+            "motor_effort": motor_effort,
         }
         _set_parameters(self._simulation, self.name, given, worlds)
 
@@ -299,20 +333,34 @@ def _set_parameters(
     given: Mapping[str, ArrayLike | None],
     worlds: Worlds | None,
 ) -> None:
+    """Set several parameters, or none of them if one cannot be."""
+    engine = simulation.engine
+    some = chosen(worlds, simulation.nworld)
+    wanted = {kind: values for kind, values in given.items() if values is not None}
+
     def work() -> None:
-        for kind, values in given.items():
-            if values is not None:
-                simulation.engine.set_parameter(kind, name, values, worlds)
+        before: dict[str, Floats] = {}
+        try:
+            for kind, values in wanted.items():
+                old = engine.parameter(kind, name, some)
+                what, alike = f"the {kind} of '{name}'", kind not in VECTORS
+                rows = numbers(what, values, old.shape[1], len(old), alike=alike)
+                engine.set_parameter(kind, name, rows, some)
+                before[kind] = old
+            if not before.keys().isdisjoint(_LIMITS):
+                _check_limits(simulation, name, some)
+        except Error:
+            for kind, old in before.items():
+                engine.set_parameter(kind, name, old, some)
+            raise
 
     simulation.requests.call(work)
 
 
-def _column(value: ArrayLike | None) -> Floats | None:
-    return None if value is None else _rows(value)
-
-
-def _rows(value: ArrayLike) -> Floats:
-    array = np.asarray(value, np.float64)
-    if array.ndim == 1:
-        return array.reshape(-1, 1)
-    return array.reshape(1, -1) if array.ndim == 0 else array
+def _check_limits(simulation: Simulation, joint: str, worlds: Worlds | None) -> None:
+    lower, upper = (simulation.engine.parameter(kind, joint, worlds) for kind in _LIMITS)
+    if (lower > upper).any():
+        low, high = lower[lower > upper][0], upper[lower > upper][0]
+        raise SimulationError(
+            f"the lower limit of joint '{joint}' would be {low:g}, above the upper one, {high:g}"
+        )

@@ -174,6 +174,8 @@ class Loads:
 
     def _span(self, start: float | None, duration: float | None) -> tuple[int, int | None]:
         now = self._clock.now_ns
+        if start is not None and not math.isfinite(start):
+            raise SimulationError(f"the start of a force must be finite, not {start}")
         begin = now if start is None else max(now, round(start * NANOSECONDS))
         if duration is None or math.isinf(duration):
             return begin, None

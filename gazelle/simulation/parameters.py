@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
+from gazelle.simulation.inputs import VECTORS, chosen, numbers, size_of
 from gazelle.streams import Stream
 
 if TYPE_CHECKING:
@@ -47,15 +48,16 @@ class Parameter:
 
         Raises:
             EngineError: There is nothing of that name, or a value cannot be.
+            SimulationError: There are more or fewer values.
         """
         engine = self._simulation.engine
 
         def work() -> None:
+            some = chosen(worlds, engine.nworld)
             width = engine.parameter(self._kind, name, np.array([0])).shape[1]
-            given = np.asarray(values, np.float64)
-            if width == 1 and given.ndim == 1:
-                given = given[:, None]
-            engine.set_parameter(self._kind, name, given, worlds)
+            what, count = f"the {self._kind} of '{name}'", size_of(some, engine.nworld)
+            given = numbers(what, values, width, count, alike=self._kind not in VECTORS)
+            engine.set_parameter(self._kind, name, given, some)
 
         self._simulation.requests.call(work)
 

@@ -13,6 +13,7 @@ from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.rotations import yaw_of
 from gazelle.simulation.handles import JointHandle, LinkHandle, orientation_of
+from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
 from gazelle.simulation.models import mounts, sensor_model
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.sensors import SensorUnit
@@ -133,25 +134,30 @@ class Robot(Ports):
             worlds: Which worlds; all if None.
 
         Raises:
-            SimulationError: Both a quaternion and a heading are given.
+            SimulationError: A value cannot be, or both a quaternion and a heading are given.
         """
-        turned = orientation_of(quaternion, yaw)
+        engine = self.simulation.engine
+        some, turned = chosen(worlds, engine.nworld), orientation_of(quaternion, yaw)
+        place = placement(self.name, position, turned, size_of(some, engine.nworld))
 
         def work() -> None:
-            engine = self.simulation.engine
-            engine.set_model_placement(self.name, position, turned, worlds)
-            engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), worlds)
+            engine.set_model_placement(self.name, *place, some)
+            engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), some)
 
         self.simulation.requests.call(work)
 
     def set_twist(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the robot a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3)."""
+        """Give the robot a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
+
+        Raises:
+            SimulationError: A value cannot be.
+        """
         engine = self.simulation.engine
-        self.simulation.requests.call(
-            lambda: engine.set_model_motion(self.name, linear, angular, worlds)
-        )
+        some = chosen(worlds, engine.nworld)
+        twist = motion(self.name, linear, angular, size_of(some, engine.nworld))
+        self.simulation.requests.call(lambda: engine.set_model_motion(self.name, *twist, some))
 
     def set_configuration(
         self,
@@ -159,7 +165,7 @@ class Robot(Ports):
         positions: ArrayLike,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put joints somewhere, at rest, all at once.
+        """Put joints somewhere, at rest, all at once, to their limits at most, as in Gazebo.
 
         Args:
             joints: Names within the robot, each of one axis.
@@ -167,20 +173,25 @@ class Robot(Ports):
             worlds: Which worlds; all if None.
 
         Raises:
-            SimulationError: There is no such joint, or there are more or fewer positions.
+            SimulationError: There is no such joint, one has several axes, or there are more or
+                fewer positions.
         """
-        values = np.asarray(positions, np.float64)
-        if values.shape[-1:] != (len(joints),):
-            raise SimulationError(
-                f"{len(joints)} joints need {len(joints)} positions, not {values.shape[-1:]}"
-            )
-        names = [self.joints[joint].name for joint in joints]
+        engine = self.simulation.engine
+        handles = [self.joints[joint] for joint in joints]
+        for handle in handles:
+            if handle.axes != 1:
+                raise SimulationError(
+                    f"joint '{handle.name}' has {handle.axes} axes; a configuration is of joints "
+                    "with one"
+                )
+        some = chosen(worlds, engine.nworld)
+        what = f"the positions of {', '.join(joints)}"
+        values = finite(what, positions, len(joints), size_of(some, engine.nworld))
 
         def work() -> None:
-            engine = self.simulation.engine
-            for column, name in enumerate(names):
-                engine.set_joint_position(name, values[..., column, None], worlds)
-                engine.set_joint_velocity(name, np.zeros(1), worlds)
+            for column, handle in enumerate(handles):
+                engine.set_joint_position(handle.name, values[..., column, None], some)
+                engine.set_joint_velocity(handle.name, np.zeros(1), some)
 
         self.simulation.requests.call(work)
 

@@ -203,18 +203,22 @@ def test_stiffness_of_files_like_turtlebot3_is_as_good_as_rigid():
     assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=1e-3)
 
 
-def test_bitmasks_decide_who_touches():
+@pytest.mark.parametrize(
+    ("mask", "other"), [(0x02, 0x03), (0x80000000, 0xFFFF0000), (0x10000, 0xFFFF0000)]
+)
+@pytest.mark.parametrize("e", [0.0, 0.5])
+def test_bitmasks_of_32_bits_decide_who_touches(mask, other, e):
     def stack(mask):
-        upper = Surface(contact=Contact(collide_bitmask=mask), bounce=Bounce(0.5, 0.01))
-        lower = Surface(contact=Contact(collide_bitmask=0x01), bounce=Bounce(0.5, 0.01))
+        upper = Surface(contact=Contact(collide_bitmask=mask), bounce=Bounce(e, 0.01))
+        lower = Surface(contact=Contact(collide_bitmask=other), bounce=Bounce(e, 0.01))
         slab = Link("l", collisions=(Collision("c", Box((1, 1, 0.2)), surface=lower),))
         box = with_surface(scenes.box(pose=Pose(z=0.25)), upper)
         engine = make_engine("mujoco", scenes.world(Model("slab", static=True, links=(slab,)), box))
         engine.step(1500)
         return engine.model_placement("box").position[0, 2]
 
-    assert stack(0x03) == pytest.approx(0.2, abs=5e-3)
-    assert stack(0x02) < -1.0
+    assert stack(mask) == pytest.approx(0.2, abs=5e-3)
+    assert stack(0x04) < -1.0
 
 
 @pytest.mark.parametrize("kp", [1e4, 3e4, 1e5, 1e6])

@@ -70,6 +70,35 @@ def test_a_ball_joint_turns_freely_and_stays_in_place():
     assert relative(engine).rpy != pytest.approx((0.0, 0.0, 0.0), abs=0.1)
 
 
+def test_a_ball_joint_is_read_and_put_as_a_quaternion_x_y_z_w():
+    engine = engine_of(joint("j", "ball", "a", "b", pose=Pose(z=0.2)), nworld=2)
+    np.testing.assert_array_equal(engine.joint_position("m::j"), [[0, 0, 0, 1]] * 2)
+    turn = Pose(roll=0.3, pitch=-0.5, yaw=1.1)
+    engine.set_joint_position("m::j", 3.0 * np.array(turn.quaternion), np.array([1]))
+    np.testing.assert_allclose(engine.joint_position("m::j")[1], turn.quaternion)
+    place = engine.link_placement("m::b")
+    np.testing.assert_allclose(place.quaternion, [(0, 0, 0, 1), turn.quaternion], atol=1e-12)
+
+
+def test_a_joint_is_put_no_further_than_its_limits_in_each_world():
+    axis = JointAxis(X, lower=-1.0, upper=1.0)
+    engine = engine_of(Joint("j", "revolute", "a", "b", axes=(axis,)), nworld=3)
+    engine.set_parameter("joint_upper", "m::j", [[1.0], [2.0], [np.inf]])
+    engine.set_joint_position("m::j", 5.0)
+    np.testing.assert_array_equal(engine.joint_position("m::j")[:, 0], [1.0, 2.0, 5.0])
+    engine.set_joint_position("m::j", [[-7.0]], np.array([1]))
+    np.testing.assert_array_equal(engine.joint_position("m::j")[:, 0], [1.0, -1.0, 5.0])
+    engine.step(100)
+    np.testing.assert_allclose(engine.joint_velocity("m::j"), 0.0, atol=1e-6)
+
+
+def test_a_screw_without_thread_is_an_error_with_its_place():
+    source = Source("robot.sdf", 7, "joint[j]")
+    screw = joint("j", "screw", "a", "b", Z, thread_pitch=0.0, source=source)
+    with pytest.raises(EngineError, match=r"robot\.sdf:7.*thread pitch of 0"):
+        engine_of(screw)
+
+
 @pytest.mark.parametrize("kind", ["universal", "revolute2"])
 def test_two_axes_turn_one_after_the_other(kind):
     engine = engine_of(joint("j", kind, "a", "b", X, Y))

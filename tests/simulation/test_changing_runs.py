@@ -143,7 +143,7 @@ def test_a_configuration_is_set_at_once_in_each_world():
         robot.set_configuration(names, [[0.1, 0.2], [0.3, 0.4]])
         np.testing.assert_array_equal(robot.joints[names[0]].positions()[:, 0], [0.1, 0.3])
         np.testing.assert_array_equal(robot.joints[names[1]].positions()[:, 0], [0.2, 0.4])
-        with pytest.raises(SimulationError, match="2 joints need 2 positions"):
+        with pytest.raises(SimulationError, match="wheel_left_joint must be 2 numbers"):
             robot.set_configuration(names, [0.1])
 
 

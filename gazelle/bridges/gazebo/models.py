@@ -175,10 +175,16 @@ class ModelServices:
             # Gazebo passes over names that it does not know.
             found = robot.joints.get(name) or robot.joints.get(name.removeprefix(f"{robot.name}::"))
             if found is not None:
-                self._simulation.engine.set_joint_position(
-                    found.name, np.array([position]), self._entities.worlds
-                )
+                self._turn(found.name, position)
         return yes("SetModelConfiguration: success")
+
+    def _turn(self, joint: str, position: float) -> None:
+        """Put the first axis of a joint somewhere; a ball has none."""
+        engine, worlds = self._simulation.engine, self._entities.worlds
+        positions = engine.joint_position(joint, worlds)
+        if positions.shape[1] == engine.joint_velocity(joint, worlds).shape[1]:
+            positions[:, 0] = position
+            engine.set_joint_position(joint, positions, worlds)
 
 
 def read_pose(wanted: Any) -> State:

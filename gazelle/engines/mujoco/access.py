@@ -14,12 +14,18 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.description import Pose
 from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
-from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
+from gazelle.engines.mujoco.order import (
+    joint_from_mujoco,
+    joint_to_mujoco,
+    wxyz_from_xyzw,
+    xyzw_from_wxyz,
+)
 from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate, turns
 
+SIDES = ("lower", "upper")
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
 
 
@@ -59,6 +65,10 @@ class StateAccess(ABC):
     @abstractmethod
     def time_step(self) -> float:
         """Physics step [s]."""
+
+    @abstractmethod
+    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
+        """A physical parameter, shape (n, width)."""
 
     @abstractmethod
     def make_kinematic(self, model: str) -> None:
@@ -236,7 +246,7 @@ class StateAccess(ABC):
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
         slots = self._now().joint(joint)
-        return _read(self._state.qpos, [s.position for s in slots], worlds)
+        return joint_from_mujoco(_read(self._state.qpos, [s.position for s in slots], worlds))
 
     def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Velocity [m/s or rad/s], shape (n, axes)."""
@@ -246,10 +256,14 @@ class StateAccess(ABC):
     def set_joint_position(
         self, joint: str, position: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Put a joint somewhere [m or rad], shape (axes,) or (n, axes)."""
+        """Put a joint somewhere [m or rad], shape (axes,) or (n, axes), to its limits at most."""
         self._placed = True
         slots = self._now().joint(joint)
-        self._write(self._state.qpos, [s.position for s in slots], position, worlds)
+        given = joint_to_mujoco(np.atleast_1d(np.asarray(position, np.float64)))
+        if len(slots) > 1 or slots[0].position.stop - slots[0].position.start == 1:
+            lower, upper = (self.parameter(f"joint_{side}", joint, worlds) for side in SIDES)
+            given = np.clip(given, lower, np.maximum(lower, upper))
+        self._write(self._state.qpos, [s.position for s in slots], given, worlds)
 
     def set_joint_velocity(
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None

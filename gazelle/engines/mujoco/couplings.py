@@ -24,7 +24,11 @@ _ARM = 0.1
 
 
 def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float) -> None:
-    """Tie together what the joints of a model tie: screws and mimics."""
+    """Tie together what the joints of a model tie: screws and mimics.
+
+    Raises:
+        EngineError: A screw has no thread.
+    """
     for body in bodies:
         joint = body.joint
         if joint is None:
@@ -32,6 +36,12 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float)
         if joint.type == "screw":
             # SDF's pitch is in rad/m and left-handed: angle = -pitch * distance.
             pitch = joint.thread_pitch
+            if pitch == 0.0:
+                raise EngineError(
+                    f"screw joint '{body.joint_name}' has a thread pitch of 0",
+                    source=joint.source,
+                    hint="give it a <thread_pitch> [rad/m], or make it prismatic",
+                )
             _tie(spec, f"{body.joint_name}#1", body.joint_name, (0.0, -1.0 / pitch), time_step)
         for index, axis in enumerate(joint.axes):
             if axis.mimic is not None:

@@ -20,3 +20,24 @@ def wxyz_from_xyzw(q: Floats) -> Floats:
 def xyzw_from_wxyz(q: Floats) -> Floats:
     """The public order of many quaternions, shape (..., 4)."""
     return q.take(_TO_XYZW, axis=-1)
+
+
+# A ball joint's position is a quaternion; a floating joint's is a place and a quaternion.
+_JOINT_TO_XYZW = {4: np.array([1, 2, 3, 0]), 7: np.array([0, 1, 2, 4, 5, 6, 3])}
+_JOINT_TO_WXYZ = {4: np.array([3, 0, 1, 2]), 7: np.array([0, 1, 2, 6, 3, 4, 5])}
+
+
+def joint_from_mujoco(q: Floats) -> Floats:
+    """The public order of a joint's positions, shape (..., width)."""
+    order = _JOINT_TO_XYZW.get(q.shape[-1])
+    return q if order is None else q.take(order, axis=-1)
+
+
+def joint_to_mujoco(q: Floats) -> Floats:
+    """MuJoCo's order of a joint's positions, with quaternions as long as they must be."""
+    order = _JOINT_TO_WXYZ.get(q.shape[-1])
+    if order is None:
+        return q
+    given = q.take(order, axis=-1)
+    given[..., -4:] /= np.linalg.norm(given[..., -4:], axis=-1, keepdims=True)
+    return given

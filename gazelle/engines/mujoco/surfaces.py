@@ -96,12 +96,19 @@ def surface_options(
     """Arguments of ``add_geom`` that hold the surface."""
     surface = collision.surface
     mu, spin = friction_of(collision), torsional_friction_of(collision)
-    mask = 0 if surface.contact.collide_without_contact else surface.contact.collide_bitmask
+    touches = not surface.contact.collide_without_contact
+    mask = _signed(surface.contact.collide_bitmask) if touches else 0
     return {
         "friction": [mu, spin, 0.0],
         "condim": 4 if spin > 0.0 else 3,
         "priority": ranks[mu],
-        "contype": mask & 0xFFFF,
-        "conaffinity": mask & 0xFFFF,
+        "contype": mask,
+        "conaffinity": mask,
         **rigid_terms(time_step),
     }
+
+
+def _signed(mask: int) -> int:
+    """The lower 32 bits of a mask as MuJoCo's signed integer."""
+    low = mask & 0xFFFFFFFF
+    return low - (1 << 32) if low >> 31 else low

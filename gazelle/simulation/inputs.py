@@ -1,0 +1,112 @@
+"""Judge what users hand in before it reaches the engine."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.errors import SimulationError
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+# Parameters of several numbers, which are not one an axis.
+VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
+
+# Characters of a value that a message shows.
+_LONGEST = 60
+
+
+def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
+    """Indices or a mask of worlds as indices, in the order given; None stays None.
+
+    Raises:
+        SimulationError: There is no such world.
+    """
+    if worlds is None:
+        return None
+    given = np.atleast_1d(np.asarray(worlds))
+    if given.dtype == np.bool_ and given.shape == (nworld,):
+        return np.flatnonzero(given)
+    whole = given.ndim == 1 and (given.size == 0 or np.issubdtype(given.dtype, np.integer))
+    if not whole or (given.size and not 0 <= given.min() <= given.max() < nworld):
+        raise SimulationError(
+            f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {worlds}"
+        )
+    return given.astype(np.intp)
+
+
+def size_of(worlds: Worlds | None, nworld: int) -> int:
+    """How many worlds are chosen."""
+    return nworld if worlds is None else len(worlds)
+
+
+def finite(what: str, values: ArrayLike, width: int, count: int, *, alike: bool = False) -> Floats:
+    """Finite numbers of a known shape; see ``numbers``.
+
+    Raises:
+        SimulationError: They are not numbers, not finite, or too many or too few.
+    """
+    given = numbers(what, values, width, count, alike=alike)
+    if not np.isfinite(given).all():
+        raise SimulationError(f"{what} must be finite, not {_short(values)}")
+    return given
+
+
+def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool = False) -> Floats:
+    """Numbers of a known shape: (width,) or (count, width); single ones may be () and (count,).
+
+    Args:
+        what: For the message.
+        values: What was given.
+        width: Numbers for one world.
+        count: How many worlds they are for.
+        alike: Whether one number may stand for all of a world.
+
+    Raises:
+        SimulationError: They are not numbers, or too many or too few.
+    """
+    try:
+        given = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise SimulationError(f"{what} must be numbers, not {_short(values)}") from None
+    if (width == 1 and given.ndim < 2) or (alike and given.shape in ((), (count,))):
+        given = given.reshape(-1, 1)
+    widths = ((width,), (1,)) if alike else ((width,),)
+    if given.shape[-1:] not in widths or given.shape[:-1] not in ((), (1,), (count,)):
+        one = "a number" if width == 1 else f"{width} numbers"
+        rows = f", or a row of them for each of {count} worlds" if count > 1 else ""
+        raise SimulationError(f"{what} must be {one}{rows}, not {_short(values)}")
+    return np.broadcast_to(given, (*given.shape[:-1], width))
+
+
+def placement(
+    name: str, position: ArrayLike, quaternion: ArrayLike, count: int
+) -> tuple[Floats, Floats]:
+    """A position and a quaternion that something can be put at in so many worlds.
+
+    Raises:
+        SimulationError: They are not finite, or of another shape.
+    """
+    return (
+        finite(f"the position of '{name}'", position, 3, count),
+        finite(f"the orientation of '{name}'", quaternion, 4, count),
+    )
+
+
+def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:
+    """A linear and an angular velocity that something can be given in so many worlds.
+
+    Raises:
+        SimulationError: They are not finite, or of another shape.
+    """
+    return (
+        finite(f"the velocity of '{name}'", linear, 3, count),
+        finite(f"the angular velocity of '{name}'", angular, 3, count),
+    )
+
+
+def _short(values: ArrayLike) -> str:
+    """Values as text of one line."""
+    text = " ".join(str(values).split())
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
