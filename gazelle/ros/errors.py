@@ -15,6 +15,7 @@ __all__ = [
     "MarshalError",
     "MasterUnreachableError",
     "Md5MismatchError",
+    "NoMasterError",
     "NodeClosedError",
     "ParameterNotFoundError",
     "ProtocolError",
@@ -67,7 +68,11 @@ class SilentPeerError(UnreachableError):
 
 
 class MasterUnreachableError(UnreachableError):
-    """The ROS master does not answer, or what answers is none."""
+    """The ROS master does not answer."""
+
+
+class NoMasterError(MasterUnreachableError):
+    """What answers, or listens and is silent, is no ROS master."""
 
 
 class ApiError(RosError):

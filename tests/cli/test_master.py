@@ -95,3 +95,9 @@ def test_a_second_master_hears_of_the_first(cli):
 
 def test_a_bad_port_is_wrong_usage(cli):
     assert cli("master", "--port", "99999")[0] == 2
+
+
+def test_the_node_that_collects_logs_has_the_services_of_every_node():
+    with Master(port=0) as master, contextlib.closing(MasterProxy(master.uri, "/asker")) as proxy:
+        services = proxy.system_state()[2]
+    assert sorted(services) == ["/rosout/get_loggers", "/rosout/set_logger_level"]

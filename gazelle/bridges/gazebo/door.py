@@ -19,8 +19,8 @@ from gazelle.bridges.gazebo.models import ModelServices
 from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
 from gazelle.bridges.gazebo.world import WorldServices
-from gazelle.bridges.loggers import serve_loggers
 from gazelle.ros import Node, load_message, load_service
+from gazelle.ros.loggers import serve_loggers
 from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.stepping import make_scheduled
 
@@ -66,6 +66,9 @@ class GazeboDoor:
         self._clock = ClockBeat(self.context, rate)
         self._states: StatesBeat | None = None
         self._beats: list[ClockBeat | StatesBeat | PerformanceBeat] = [self._clock]
+        # Plugins of the world speak for themselves, as in Gazebo.
+        simulation.requests.call(self._follow)
+        self._closing.append(serve_loggers(node))
         if node.get_param("~enable_ros_network", True):
             self._open_network()
         self._closing.append(simulation.events.rested.subscribe(self._flush))
@@ -76,12 +79,13 @@ class GazeboDoor:
     def _open_network(self) -> None:
         self._states = StatesBeat(self.context)
         self._beats += [self._states, PerformanceBeat(self.context)]
-        # Ports before services: what a client spawns at once is bound once.
-        self._simulation.requests.call(self._follow)
         self._serve()
 
     def _follow(self) -> None:
-        """Put all ports on the graph, and those of what comes."""
+        """Put all ports on the graph, and those of what comes.
+
+        Before there are services: what a client spawns at once is bound once.
+        """
         events = self._simulation.events
         self._bind("", self._simulation.ports)
         for name, robot in self._simulation.robots.items():
@@ -189,7 +193,7 @@ class GazeboDoor:
         self._offer_own(world)
         self._listen(models, links)
         reconfigure = PhysicsReconfigure(self.context, world)
-        self._closing += [reconfigure.close, serve_loggers(self._node)]
+        self._closing.append(reconfigure.close)
 
     def _offer_empty(self, world: WorldServices) -> None:
         for name, handler in {

@@ -13,6 +13,7 @@ GAZEBO_ROS = BuiltinPackage(
         "gzserver": _SERVER,
         "gazebo": _SERVER,
         "debug": _SERVER,
+        "perf": _SERVER,
         "gz": "gazelle.clients.gz:main",
         "gzclient": "gazelle.bridges.gazebo.window:main",
         "spawn_model": "gazelle.clients.spawn_model:main",

@@ -9,6 +9,7 @@ from gazelle.ros.errors import (
     FaultError,
     MarshalError,
     MasterUnreachableError,
+    NoMasterError,
     ProtocolError,
     SilentPeerError,
     UnreachableError,
@@ -88,7 +89,8 @@ class MasterProxy:
         """Process of the master, asked with little patience.
 
         Raises:
-            MasterUnreachableError: Nobody answers, or somebody who is no master.
+            MasterUnreachableError: Nobody listens.
+            NoMasterError: Somebody does who is no master.
         """
         shy = MasterProxy(self.uri, self.caller, GREETING_S)
         try:
@@ -182,8 +184,6 @@ class MasterProxy:
         self.call("unsubscribeParam", uri, key)
 
 
-def _no_master(uri: str, why: str) -> MasterUnreachableError:
+def _no_master(uri: str, why: str) -> NoMasterError:
     """The error for a port that something else has."""
-    return MasterUnreachableError(
-        f"what listens at {uri} is no ROS master ({why})", hint=TAKEN_HINT
-    )
+    return NoMasterError(f"what listens at {uri} is no ROS master ({why})", hint=TAKEN_HINT)

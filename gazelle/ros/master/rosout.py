@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.ros.clock import WallClock
+from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.node import Node
 from gazelle.ros.raw import RawMessage
 
@@ -30,6 +31,7 @@ class RosoutAggregator:
         self._node = Node("rosout", master_uri=master_uri, host=host, clock=WallClock())
         self._publisher = self._node.advertise("/rosout_agg", kind, queue_size=1000)
         self._node.subscribe("/rosout", kind, self._pass_on, queue_size=1000)
+        serve_loggers(self._node)
 
     def close(self) -> None:
         """End the node."""

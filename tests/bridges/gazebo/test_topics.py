@@ -123,13 +123,15 @@ def test_time_never_goes_back_for_graphs_that_cannot_bear_it():
         assert times == sorted(times)
 
 
-def test_without_the_network_there_is_only_the_clock():
+def test_without_the_network_there_are_the_clock_and_what_plugins_publish():
     with Master(port=0, rosout=False) as master, Node("boss", master_uri=master.uri) as boss:
         boss.set_param("/gazebo/enable_ros_network", False)
         boss.set_param("/gazebo/pub_clock_frequency", 100)
         with gazelle.Simulation("empty") as sim, serve_ros(sim, master.uri):
             topics = [name for name, _ in boss.master.published_topics()]
             assert topics == ["/clock"]
+            services = boss.master.system_state()[2]
+            assert sorted(services) == ["/gazebo/get_loggers", "/gazebo/set_logger_level"]
             ticks = []
             boss.subscribe("/clock", load_message("rosgraph_msgs/Clock"), ticks.append)
             until(lambda: ticks)
@@ -137,6 +139,8 @@ def test_without_the_network_there_is_only_the_clock():
             sim.run(seconds=1.0)
             until(lambda: len(ticks) >= 99)
             assert len(ticks) == pytest.approx(100, abs=2)
+            sim.spawn("turtlebot3_burger", namespace="/")
+            assert "/scan" in [name for name, _ in boss.master.published_topics()]
 
 
 def test_the_door_leaves_nothing_behind():

@@ -190,3 +190,22 @@ def test_actionlib_works_in_the_node_of_the_process(node):
     state = client.send_goal_and_wait(messages.TestGoal(1), node.Duration(5))
     assert state == actionlib.GoalStatus.SUCCEEDED
     assert client.get_result().result == 2
+
+
+def test_gazebo_interface_calls_the_services_of_a_gazebo(node):
+    interface = importlib.import_module("gazebo_ros.gazebo_interface")
+    srv = importlib.import_module("gazebo_msgs.srv")
+    asked = []
+
+    def spawn(request):
+        asked.append((request.model_name, request.robot_namespace, request.initial_pose.position.x))
+        return request.model_name == "new", "told"
+
+    node.Service("/gazebo/spawn_sdf_model", srv.SpawnModel, spawn)
+    node.Service("/gazebo/set_model_configuration", srv.SetModelConfiguration, lambda _: 1 / 0)
+    pose = load_message("geometry_msgs/Pose")()
+    pose.position.x = 2.0
+    assert interface.spawn_sdf_model_client("new", "<sdf/>", "/a", pose, "", "/gazebo") is True
+    assert interface.spawn_sdf_model_client("old", "<sdf/>", "/a", pose, "", "/gazebo") is False
+    assert interface.set_model_configuration_client("m", "", ["j"], [1.0], "/gazebo") is None
+    assert asked == [("new", "/a", 2.0), ("old", "/a", 2.0)]

@@ -2,11 +2,14 @@
 
 import importlib
 import io
+import socket
 import threading
 import time
 
 import numpy as np
 import pytest
+
+from gazelle.ros import Master
 
 
 def until(condition, seconds=5.0):
@@ -270,10 +273,36 @@ def test_impossible_names_are_refused(rospy, name):
         rospy.init_node(name)
 
 
-def test_without_a_master_there_is_no_node(rospy, monkeypatch):
-    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9")
-    with pytest.raises(rospy.ROSInitException, match="init_node failed"):
-        rospy.init_node("probe", disable_signals=True)
+def test_a_master_that_is_not_there_yet_is_waited_for(rospy, monkeypatch, capsys):
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    uri = f"http://127.0.0.1:{port}"
+    monkeypatch.setenv("ROS_MASTER_URI", uri)
+    masters = []
+    late = threading.Timer(0.4, lambda: masters.append(Master(port=port)))
+    late.start()
+    rospy.init_node("probe", disable_signals=True)
+    late.join()
+    said = f"Unable to register with master node [{uri}]: master may not be running yet. Will keep"
+    assert capsys.readouterr().out.count(said) == 1
+    assert rospy.get_published_topics()
+    rospy.signal_shutdown("done")
+    masters[0].close()
+
+
+def test_what_is_no_master_is_not_waited_for(rospy, monkeypatch):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+
+        def refuse():
+            connection = taken.accept()[0]
+            connection.recv(65536)
+            connection.sendall(b"HTTP/1.0 404 No\r\n\r\n")
+            connection.close()
+
+        threading.Thread(target=refuse, daemon=True).start()
+        monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{taken.getsockname()[1]}")
+        with pytest.raises(rospy.ROSInitException, match="is no ROS master"):
+            rospy.init_node("probe", disable_signals=True)
 
 
 def test_waiting_for_a_message(node, msgs):

@@ -33,7 +33,12 @@ from gazelle.ros.compat.rospy.params import (
 )
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.rospy.topics import Subscriber
-from gazelle.ros.errors import InvalidNameError, RosError
+from gazelle.ros.errors import (
+    InvalidNameError,
+    MasterUnreachableError,
+    NoMasterError,
+    RosError,
+)
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
 from gazelle.ros.parameters import set_private
@@ -61,6 +66,7 @@ __all__ = [
 ]
 
 _LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
+_MASTER_POLL_S = 0.2
 _begun: tuple[Any, ...] | None = None
 _begin_lock = threading.RLock()
 
@@ -76,7 +82,7 @@ def init_node(
     xmlrpc_port: int = 0,
     tcpros_port: int = 0,
 ) -> None:
-    """Make this process a node.
+    """Make this process a node; waits for a master that is not there yet.
 
     Args:
         name: Of the node, without namespace; ``__name:=`` on the command line wins.
@@ -92,7 +98,7 @@ def init_node(
     Raises:
         ValueError: The name is empty or has a namespace.
         ROSException: The node was begun before, with other arguments.
-        ROSInitException: There is no master.
+        ROSInitException: What is there is no master.
     """
     global _begun  # noqa: PLW0603  # there is one node a process
     del xmlrpc_port, tcpros_port
@@ -135,7 +141,7 @@ def _begin(name: str, *, anonymous: bool, wall: bool) -> None:
             "ROS tools.\n"
         )
     try:
-        node = Node(
+        node = _join(
             name,
             namespace=names.get_namespace(),
             master_uri=master_uri(),
@@ -149,12 +155,35 @@ def _begin(name: str, *, anonymous: bool, wall: bool) -> None:
     except InvalidNameError as error:
         raise ROSInitException(str(error)) from error
     except RosError as error:
-        raise ROSInitException(f"init_node failed: {error}") from error
+        raise ROSInitException(f"init_node failed: {error}") from None
     process.adopt(node)
     names._set_caller_id(node.name)  # noqa: SLF001  # a module of the same package
     names.initialize_mappings(node.name)
     # Processes that begin together shall not make the same random names.
     random.seed(os.urandom(16))
+
+
+def _join(name: str, **options: Any) -> Node:
+    """The node, as soon as there is a master, which scripts may have started a moment ago.
+
+    Raises:
+        RosError: It cannot be made, or what is there is no master.
+    """
+    said = False
+    while True:
+        try:
+            return Node(name, **options)
+        except NoMasterError:
+            raise
+        except MasterUnreachableError:
+            if not said:
+                said = True
+                sys.stdout.write(
+                    f"Unable to register with master node [{options['master_uri']}]: master may "
+                    "not be running yet. Will keep trying. ('gazelle master' starts one.)\n"
+                )
+                sys.stdout.flush()
+        time.sleep(_MASTER_POLL_S)
 
 
 def _serve_logger_levels() -> None:

@@ -6,8 +6,9 @@ import logging
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.errors import ServiceError
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.node import Node
 
 # ROS's names of levels; Python has no fatal of its own.
 _LEVELS = {

@@ -1,0 +1,1 @@
+"""The Python code of the package gazebo_ros."""
