@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import threading
-import time
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from ros.graph import until
 
 import gazelle
 from gazelle.bridges import serve_ros
@@ -60,20 +60,13 @@ def test_a_goal_on_the_graph_is_driven_to(office):
     office.node.subscribe("/path", load_message("nav_msgs/Path"), paths.append, 1)
     office.node.subscribe("/odom", load_message("nav_msgs/Odometry"), places.append, 1)
     goals = office.node.advertise("/move_base_simple/goal", load_message(POSE), 1)
-    until(lambda: goals.num_connections and places)
+    until(lambda: goals.num_connections and places, 60.0)
     message = load_message(POSE)()
     message.header.frame_id = "map"
     message.pose.position.x = 0.8
     goals.publish(message)
-    until(lambda: places[-1].pose.pose.position.x > 0.65)
-    until(lambda: any(path.poses for path in paths))
+    until(lambda: places[-1].pose.pose.position.x > 0.65, 60.0)
+    until(lambda: any(path.poses for path in paths), 60.0)
     way = next(path for path in paths if path.poses)
     assert way.header.frame_id == "odom"
     assert way.poses[-1].pose.position.x == pytest.approx(0.8)
-
-
-def until(true, timeout=60.0):
-    end = time.monotonic() + timeout
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.01)

@@ -98,7 +98,7 @@ class Flag:
     _response_class = FlagResponse
 
 
-def until(condition, timeout=10.0):
+def until(condition, timeout=15.0):
     """Wait for something to become true."""
     deadline = time.monotonic() + timeout
     while not condition():

@@ -1,10 +1,10 @@
 """A Stage world on a graph of its own, stepped by the test, and a client beside it."""
 
 import threading
-import time
 from types import SimpleNamespace
 
 import pytest
+from ros.graph import until
 from stage_samples import write
 
 from gazelle.bridges.stage import serve_stage
@@ -68,12 +68,7 @@ class Stage:
         self.until(lambda: len(heard) >= before + count)
         return heard[-1]
 
-    @staticmethod
-    def until(true, timeout=10.0):
-        end = time.monotonic() + timeout
-        while not true():
-            assert time.monotonic() < end, "it did not come true"
-            time.sleep(0.002)
+    until = staticmethod(until)
 
     def close(self):
         self.node.close()

@@ -4,6 +4,7 @@ import threading
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros.actions import (
     ActionClient,
@@ -21,13 +22,6 @@ TEST = load_message("actionlib/TestAction")
 GOAL = load_message("actionlib/TestGoal")
 RESULT = load_message("actionlib/TestResult")
 FEEDBACK = load_message("actionlib/TestFeedback")
-
-
-def until(condition, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.005)
 
 
 @pytest.fixture

@@ -6,18 +6,12 @@ import threading
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros import Time, WallClock, load_message
 from gazelle.ros.bags import Bag, BagError
 from gazelle.ros.bags.playing import Player, PlayOptions
 from gazelle.ros.bags.recording import Recorder, RecordOptions, check, duration_of
-
-
-def until(condition, seconds=10.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it does not happen"
-        time.sleep(0.01)
 
 
 @pytest.fixture

@@ -14,6 +14,7 @@ import time
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from ros.graph import until
 
 from gazelle.errors import RosError
 from gazelle.ros import RawMessage, load_message, load_service
@@ -24,13 +25,6 @@ from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.static_transform import from_angles
 
 STRING = load_message("std_msgs/String")
-
-
-def until(condition, seconds=15.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it does not happen"
-        time.sleep(0.02)
 
 
 @pytest.fixture

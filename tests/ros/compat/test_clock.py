@@ -5,6 +5,7 @@ import threading
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
@@ -25,13 +26,6 @@ def simulated(rospy, make_node):
         until(lambda: rospy.get_time() == pytest.approx(seconds))
 
     return rospy, tell
-
-
-def until(condition, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.002)
 
 
 def start(call):

@@ -5,6 +5,7 @@ import time
 
 import pytest
 from ros import real
+from ros.graph import until
 
 pytestmark = [pytest.mark.ros, real.needs_ros]
 
@@ -96,13 +97,6 @@ client = dynamic_reconfigure.client.Client("probe", timeout=10)
 say(sorted(client.get_configuration(5).items(), key=str)[0])
 say(client.update_configuration({"gain": 0.75})["gain"])
 """
-
-
-def until(condition, seconds=10.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.005)
 
 
 def test_our_buffer_hears_real_broadcasters(node, master):

@@ -1,20 +1,13 @@
 """message_filters, dynamic_reconfigure, rosparam, rostopic, rosservice, rosnode, actionlib."""
 
 import importlib
-import time
 import types
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
-
-
-def until(condition, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.005)
 
 
 def stamped(seconds):

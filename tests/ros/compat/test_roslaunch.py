@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.messages import search
@@ -45,13 +46,6 @@ def package(tmp_path, monkeypatch):
 @pytest.fixture
 def roslaunch(rospy, package):
     return importlib.import_module("roslaunch")
-
-
-def until(condition, seconds=15.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.02)
 
 
 def test_a_launch_file_is_started_and_ended(roslaunch, rospy, package, capfd):

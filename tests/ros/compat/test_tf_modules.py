@@ -6,16 +6,10 @@ import threading
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
-
-
-def until(condition, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.005)
 
 
 def transform(parent, child, stamp, x=0.0, yaw=0.0):

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from ros.graph import until
 
 from gazelle.ros import Master
 from gazelle.ros.errors import MasterUnreachableError
@@ -58,13 +59,6 @@ def launch(load, master):
     yield run
     for running in made:
         running.close()
-
-
-def until(condition, seconds=10.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it does not happen"
-        time.sleep(0.02)
 
 
 def spin(running, seconds=10.0):

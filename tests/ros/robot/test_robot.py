@@ -4,6 +4,7 @@ import math
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.registry import main_of
@@ -33,13 +34,6 @@ ROBOT = """
   </joint>
 </robot>
 """
-
-
-def until(condition, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it did not come true in time"
-        time.sleep(0.005)
 
 
 def test_joints_place_their_links():

@@ -9,6 +9,7 @@ import time
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from ros.graph import until
 
 from gazelle.ros import Time, load_message, load_service
 from gazelle.ros.tools import listing, nodes, params, services
@@ -39,13 +40,6 @@ def graph(master):
 @pytest.fixture
 def out():
     return io.StringIO()
-
-
-def until(condition, seconds=10.0):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "it does not happen"
-        time.sleep(0.01)
 
 
 class Background:

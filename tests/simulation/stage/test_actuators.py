@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from stage_samples import write
 
 from gazelle import SimulationError
-from gazelle.simulation.stage import StageSimulation
 
 RANGER = "ranger ( pose [0 0 -1 0] sensor ( range [0 8] samples 1 ) )"
 ROBOT = (
@@ -18,19 +16,6 @@ ROBOT = (
 WALL = "model ( size [1 4 2] pose [3 0 0 0] )\n"
 SLIDE = 'type "linear" axis [1 0 0] max_position 2 max_speed 0.5'
 TURN = 'type "rotational" min_position -2 max_position 2 max_speed 1'
-
-
-@pytest.fixture
-def start(tmp_path):
-    made = []
-
-    def make(text, **options):
-        made.append(StageSimulation(write(tmp_path, text), threads=1, **options))
-        return made[-1]
-
-    yield make
-    for sim in made:
-        sim.close()
 
 
 def robot(actuator, place="0 0 0 0", more=""):

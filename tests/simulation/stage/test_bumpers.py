@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from stage_samples import draw, write
+from stage_samples import draw
 
 from gazelle import SimulationError
-from gazelle.simulation.stage import StageSimulation
 from gazelle.simulation.stage.bumpers import gaps_to
 
 BUMPER = (
@@ -17,19 +16,6 @@ BUMPER = (
     "bpose[0] [0.2 0 0 0] bpose[1] [0 0.2 0 90] bpose[2] [-0.2 0 0 180] bpose[3] [0 -0.2 0 -90] )"
 )
 ROBOT = f'position ( name "r" size [.4 .4 .4] {BUMPER} )\n'
-
-
-@pytest.fixture
-def start(tmp_path):
-    made = []
-
-    def make(text, **options):
-        made.append(StageSimulation(write(tmp_path, text), threads=1, **options))
-        return made[-1]
-
-    yield make
-    for sim in made:
-        sim.close()
 
 
 def test_nothing_is_touched_in_the_open(start):

@@ -17,19 +17,6 @@ FX = COLUMNS / 2 / math.tan(math.radians(45))
 FY = ROWS / 2 / math.tan(math.radians(30))
 
 
-@pytest.fixture
-def start(tmp_path):
-    made = []
-
-    def make(text, **options):
-        made.append(StageSimulation(write(tmp_path, text), threads=1, **options))
-        return made[-1]
-
-    yield make
-    for sim in made:
-        sim.close()
-
-
 def robot(camera="", more=""):
     return f'position ( name "r" {BODY} {more} camera ( {LENS} {camera} ) )\n'
 

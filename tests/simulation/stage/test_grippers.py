@@ -4,28 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from stage_samples import write
 
 from gazelle import SimulationError
-from gazelle.simulation.stage import StageSimulation
 
 GRIPPER = "gripper ( size [.2 .3 .2] pose [.3 0 -.4 0] {} )"
 ROBOT = 'position ( name "r" size [.4 .4 .4] ' + GRIPPER + " )\n"
 PUCK = 'model ( name "puck" size [.08 .08 .1] gripper_return 1 pose [{} {} 0 0] )\n'
 BETWEEN = 0.34  # the paddles begin at 0.268 and end at 0.4
-
-
-@pytest.fixture
-def start(tmp_path):
-    made = []
-
-    def make(text, **options):
-        made.append(StageSimulation(write(tmp_path, text), threads=1, **options))
-        return made[-1]
-
-    yield make
-    for sim in made:
-        sim.close()
 
 
 def test_the_paddles_close_and_open_in_twenty_updates(start):
