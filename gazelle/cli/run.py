@@ -17,6 +17,7 @@ answers.
 from __future__ import annotations
 
 import argparse
+import math
 import signal
 import sys
 import threading
@@ -57,8 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--rate",
         metavar="X",
         type=_rate,
-        default=1.0,
-        help="real-time factor to keep to, or max (default 1.0)",
+        help="real-time factor to keep to, or max (default 1.0, for Stage files their speedup)",
     )
     parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
@@ -93,6 +93,7 @@ def run(args: argparse.Namespace) -> int:
     sys.path[:0] = args.plugins
     world = formats.load(args.file)
     fleet = world.stage is not None and args.engine in {None, "planar"}
+    args.rate = _pace(args.rate, world.stage)
     if args.ros:
         from gazelle.bridges import refuse_twin
 
@@ -126,6 +127,8 @@ def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:
 
     if args.spawn:
         args.parser.error("--spawn puts robots into worlds in space; this is a Stage file")
+    if args.seconds is None and not args.paused and world.quit_time > 0.0:
+        args.seconds = world.quit_time
     with StageSimulation(world, seed=args.seed) as sim:
         count = len(sim.robots)
         sys.stdout.write(f"Stage world '{world.name}': {count} robot{'s' * (count != 1)}\n")
@@ -230,6 +233,13 @@ def _hold(sim: Running) -> None:
         time.sleep(0.05)
 
 
-def _rate(text: str) -> float | None:
-    """A real-time factor, or ``max`` for none."""
-    return None if text == "max" else positive_float(text)
+def _rate(text: str) -> float:
+    """A real-time factor, infinite for ``max``."""
+    return math.inf if text == "max" else positive_float(text)
+
+
+def _pace(asked: float | None, stage: StageWorld | None) -> float | None:
+    """The real-time factor to keep to, None for as fast as possible."""
+    if asked is None and stage is not None:
+        asked = stage.speedup if stage.speedup > 0.0 else math.inf
+    return None if asked == math.inf else asked or 1.0

@@ -164,7 +164,8 @@ def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
     if "://" in name:
         return None
     folder = resolver.model(name)
-    file = _bundled_files(resolver.assets).get(name)
+    files = _bundled_files(resolver.assets)
+    file = files.get(name) or {file.name: file for file in files.values()}.get(name)
     return (folder or file) if model else (file or folder)
 
 

@@ -137,6 +137,19 @@ def test_run_of_a_stage_file_goes_in_the_plane(cli, tmp_path):
     assert "simulated 2.00 s" in err
 
 
+def test_run_keeps_to_the_speedup_and_quit_time_of_a_stage_file(cli, tmp_path):
+    file = tmp_path / "one.world"
+    file.write_text("speedup 40 quit_time 8\nposition ( )\n")
+    start = time.monotonic()
+    code, _, err = cli("run", file)
+    assert code == 0
+    assert "simulated 8.00 s" in err
+    assert 0.19 < time.monotonic() - start < 4.0
+    file.write_text("speedup 0 quit_time 8\nposition ( )\n")
+    assert "simulated 4.00 s" in cli("run", file, "--for", 4)[2]
+    assert cli("run", file, "--for", 0.3, "--rate", 1)[0] == 0
+
+
 def test_run_of_a_stage_file_spawns_nothing_else(cli, tmp_path):
     file = tmp_path / "yard.world"
     file.write_text(STAGE, encoding="utf-8")

@@ -146,6 +146,14 @@ def test_bundled_models_worlds_and_robots_load_by_name():
     assert formats.load_model("turtlebot3_burger").links
 
 
+def test_bundled_files_load_by_the_file_name_too(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert len(formats.load("fleet.world").stage.robots) == 72
+    assert formats.load_model("turtlebot3_burger.urdf.xacro").links
+    (tmp_path / "fleet.world").write_text("position ( )")
+    assert len(formats.load("fleet.world").stage.robots) == 1
+
+
 def test_every_bundled_name_loads_without_a_warning():
     names = formats.loader.bundled_names(Resolver().assets)
     assert {"turtlebot3_burger", "turtlebot3_stage_4", "empty"} <= set(names)
