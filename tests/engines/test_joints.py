@@ -211,7 +211,7 @@ def test_a_ring_of_free_links_is_opened_at_its_first_link_and_held_together():
 
 def test_a_joint_that_cannot_close_a_loop_is_an_error_with_its_place():
     source = Source("loop.sdf", 9, "joint")
-    first = joint("j1", "revolute", "a", "b", X)
+    first = joint("j1", "prismatic", "a", "b", X)
     second = joint("j2", "prismatic", "a", "b", X, source=source)
     with pytest.raises(EngineError, match=r"loop.sdf:9: .*closes a loop"):
         engine_of(first, second)

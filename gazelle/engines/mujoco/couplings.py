@@ -6,6 +6,7 @@ hold two bodies together at points.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -13,8 +14,8 @@ import mujoco
 import numpy as np
 
 from gazelle.description import Joint
-from gazelle.engines.mujoco.tree import Body, Closure
-from gazelle.errors import EngineError
+from gazelle.engines.mujoco.tree import Body, Closure, lost_in_loop
+from gazelle.errors import EngineError, EngineWarning
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
 _STEPS, _DAMPING_RATIO = 3.0, 1.0
@@ -66,9 +67,25 @@ def add_closure(
         raise EngineError(
             f"joint '{closure.name}' of type '{joint.type}' closes a loop, which is not simulated",
             source=joint.source,
-            hint=f"types that can close a loop: {known}",
+            hint=f"let another joint of the loop close it; types that can: {known}",
         )
+    _warn_of_loss(closure)
     _CLOSERS[joint.type](spec, closure, bodies, time_step)
+
+
+def _warn_of_loss(closure: Closure) -> None:
+    """Say what of a joint is lost because it closes a loop."""
+    joint = closure.joint
+    if joint.type == "universal":
+        lost = "it is held as a ball joint"
+    elif terms := () if joint.type == "gearbox" else lost_in_loop(joint):
+        lost = f"without effect there: {', '.join(terms)}"
+    else:
+        return
+    place = f"{joint.source.file}:{joint.source.line}: " if joint.source else ""
+    warnings.warn(
+        EngineWarning(f"{place}joint '{closure.name}' closes a loop; {lost}"), stacklevel=2
+    )
 
 
 def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:

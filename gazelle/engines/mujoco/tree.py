@@ -10,6 +10,12 @@ from typing import Literal
 from gazelle.description import Joint, JointAxis, Link, Model, PlacedModel, Pose
 from gazelle.errors import EngineError, did_you_mean
 
+# Joints that two bodies held at points do not make.
+_ONLY_IN_TREES = ("floating", "planar", "prismatic", "revolute2", "screw", "universal")
+
+# Limits so far off are none [m or rad].
+_FAR = 1e4
+
 RootKind = Literal["free", "static", "kinematic"]
 
 
@@ -74,8 +80,9 @@ class Tree:
 def tree_of(model: Model, *, kinematic: bool = False) -> Tree:
     """All bodies of a model and its nested models, and the joints that close loops.
 
-    Of several joints that move one link the first in the file is the tree's. Where joints
-    form a ring with no end, the first link in the file is let free and its joint closes it.
+    Of several joints that move one link the tree's is the first that would lose something if
+    it closed a loop, or else the first in the file. Where joints form a ring with no end, the
+    first link in the file is let free and its joint closes it.
 
     Raises:
         EngineError: A joint names a link that is not there.
@@ -153,22 +160,62 @@ def _sort_joints(
                 closures.append(Closure(scoped, full, joint.pose))
             else:
                 carrying[child] = (scoped, full)
-    return carrying, closures
+    return carrying, [_exchanged(closure, carrying) for closure in closures]
+
+
+def _exchanged(closure: Closure, carrying: dict[str, tuple[str, Joint]]) -> Closure:
+    """The closure, or the joint that carries its link if that would lose less by closing."""
+    joint = closure.joint
+    if joint.type == "gearbox" or not lost_in_loop(joint):
+        return closure
+    name, held = carrying[joint.child]
+    above = _parent_of(joint)
+    while above is not None and above != joint.child:
+        above = _parent_of(carrying[above][1]) if above in carrying else None
+    if lost_in_loop(held) or above is not None:
+        return closure
+    carrying[joint.child] = (closure.name, joint)
+    return Closure(name, held, held.pose)
+
+
+def lost_in_loop(joint: Joint) -> tuple[str, ...]:
+    """What of a joint no constraint between two bodies can do, in words; empty for nothing."""
+    if joint.type in _ONLY_IN_TREES:
+        return (f"type '{joint.type}'",)
+    lost = [
+        word
+        for axis in joint.axes
+        for word, there in (
+            ("damping", axis.damping != 0.0),
+            ("friction", axis.friction != 0.0),
+            ("spring", axis.spring_stiffness != 0.0),
+            ("mimic", axis.mimic is not None),
+            ("limits", joint.type != "continuous" and _is_limited(axis)),
+        )
+        if there
+    ]
+    return tuple(dict.fromkeys(lost))
+
+
+def _is_limited(axis: JointAxis) -> bool:
+    return axis.lower > -_FAR or axis.upper < _FAR
 
 
 def _open_rings(
     parts: dict[str, _Part], joints: dict[str, tuple[str, Joint]]
 ) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
-    """Cut every ring of joints at its first link."""
+    """Cut every ring of joints at its first link whose joint loses nothing by it."""
     held, opened = dict(joints), []
     for name in parts:
-        seen: set[str] = set()
+        path: list[str] = []
         link: str | None = name
-        while link is not None and link in held and link not in seen:
-            seen.add(link)
+        while link is not None and link in held and link not in path:
+            path.append(link)
             link = _parent_of(held[link][1])
-        if link is not None and link in seen:
-            first = next(each for each in parts if each in seen)
+        if link is not None and link in path:
+            ring = set(path[path.index(link) :])
+            inside = [each for each in parts if each in ring]
+            first = min(inside, key=lambda each: bool(lost_in_loop(held[each][1])))
             scoped, joint = held.pop(first)
             opened.append(Closure(scoped, joint, joint.pose))
     return held, opened
