@@ -1,6 +1,7 @@
 """Worlds that tests build from descriptions, without files."""
 
 import math
+from dataclasses import replace
 
 from gazelle.description import (
     Box,
@@ -31,6 +32,13 @@ from gazelle.description import (
 
 def rubber(mu=1.0):
     return Surface(Friction(mu, mu), Contact())
+
+
+def with_surface(model, surface):
+    """A model of one link with another surface."""
+    link = model.links[0]
+    collisions = tuple(replace(c, surface=surface) for c in link.collisions)
+    return replace(model, links=(replace(link, collisions=collisions),))
 
 
 def ground(mu=100.0):

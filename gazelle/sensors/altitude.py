@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.description import Atmosphere, Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.formats.sdf.noise import read_noise
-from gazelle.rotations import cross, rotate
+from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
 
@@ -84,11 +84,8 @@ class AltimeterModel(NoisySensor):
     ) -> None:
         noises = {"position": settings.position, "velocity": settings.velocity}
         super().__init__(noises, seed, name, engine.nworld)
-        self._engine = engine
-        self._link = link
-        self._offset = np.asarray(pose.position)
-        place = engine.link_placement(link)
-        self._reference = (place.position + rotate(place.quaternion, self._offset))[:, 2]
+        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
+        self._reference = self._point.position()[:, 2]
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Height, velocity upwards and reference now, shape (n, 3).
@@ -97,13 +94,10 @@ class AltimeterModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        place = self._engine.link_placement(self._link, worlds)
-        motion = self._engine.link_motion(self._link, worlds)
-        arm = rotate(place.quaternion, self._offset)
+        position, velocity = self._point.position_and_velocity(worlds)
         reference = self._reference[slice(None) if worlds is None else worlds]
-        height = (place.position + arm)[:, 2] - reference
-        climb = (motion.linear + cross(motion.angular, arm))[:, 2]
-        measured = self.noisy(np.column_stack((height, climb)), interval, worlds)
+        height = position[:, 2] - reference
+        measured = self.noisy(np.column_stack((height, velocity[:, 2])), interval, worlds)
         return np.column_stack((measured, reference))
 
     def reading(self, values: Floats, stamp: int) -> AltimeterReading:
@@ -174,8 +168,7 @@ class AirPressureModel(NoisySensor):
         super().__init__({"pressure": settings.noise}, seed, name, engine.nworld)
         self.settings = settings
         self._engine = engine
-        self._link = link
-        self._offset = np.asarray(pose.position)
+        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Pressure now [Pa], shape (n, 1).
@@ -184,9 +177,7 @@ class AirPressureModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        place = self._engine.link_placement(self._link, worlds)
-        height = (place.position + rotate(place.quaternion, self._offset))[:, 2:]
-        altitude = self.settings.reference_altitude + height
+        altitude = self.settings.reference_altitude + self._point.position(worlds)[:, 2:]
         pressure = air_pressure(self._engine.world.atmosphere, altitude)
         return self.noisy(pressure, interval, worlds)
 

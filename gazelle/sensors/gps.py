@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.description import Noise, Parameters, Pose, SphericalCoordinates
 from gazelle.engines import Engine
 from gazelle.formats.sdf.noise import read_noise
-from gazelle.rotations import cross, rotate
+from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.geodesy import TangentPlane
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
@@ -97,8 +97,7 @@ class GpsModel(NoisySensor):
         }
         super().__init__(noises, seed, name, engine.nworld)
         self._engine = engine
-        self._link = link
-        self._offset = np.asarray(pose.position)
+        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
         self._origin: SphericalCoordinates | None = None
         self._plane = TangentPlane(SphericalCoordinates())
 
@@ -109,12 +108,9 @@ class GpsModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        place = self._engine.link_placement(self._link, worlds)
-        motion = self._engine.link_motion(self._link, worlds)
-        arm = rotate(place.quaternion, self._offset)
+        position, velocity = self._point.position_and_velocity(worlds)
         plane = self._current_plane()
-        velocity = plane.east_north_up(motion.linear + cross(motion.angular, arm))
-        true = np.concatenate((place.position + arm, velocity), axis=1)
+        true = np.concatenate((position, plane.east_north_up(velocity)), axis=1)
         measured = self.noisy(true, interval, worlds)
         return np.column_stack((*plane.geodetic(measured[:, :3]), measured[:, 3:]))
 

@@ -1,7 +1,5 @@
 """What the rangers and lidars of a world in the plane look at, for pictures."""
 
-# ruff: noqa: SLF001  # pictures see what sensors see, and draw none of their random numbers
-
 from __future__ import annotations
 
 from gazelle.engines.planar import Fleet, Mount, PlanarEngine, Scanner
@@ -14,7 +12,7 @@ from gazelle.simulation.stage import StageSimulation
 def scanners_of(simulation: Simulation | StageSimulation, fleet: Fleet) -> list[Scanner]:
     """Scanners without noise, with the beams of all rangers and lidars."""
     if isinstance(simulation, StageSimulation):
-        pairs = list(zip(simulation._fans, simulation._mounts, strict=True))
+        pairs = list(zip(simulation.fans, simulation.mounts, strict=True))
     else:
         pairs = _lidars(simulation)
     return [Scanner(fleet, fan, mounts) for fan, mounts in pairs]

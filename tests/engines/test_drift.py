@@ -27,12 +27,6 @@ from gazelle.rotations import conjugate, rotate
 G = 9.8
 
 
-def with_surface(model, surface):
-    link = model.links[0]
-    collisions = tuple(replace(c, surface=surface) for c in link.collisions)
-    return replace(model, links=(replace(link, collisions=collisions),))
-
-
 def pendulum():
     """A point of 1 kg on an arm of 0.5 m; zero is level, pi / 2 hangs."""
     inertial = Inertial(1.0, Pose(x=0.5), Inertia(0.01, 0.01, 0.01))
@@ -133,8 +127,8 @@ def test_with_plain_euler_a_tumbling_body_drifts_as_the_page_says():
 @pytest.mark.slow
 def test_an_elastic_ball_loses_little_of_its_height_in_ten_minutes():
     elastic = Surface(bounce=Bounce(1.0, 0.01))
-    ball = with_surface(scenes.ball(pose=Pose(z=1.1)), elastic)
-    floor = with_surface(scenes.ground(), elastic)
+    ball = scenes.with_surface(scenes.ball(pose=Pose(z=1.1)), elastic)
+    floor = scenes.with_surface(scenes.ground(), elastic)
     engine = make_engine("mujoco", scenes.world(floor, ball))
     engine.step(598_000)
     heights = []
@@ -148,7 +142,7 @@ def test_two_bodies_keep_their_momentum_through_every_kind_of_contact():
     for bounce in (Bounce(), Bounce(0.6, 0.01)):
         surface = Surface(Friction(0.3, 0.3), bounce=bounce)
         bodies = [scenes.box("a", mass=3.0, pose=Pose(x=-0.3, y=0.05)), scenes.ball("b", mass=1.0)]
-        models = [with_surface(body, surface) for body in bodies]
+        models = [scenes.with_surface(body, surface) for body in bodies]
         engine = make_engine("mujoco", scenes.world(*models, gravity=(0.0, 0.0, 0.0)))
         engine.set_model_motion("a", (2.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         engine.step(1000)

@@ -26,16 +26,12 @@ ELSEWHERE = """
 """
 
 
-def with_surface(model, surface):
-    link = model.links[0]
-    collisions = tuple(replace(c, surface=surface) for c in link.collisions)
-    return replace(model, links=(replace(link, collisions=collisions),))
-
-
 def bouncing():
     surface = Surface(Friction(1.0, 0.1, fdir1=(1.0, 0.0, 0.0)), bounce=Bounce(0.6, 0.01))
     models = [scenes.box(f"b{i}", pose=Pose(0.5 * i, z=0.5, roll=0.3 * i)) for i in range(3)]
-    return scenes.world(*(with_surface(each, surface) for each in (scenes.ground(), *models)))
+    return scenes.world(
+        *(scenes.with_surface(each, surface) for each in (scenes.ground(), *models))
+    )
 
 
 def fall():

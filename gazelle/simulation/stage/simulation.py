@@ -58,6 +58,8 @@ class StageSimulation(Senses):
         clock: Simulated time.
         requests: Where other threads have things done, between two steps.
         paused: Whether ``run`` waits.
+        fans: Beams of each scanner.
+        mounts: Where its sensors are.
         noise: Of the sensors of each scanner.
         devices: Grippers and actuators.
 
@@ -94,7 +96,7 @@ class StageSimulation(Senses):
         self.clock = Clock(self.stage.interval_sim)
         self.requests = RequestQueue()
         self.paused = self.stage.paused
-        self._fans, self._mounts = layout.fans, layout.mounts
+        self.fans, self.mounts = layout.fans, layout.mounts
         self.noise = [
             RangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
             for each in layout.noises
@@ -199,7 +201,7 @@ class StageSimulation(Senses):
     @property
     def scanners(self) -> int:
         """Number of scanners: groups of sensors with the same beams."""
-        return len(self._fans)
+        return len(self.fans)
 
     def scan(self, scanner: int = 0) -> Floats:
         """What all sensors of a scanner measure now [m], shape (nworld, sensors, samples).
@@ -213,8 +215,8 @@ class StageSimulation(Senses):
         Raises:
             SimulationError: There is no such scanner.
         """
-        if not 0 <= scanner < len(self._fans):
-            raise SimulationError(f"there is no scanner {scanner}; there are {len(self._fans)}")
+        if not 0 <= scanner < len(self.fans):
+            raise SimulationError(f"there is no scanner {scanner}; there are {len(self.fans)}")
         if scanner not in self._seen:
             self._seen[scanner] = self._eye(scanner).scan()
         return self._seen[scanner]
@@ -244,8 +246,8 @@ class StageSimulation(Senses):
         if scanner not in self._eyes:
             self._eyes[scanner] = Eyes(
                 self.fleet,
-                self._fans[scanner],
-                self._mounts[scanner],
+                self.fans[scanner],
+                self.mounts[scanner],
                 self.noise[scanner],
                 seed=self.seed,
                 name=f"ranger/{scanner}",

@@ -1,0 +1,41 @@
+"""Points that a link carries along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines import Engine
+from gazelle.rotations import cross, rotate
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedPoint:
+    """Where a point of a link is, and how it moves, in every world.
+
+    Attributes:
+        engine: Knows the motion.
+        link: Scoped name of the link.
+        offset: The point in the link frame [m], shape (3,).
+    """
+
+    engine: Engine
+    link: str
+    offset: Floats
+
+    def position(self, worlds: Worlds | None = None) -> Floats:
+        """In the world frame [m], shape (n, 3)."""
+        place = self.engine.link_placement(self.link, worlds)
+        return place.position + rotate(place.quaternion, self.offset)
+
+    def position_and_velocity(self, worlds: Worlds | None = None) -> tuple[Floats, Floats]:
+        """Position [m] and velocity [m/s] in the world frame, shapes (n, 3)."""
+        place = self.engine.link_placement(self.link, worlds)
+        motion = self.engine.link_motion(self.link, worlds)
+        arm = rotate(place.quaternion, self.offset)
+        return place.position + arm, motion.linear + cross(motion.angular, arm)
