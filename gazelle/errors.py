@@ -116,6 +116,10 @@ class SimulationWarning(GazelleWarning):
     """A plugin, sensor or request is ignored or done differently."""
 
 
+class PluginWarning(SimulationWarning):
+    """A plugin failed; the simulation goes on without it."""
+
+
 def describe(
     message: str,
     *,

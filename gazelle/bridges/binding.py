@@ -13,7 +13,7 @@ from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401
 from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.bridges.reconfigure import ReconfigureServer
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import RosError, SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
 from gazelle.ros.tf.naming import FramePrefixes
 from gazelle.simulation import (
@@ -50,13 +50,16 @@ class Binding:
         self._prefixes, self._namespace = FramePrefixes(graph.node), namespace
         for setting in ports.settings.values():
             self._look_up(setting)
-        self._outputs = [self._publish(output) for output in ports.outputs.values()]
+        self._outputs: list[Output[Any]] = []
+        for output in ports.outputs.values():
+            if self._open(self._publish, output):
+                self._outputs.append(output)
         for port in ports.inputs.values():
-            self._subscribe(port)
+            self._open(self._subscribe, port)
         for service in ports.services.values():
-            self._serve(service)
+            self._open(self._serve, service)
         for tuning in ports.tunings.values():
-            self._tune(tuning)
+            self._open(self._tune, tuning)
 
     def refresh(self) -> None:
         """Publish what is true now to all who listen."""
@@ -69,6 +72,16 @@ class Binding:
         while self._closing:
             self._closing.pop()()
 
+    def _open(self, put: Callable[[Any], None], port: Any) -> bool:
+        """Put a port on the graph; one that cannot be there stays away, and the rest goes on."""
+        try:
+            put(port)
+        except RosError as error:
+            text = f"'{port.topic}' stays off the graph: {error}"
+            warnings.warn(SimulationWarning(text), stacklevel=3)
+            return False
+        return True
+
     def _look_up(self, setting: Setting[Any]) -> None:
         value = self._node.get_param(setting.name, None)
         if value is None:
@@ -78,7 +91,7 @@ class Binding:
         except SimulationError as error:
             warnings.warn(SimulationWarning(f"parameter: {error}"), stacklevel=2)
 
-    def _publish(self, output: Output[Any]) -> Output[Any]:
+    def _publish(self, output: Output[Any]) -> None:
         encoder = encoder_of(output.kind)
         message_class = load_message(encoder.message)
         view = View(output.frame, self._graph.world, self._graph.stamp, self._prefix(output))
@@ -118,7 +131,6 @@ class Binding:
                     ending.pop()()
 
         self._closing.append(close)
-        return output
 
     def _prefix(self, output: Output[Any]) -> str:
         """What goes before the names of an output's frames."""

@@ -80,6 +80,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="folder with your own plugins, Python modules that the file names",
     )
+    parser.add_argument(
+        "--system",
+        metavar="MODULE:CLASS",
+        action="append",
+        default=[],
+        help="also run a system plugin, one that no file names; may be given several times",
+    )
     parser.set_defaults(parser=parser)
 
 
@@ -104,6 +111,8 @@ def run(args: argparse.Namespace) -> int:
 
     engine = args.engine or "mujoco"
     with Simulation(world, engine, seed=args.seed) as sim:
+        for plugin in args.system:
+            sim.load_plugin(plugin)
         said = [spawn(sim, robot) for robot in args.spawn]
         models = ", ".join(sim.robots) or "no models"
         sys.stdout.write(f"world '{sim.world.name}': {models}\n")

@@ -65,15 +65,15 @@ class Harness(ModelPlugin):
         nworld = robot.simulation.nworld
         self._held = np.zeros(nworld, np.bool_)
         winch = parameters.find("winch")
+        self._pids = {
+            name: Pid(Gains.read(None if winch is None else winch.find(name)), nworld)
+            for name in ("pos_pid", "vel_pid")
+        }
         try:
             self._rig(parameters, winch)
         except Exception:
             self._drop()
             raise
-        self._pids = {
-            name: Pid(Gains.read(None if winch is None else winch.find(name)), nworld)
-            for name in ("pos_pid", "vel_pid")
-        }
         self._speed, self._place = np.zeros((2, nworld))
         self._last_time = robot.simulation.time
         self._open(robot, namespace_of(robot, parameters))

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from gazelle.simulation import WorldPlugin
+from typing import Any
+
+from gazelle.simulation import ModelPlugin, SensorPlugin, WorldPlugin
 
 
-class Silent(WorldPlugin):
+class Silent(WorldPlugin, ModelPlugin, SensorPlugin):
     """Does nothing: Gazelle does what it is for by itself, or it is a library of others."""
+
+    def load(self, entity: Any, parameters: Any) -> None:
+        """Nothing to do, on anything."""

@@ -2,50 +2,77 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import warnings
+from typing import TYPE_CHECKING, Any, cast
 
 from gazelle import description
 from gazelle.description import Model
-from gazelle.errors import Error
+from gazelle.errors import SimulationWarning, describe
 from gazelle.simulation import registry
-from gazelle.simulation.plugin import ModelPlugin, SensorPlugin, WorldPlugin
+from gazelle.simulation.blame import warn_of_fault
+from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
+from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot
-from gazelle.simulation.stepping import make_scheduled, warn_of_fault
+from gazelle.simulation.stepping import make_scheduled, title
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
+
+_PLACES: dict[type[Plugin], str] = {
+    ModelPlugin: "model",
+    SensorPlugin: "sensor",
+    WorldPlugin: "world",
+}
 
 
 def adopt(simulation: Simulation, model: Model, robot: Robot) -> None:
     """Start the plugins of a model that the engine has, in file order."""
     for placed in model.walk():
         for plugin in placed.model.plugins:
-            found = registry.find(plugin)
-            if found is not None and issubclass(found, ModelPlugin):
-                _start(simulation, found(), robot, plugin, robot.name)
+            _start(simulation, ModelPlugin, robot, plugin, robot)
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
-            found = registry.find(plugin)
-            if found is not None and issubclass(found, SensorPlugin):
-                _start(simulation, found(), unit, plugin, robot.name)
+            _start(simulation, SensorPlugin, unit, plugin, robot)
 
 
 def load_world_plugin(simulation: Simulation, plugin: description.Plugin) -> None:
-    """Start a plugin of the world."""
-    found = registry.find(plugin)
-    if found is not None and issubclass(found, WorldPlugin):
-        _start(simulation, found(), simulation, plugin, "")
+    """Start a plugin of the world, or one that is given besides it."""
+    _start(simulation, WorldPlugin, simulation, plugin, None)
 
 
 def _start(
-    simulation: Simulation, loaded: Any, entity: object, plugin: description.Plugin, owner: str
+    simulation: Simulation,
+    kind: type[Plugin],
+    entity: object,
+    plugin: description.Plugin,
+    robot: Robot | None,
 ) -> None:
-    """Load a plugin; one that breaks down is left out with a warning, a wrong file is an error."""
+    """Load a plugin; one that cannot be had or that fails is left out with a warning."""
+    owner = robot.name if robot is not None else ""
+    name, loaded = title(plugin.name, owner), None
+    ports: Ports = robot if robot is not None else simulation.ports
+    opened = ports.mark()
     try:
+        found = registry.find(plugin)
+        if found is None or not _fits(found, kind, name, plugin):
+            return
+        loaded = cast("Any", found())
         loaded.load(entity, plugin.parameters)
-    except Error:
-        raise
     except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-        warn_of_fault(f"plugin '{plugin.name}'", owner, "while loading and is left out", error)
+        ports.back_to(opened)
+        warn_of_fault(loaded, name, "while loading and is left out", error, plugin.source)
         return
     simulation.plugins.append(make_scheduled(loaded, plugin.name, owner))
+
+
+def _fits(found: type[Plugin], kind: type[Plugin], name: str, plugin: description.Plugin) -> bool:
+    """Whether a plugin is in an element of its kind; says so if it is not."""
+    if issubclass(found, kind):
+        return True
+    wanted = " or ".join(f"a <{tag}>" for of, tag in _PLACES.items() if issubclass(found, of))
+    text = f"{name} ({plugin.filename}) belongs into {wanted}, not into a <{_PLACES[kind]}>"
+    place = plugin.source.file if plugin.source is not None else None
+    line = plugin.source.line if plugin.source is not None else None
+    said = describe(f"{text}, and is left out", file=place, line=line)
+    warnings.warn(SimulationWarning(said), stacklevel=5)
+    return False

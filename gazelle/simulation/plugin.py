@@ -72,7 +72,10 @@ class WorldPlugin(Plugin):
 
 
 class SystemPlugin(WorldPlugin):
-    """A plugin that no file names: given on the command line, it is loaded with empty parameters."""
+    """A plugin that no file names: ``gazelle run --system MODULE:CLASS``, ``gzserver -s``.
+
+    It is loaded with empty parameters, once the world is there; see ``Simulation.load_plugin``.
+    """
 
 
 class ModelPlugin(Plugin):

@@ -8,7 +8,7 @@ costs nothing while nobody listens.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import Any, Generic, TypeVar
 
@@ -268,3 +268,16 @@ class Ports:
         self.services: dict[str, Service[Any, Any]] = Table()
         self.settings: dict[str, Setting[Any]] = {}
         self.tunings: dict[str, Tuning] = {}
+
+    def mark(self) -> tuple[Mapping[str, Any], ...]:
+        """What there is now, for ``back_to``."""
+        return tuple(dict(table) for table in self._tables())
+
+    def back_to(self, mark: tuple[Mapping[str, Any], ...]) -> None:
+        """Close everything that was opened since."""
+        for table, before in zip(self._tables(), mark, strict=True):
+            table.clear()
+            table.update(before)
+
+    def _tables(self) -> tuple[dict[str, Any], ...]:
+        return (self.inputs, self.outputs, self.services, self.settings, self.tunings)

@@ -109,7 +109,7 @@ def _parts(simulation: Simulation) -> Mapping[str, Any]:
     for entry in simulation.plugins:
         key = f"plugin|{entry.owner}|{entry.name}"
         twins = sum(name == key or name.startswith(f"{key}#") for name in parts)
-        parts[f"{key}#{twins}" if twins else key] = entry.plugin
+        parts[f"{key}#{twins}" if twins else key] = entry
     for robot in simulation.robots.values():
         for unit in robot.sensors.values():
             parts[f"sensor|{unit.name}"] = unit

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Sensor
 from gazelle.sensors import SensorModel
+from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.ports import FramePrefix, Output
 
@@ -164,12 +165,13 @@ class SensorOutput(Output[Any]):
         )
         self._sensor = sensor
         self._asleep: Callable[[], None] | None = None
+        self._failed = False
 
     def subscribe(self, listener: Callable[[Any], None]) -> Callable[[], None]:
         """Call a function with every reading; returns what ends it."""
         end = super().subscribe(listener)
         if self._asleep is None:
-            self._asleep = self._sensor.subscribe(lambda _sensor: self.publish())
+            self._asleep = self._sensor.subscribe(self._tell)
 
         def finish() -> None:
             end()
@@ -178,3 +180,16 @@ class SensorOutput(Output[Any]):
                 self._asleep = None
 
         return finish
+
+    def _tell(self, _sensor: SensorUnit) -> None:
+        """Publish a new reading; a plugin that cannot read it is asked no more."""
+        if self._failed or not self.wanted:
+            return
+        try:
+            value = self._produce()
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            self._failed = True
+            name = f"the topic '{self.topic}' of '{self._sensor.name}'"
+            warn_of_fault(None, name, "and is published no more", error)
+            return
+        self.hand(value)

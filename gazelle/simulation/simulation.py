@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle import formats
-from gazelle.description import Model, Pose, World
+from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import DivergenceError, make_engine
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.sensors import View
@@ -224,6 +224,8 @@ class Simulation:
     ) -> Robot:
         """Add a model to every world.
 
+        A plugin that cannot be loaded is left out with a ``PluginWarning``.
+
         Args:
             model: A description, or a file, directory, URI or bundled name to load one from.
             name: Its name in the world; the model's own if None.
@@ -231,13 +233,23 @@ class Simulation:
             namespace: Put before its topics.
 
         Raises:
-            SimulationError: The name is taken, or a plugin refuses; nothing is changed.
+            SimulationError: The name is taken; nothing is changed.
             FormatError: The file cannot be read.
             EngineError: The model cannot be simulated.
         """
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
         return self.requests.call(lambda: self._spawn(placed, namespace))
+
+    def load_plugin(self, filename: str) -> None:
+        """Start a plugin that no file names, with empty parameters, for the whole simulation.
+
+        One that cannot be loaded is left out with a warning.
+
+        Args:
+            filename: As files name plugins: ``package.module:Class``, or a library's name.
+        """
+        self.requests.call(lambda: load_world_plugin(self, Plugin(filename, filename)))
 
     def delete(self, name: str) -> None:
         """Take a model out of every world, with its plugins.
@@ -339,7 +351,7 @@ class Simulation:
         for unit in self._sensors:
             unit.reset(worlds)
         for entry in self.plugins:
-            entry.plugin.reset(worlds)
+            entry.reset(worlds)
             if rewind and entry.schedule is not None:
                 entry.schedule.restart()
         self.events.reset.tell(worlds, rewind)
@@ -351,7 +363,7 @@ class Simulation:
         for unit in self._sensors:
             unit.reseed(seed, worlds)
         for entry in self.plugins:
-            entry.plugin.reseed(seed, worlds)
+            entry.reseed(seed, worlds)
 
     def _adopt(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model that the engine has, and start its plugins."""

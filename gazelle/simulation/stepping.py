@@ -2,28 +2,69 @@
 
 from __future__ import annotations
 
-import traceback
-import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import SimulationError
+from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.sensors import SensorUnit
 
+T = TypeVar("T")
+
 
 @dataclass(slots=True)
 class ScheduledPlugin:
-    """A loaded plugin, what it is on, and when it is due; no schedule means never."""
+    """A loaded plugin, what it is on, and when it is due; no schedule means never.
+
+    One that raises is detached with a warning: it is never asked again, and all else goes on.
+    """
 
     plugin: Plugin
     name: str
     owner: str
     schedule: Schedule | None
+    detached: bool = False
+
+    def detach(self, error: Exception, when: str) -> None:
+        """Go on without it."""
+        self.schedule, self.detached = None, True
+        warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
+
+    def reset(self, worlds: NDArray[np.intp] | None) -> None:
+        """Let it begin anew."""
+        self._ask(lambda: self.plugin.reset(worlds), "at a reset")
+
+    def reseed(self, seed: int, worlds: NDArray[np.intp] | None) -> None:
+        """Let it use other random numbers."""
+        self._ask(lambda: self.plugin.reseed(seed, worlds), "at a reset with a seed")
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Everything that changes in it."""
+        return self._ask(self.plugin.state, "at a snapshot") or {}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._ask(lambda: self.plugin.restore(state), "while restoring a snapshot")
+
+    def _ask(self, work: Callable[[], T], when: str) -> T | None:
+        if self.detached:
+            return None
+        try:
+            return work()
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            self.detach(error, when)
+            return None
+
+
+def title(name: str, owner: str) -> str:
+    """A plugin by the name that its file gives it, and the model that it is on."""
+    return f"plugin '{name}' of '{owner}'" if owner else f"plugin '{name}'"
 
 
 def make_scheduled(plugin: Plugin, name: str, owner: str) -> ScheduledPlugin:
@@ -33,38 +74,19 @@ def make_scheduled(plugin: Plugin, name: str, owner: str) -> ScheduledPlugin:
 
 
 def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) -> None:
-    """Run all plugins that are due, in the order they were loaded.
-
-    One that raises is detached with a warning: it is never updated again, and all else goes on.
-    """
+    """Run all plugins that are due, in the order they were loaded."""
     for entry in tuple(plugins):
         schedule = entry.schedule
-        if schedule is None or now_ns < schedule.due_ns or not entry.plugin.active:
+        if schedule is None or now_ns < schedule.due_ns:
             continue
         try:
+            if not entry.plugin.active:
+                continue
             entry.plugin.on_update(now)
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-            _detach(entry, error, now)
+            entry.detach(error, f"at {now:g} s")
             continue
         schedule.done(now_ns)
-
-
-def _detach(entry: ScheduledPlugin, error: Exception, now: float) -> None:
-    entry.schedule = None
-    warn_of_fault(f"plugin '{entry.name}'", entry.owner, f"at {now:g} s and is detached", error)
-
-
-def warn_of_fault(what: str, owner: str, when: str, error: Exception) -> None:
-    """Name a plugin that failed, and the line where it did."""
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    whose = f" of '{owner}'" if owner else ""
-    warnings.warn(
-        SimulationWarning(
-            f"{what}{whose} failed {when}: {type(error).__name__}: {error} "
-            f"({last.filename}:{last.lineno})"
-        ),
-        stacklevel=6,
-    )
 
 
 def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:
@@ -81,8 +103,13 @@ def steps_to_next(
     soonest = clock.now_ns + most * clock.step_ns
     for entry in plugins:
         schedule = entry.schedule
-        if schedule is not None and schedule.due_ns < soonest and entry.plugin.active:
-            soonest = schedule.due_ns
+        if schedule is None or schedule.due_ns >= soonest:
+            continue
+        try:
+            if entry.plugin.active:
+                soonest = schedule.due_ns
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            entry.detach(error, f"at {clock.now:g} s")
     for sensor in sensors:
         if sensor.schedule.due_ns < soonest and sensor.awake:
             soonest = sensor.schedule.due_ns

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from models import simulate
 
-from gazelle.errors import SimulationError
+from gazelle.errors import PluginWarning
 
 ACTOR = """<actor name="walker"><pose>{start} 0 0 {yaw}</pose><link name="l"><visual name="v">
 <geometry><sphere><radius>0.2</radius></sphere></geometry></visual></link>
@@ -85,5 +85,5 @@ def test_targets_are_drawn_in_each_world_far_from_models_and_within_the_area():
 
 
 def test_an_area_has_an_extent():
-    with pytest.raises(SimulationError, match="<area>"):
+    with pytest.raises(PluginWarning, match="<area>"):
         walk(actor(tags="<area>1 1 0 2</area>"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from models import base, block, plugin, simulate
 
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import PluginWarning, SimulationWarning
 from gazelle.plugins.battery import LinearBattery
 
 
@@ -80,7 +80,7 @@ def test_joints_are_held_at_positions_and_velocities_and_turned_by_forces():
 
 
 def test_an_unknown_controller_is_refused():
-    with pytest.raises(SimulationError, match="positoin"):
+    with pytest.raises(PluginWarning, match="positoin"):
         controlled("positoin", 0.0)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from models import base, block, plugin, simulate
 
-from gazelle.errors import SimulationError
+from gazelle.errors import PluginWarning
 
 SKID = plugin(
     "libgazebo_ros_skid_steer_drive.so",
@@ -99,12 +99,12 @@ def test_a_snapshot_goes_on_as_the_run_did():
 
 
 def test_a_wheel_of_no_size_is_refused():
-    with pytest.raises(SimulationError, match="must be positive"):
+    with pytest.raises(PluginWarning, match="must be positive"):
         simulate(base(SKID.replace("<wheelDiameter>0.2", "<wheelDiameter>0")))
 
 
 def test_a_joint_that_is_not_there_is_named():
-    with pytest.raises(SimulationError, match="jointX"):
+    with pytest.raises(PluginWarning, match="jointX"):
         simulate(base(SKID.replace("joint3", "jointX")))
 
 

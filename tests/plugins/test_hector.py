@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from models import block, plugin, simulate
 
-from gazelle.errors import FormatError
+from gazelle.errors import PluginWarning
 from gazelle.simulation.values import Bias, GeoReference, MagneticValue
 
 
@@ -303,5 +303,5 @@ def test_magnetometers_are_tuned_beside_their_topic():
 
 
 def test_errors_have_one_number_or_one_an_axis():
-    with pytest.raises(FormatError, match="accelDrift"):
+    with pytest.raises(PluginWarning, match="accelDrift"):
         cube(IMU, accelDrift="1 2")

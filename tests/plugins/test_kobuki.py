@@ -5,7 +5,7 @@ import pytest
 from kobuki_model import kobuki
 from models import simulate
 
-from gazelle.errors import FormatError, SimulationError
+from gazelle.errors import PluginWarning
 from gazelle.simulation.values import MotorPower, Trigger
 
 WALL = """<model name="wall"><static>1</static><pose>{x} {y} 0.1 0 0 0</pose><link name="l">
@@ -100,9 +100,9 @@ def test_a_snapshot_goes_on_as_the_run_did_and_a_reset_starts_over():
 
 
 def test_what_it_lacks_is_named():
-    with pytest.raises(FormatError, match="wheel_separation"):
+    with pytest.raises(PluginWarning, match="wheel_separation"):
         simulate(kobuki(wheel_separation=""))
-    with pytest.raises(SimulationError, match="bumper_name"):
+    with pytest.raises(PluginWarning, match="bumper_name"):
         simulate(kobuki(bumper_name="imu"))
 
 

@@ -8,7 +8,7 @@ import pytest
 import scenes
 
 from gazelle.description import Cylinder, Parameters, Plugin, Pose
-from gazelle.errors import SimulationError
+from gazelle.errors import PluginWarning
 from gazelle.simulation import Simulation
 
 
@@ -107,5 +107,5 @@ def test_actors_go_through_what_stands_in_their_way():
 
 def test_times_must_increase():
     plugin = script((1, "0 0 0 0 0 0"), (1, "1 0 0 0 0 0"))
-    with pytest.raises(SimulationError, match="must increase"):
+    with pytest.raises(PluginWarning, match="must increase"):
         Simulation(scenes.world(moving(plugin)))

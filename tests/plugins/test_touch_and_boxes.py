@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from models import block, plugin, simulate
 
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import PluginWarning, SimulationError, SimulationWarning
 
 SENSOR = """<sensor name="skin" type="contact"><contact><collision>hull</collision></contact>
 </sensor>"""
@@ -53,11 +53,11 @@ def test_who_touches_something_else_too_is_not_counted():
 
 
 def test_wrong_touches_are_refused():
-    with pytest.raises(SimulationError, match="<sensor>"):
+    with pytest.raises(PluginWarning, match="<sensor>"):
         simulate(block(plugin=plugin("libTouchPlugin.so", target="a", time="1", namespace="n")))
     ray = """<sensor name="skin" type="ray"><ray><scan><horizontal><samples>1</samples>
     </horizontal></scan><range><min>0.1</min><max>1</max></range></ray></sensor>"""
-    with pytest.raises(SimulationError, match="no contact sensor"):
+    with pytest.raises(PluginWarning, match="no contact sensor"):
         simulate(block(ray, TOUCH))
 
 
@@ -97,7 +97,7 @@ def test_a_box_may_move_and_what_is_not_there_is_in_none():
         assert not sim.ports.outputs["/n contain"].last.values.any()
     with simulate(contain("nobody")) as sim:
         assert not sim.ports.outputs["/n contain"].last.values.any()
-    with pytest.raises(SimulationError, match="<box>"):
+    with pytest.raises(PluginWarning, match="<box>"):
         simulate(plugin("libContainPlugin.so", entity="a", namespace="n"))
 
 
@@ -131,7 +131,7 @@ def test_pads_put_models_elsewhere_at_once_or_when_called():
 
 
 def test_pads_lead_somewhere():
-    with pytest.raises(SimulationError, match="no pad 'c'"):
+    with pytest.raises(PluginWarning, match="no pad 'c'"):
         simulate(pads("c"))
 
 

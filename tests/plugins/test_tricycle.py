@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from models import plugin, simulate
 
-from gazelle.errors import SimulationError
+from gazelle.errors import PluginWarning
 
 TAGS = {
     "steeringJoint": "steering",
@@ -129,5 +129,5 @@ def test_a_reset_and_a_snapshot_keep_its_odometry_true():
 
 
 def test_an_unknown_source_of_odometry_is_refused():
-    with pytest.raises(SimulationError, match="odometrySource"):
+    with pytest.raises(PluginWarning, match="odometrySource"):
         simulate(tricycle(odometrySource="gps"))

@@ -7,7 +7,7 @@ import pytest
 import scenes
 
 from gazelle.description import Pose
-from gazelle.errors import SimulationError
+from gazelle.errors import PluginWarning, SimulationError
 from gazelle.simulation import Simulation
 
 
@@ -46,9 +46,18 @@ def test_a_taken_name_is_refused_and_nothing_changes():
         assert sim.snapshot() == before
 
 
-def test_a_plugin_that_refuses_leaves_no_model_behind():
+def test_a_plugin_whose_file_is_wrong_is_left_out():
     with burger_world() as sim:
-        with pytest.raises(SimulationError, match="did you mean 'wheel_left_joint'"):
+        with pytest.warns(PluginWarning, match="did you mean 'wheel_left_joint'"):
+            robot = sim.spawn(scenes.burger(leftJoint="wheel_lefft_joint"))
+        assert not robot.inputs
+        assert not robot.outputs
+        sim.run(seconds=0.1)
+
+
+def test_where_plugin_warnings_are_errors_a_wrong_plugin_leaves_no_model_behind():
+    with burger_world() as sim:
+        with pytest.raises(PluginWarning, match="did you mean 'wheel_left_joint'"):
             sim.spawn(scenes.burger(leftJoint="wheel_lefft_joint"))
         assert "burger" not in sim.robots
         assert not any(name.startswith("burger") for name in sim.engine.link_names)

@@ -18,7 +18,7 @@ from gazelle.simulation import Simulation
 
 # Options that name a value, and those that do not, which change nothing here.
 _PASSED_OVER = (
-    *("-e", "--physics", "-s", "--server-plugin", "-g", "--gui-plugin", "-o", "--profile"),
+    *("-e", "--physics", "-g", "--gui-plugin", "-o", "--profile"),
     *("--record_path", "--record_encoding", "--record_period", "--record_filter"),
 )
 _IGNORED = (
@@ -34,6 +34,8 @@ def main(arguments: Sequence[str]) -> int:
     place = names.as_namespace(found.options["namespace"])
     refuse_twin(names.join(place, found.options["name"]), found.options.get("master_uri"))
     with found.start() as node, Simulation(find_world(options.world), seed=options.seed) as sim:
+        for plugin in options.plugins:
+            sim.load_plugin(plugin)
         if options.paused:
             sim.pause()
         door = RosDoor(
@@ -70,6 +72,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-u", "--pause", dest="paused", action="store_true")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--iters", dest="iterations", type=int, default=0)
+    parser.add_argument("-s", "--server-plugin", dest="plugins", action="append", default=[])
     for flag in _IGNORED:
         parser.add_argument(flag, action="store_true", dest="ignored")
     for flag in _PASSED_OVER:

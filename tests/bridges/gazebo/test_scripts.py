@@ -84,7 +84,7 @@ GetLinkState: link not found, did you forget to scope the link by model name?
 True 1.5 False
 ['i', 'names', 'p'] /beat/gains
 /beat / /beat/beat
-['wheel_left_joint', 'wheel_right_joint'] 2
+['wheel_right_joint', 'wheel_left_joint'] 2
 a second True
 ticks True
 ['/beat/beat']

@@ -1,0 +1,47 @@
+"""Say which plugin failed, and where, when the simulation goes on without it."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+import warnings
+from pathlib import Path
+
+from gazelle.errors import Error, PluginWarning, Source, describe
+
+_LIBRARY = str(Path(__file__).parents[1])
+
+
+def warn_of_fault(
+    plugin: object, name: str, when: str, error: Exception, source: Source | None = None
+) -> None:
+    """Name a plugin that failed, and the line where it did.
+
+    Args:
+        plugin: What failed.
+        name: Such as "plugin 'drive' of 'r1'".
+        when: When it failed, and what becomes of it.
+        error: What it raised.
+        source: Where a file names it.
+    """
+    line = _line(plugin, error)
+    if isinstance(error, Error):
+        place = error if error.file or source is None else source
+        said = f"{name} failed {when}: {error.message}{line}"
+        text = describe(said, file=place.file, line=place.line, hint=error.hint)
+    else:
+        text = f"{name} failed {when}: {type(error).__name__}: {error}{line}"
+        if source is not None:
+            text = describe(text, file=source.file, line=source.line)
+    warnings.warn(PluginWarning(text), stacklevel=6)
+
+
+def _line(plugin: object, error: Exception) -> str:
+    """The innermost line of the plugin's own module, or else of all."""
+    frames = traceback.extract_tb(error.__traceback__)
+    module = getattr(sys.modules.get(type(plugin).__module__), "__file__", None)
+    own = [frame for frame in frames if frame.filename == module]
+    last = (own or frames)[-1]
+    if isinstance(error, Error) and last.filename.startswith(_LIBRARY):
+        return ""
+    return f" ({last.filename}:{last.lineno})"
