@@ -8,45 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges.stage.naming import Naming
-from gazelle.ros import Node, load_message
-from gazelle.simulation.stage import Actuator, StageRobot, StageSimulation
-
-_QUEUE = 10
+from gazelle.bridges.stage.place import GraphRobot
+from gazelle.ros import load_message
+from gazelle.simulation.stage import Actuator
 
 
 class ActuatorTopics:
     """Where actuators are, and what they are told.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics.
-        world: Which world of a batch the graph sees.
+        at: The robot on the graph.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        world: int,
-    ) -> None:
-        self._call, self._world = simulation.requests.call, world
+    def __init__(self, at: GraphRobot) -> None:
+        self._call, self._world = at.simulation.requests.call, at.world
         self._number: Any = load_message("std_msgs/Float64")
-        self._own = simulation.devices.actuators.get(robot.index, [])
+        self._own = at.simulation.devices.actuators.get(at.robot.index, [])
         count = len(self._own)
-
-        def name(plain: str, which: int) -> str:
-            return naming.device_topic(robot.index, plain, which, count)
-
-        self._publishers = [
-            node.advertise(name("actuator", k), self._number, _QUEUE) for k in range(count)
-        ]
+        self._publishers = [at.advertise("actuator", self._number, k, count) for k in range(count)]
         self._subscribers = [
-            node.subscribe(name(f"cmd_actuator_{kind}", k), self._number, told, _QUEUE)
+            at.subscribe(f"cmd_actuator_{kind}", self._number, told, k, count)
             for k, each in enumerate(self._own)
             for kind, told in (
                 ("speed", self._told(each.set_speed)),

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.bridges.stage.naming import Naming
-from gazelle.ros import Node, Publisher, Time, load_message
-from gazelle.simulation.stage import Camera, StageRobot, StageSimulation, cameras_of
+from gazelle.bridges.stage.place import GraphRobot
+from gazelle.ros import Publisher, Time, load_message
+from gazelle.simulation.stage import Camera, cameras_of
 
-_QUEUE = 10
 _MILLIMETRES = 1000.0
 
 
@@ -38,42 +37,25 @@ class CameraTopics:
     """Pictures, depths and what the lens is, of the cameras directly on a robot.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics and frames.
-        world: Which world of a batch the graph sees.
+        at: The robot on the graph.
         metres: Whether depths are metres in 32FC1, not millimetres in 16UC1.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        *,
-        world: int,
-        metres: bool,
-    ) -> None:
-        self._simulation, self._robot, self._world = simulation, robot, world
+    def __init__(self, at: GraphRobot, *, metres: bool) -> None:
+        self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
         self._metres = metres
         self._image: Any = load_message("sensor_msgs/Image")
         self._info: Any = load_message("sensor_msgs/CameraInfo")
-        direct = [(k, c) for k, c in enumerate(cameras_of(robot)) if c.direct]
-        count, index = len(direct), robot.index
-
-        def advertise(name: str, place: int, kind: Any) -> Publisher:
-            return node.advertise(naming.device_topic(index, name, place, count), kind, _QUEUE)
-
+        direct = [(k, c) for k, c in enumerate(cameras_of(at.robot)) if c.direct]
+        count = len(direct)
         self._eyes = [
             _Eye(
                 which,
                 camera,
-                naming.frame(index, "camera", place, count),
-                advertise("image", place, self._image),
-                advertise("depth", place, self._image),
-                advertise("camera_info", place, self._info),
+                at.frame("camera", place, count),
+                at.advertise("image", self._image, place, count),
+                at.advertise("depth", self._image, place, count),
+                at.advertise("camera_info", self._info, place, count),
             )
             for place, (which, camera) in enumerate(direct)
         ]

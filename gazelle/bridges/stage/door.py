@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from gazelle.bridges.stage.naming import Naming
+from gazelle.bridges.stage.place import GraphRobot
 from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
@@ -68,22 +69,13 @@ class StageDoor:
         self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
         messages = Messages()
         metres = bool(node.get_param("~is_depth_canonical", True))
-        self._topics = [
-            RobotTopics(simulation, robot, node, self.naming, messages, world, metres=metres)
-            for robot in simulation.robots
+        robots = [
+            GraphRobot(simulation, robot, node, self.naming, world) for robot in simulation.robots
         ]
+        self._topics = [RobotTopics(robot, messages, metres=metres) for robot in robots]
         flat = str(node.get_param("~cmd_pose_type", "Pose")).rpartition("/")[2] == "Pose2D"
         self._inputs = [
-            RobotInputs(
-                simulation,
-                robot,
-                node,
-                self.naming,
-                world=world,
-                flat_poses=flat,
-                told=self._watchdog.told,
-            )
-            for robot in simulation.robots
+            RobotInputs(robot, flat_poses=flat, told=self._watchdog.told) for robot in robots
         ]
         self._services = Services(simulation, node, self, world)
         kind = str(node.get_param("~pose_service", ""))

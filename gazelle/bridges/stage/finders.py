@@ -6,12 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.bridges.stage.naming import Naming
+from gazelle.bridges.stage.place import GraphRobot
 from gazelle.description import StageBlobfinder, StageBumper, StageFiducial
-from gazelle.ros import Node, Publisher, Time, load_message
-from gazelle.simulation.stage import StageRobot, StageSimulation
-
-_QUEUE = 10
+from gazelle.ros import Publisher, Time, load_message
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,25 +23,14 @@ class FinderTopics:
     """Bumpers, fiducial finders and blob finders on a robot, by names like stage_ros's.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics and frames.
-        world: Which world of a batch the graph sees.
+        at: The robot on the graph.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        world: int,
-    ) -> None:
-        self._simulation, self._name, self._world = simulation, robot.name, world
-        self._frame = naming.frame(robot.index, "base_link")
+    def __init__(self, at: GraphRobot) -> None:
+        self._simulation, self._name, self._world = at.simulation, at.robot.name, at.world
+        self._frame = at.frame("base_link")
         self._topics: list[_Topic] = []
-        devices = [placed.model.device for placed in robot.model.walk()]
+        devices = [placed.model.device for placed in at.robot.model.walk()]
         for kind, name, message, fill in (
             (StageBumper, "bumper", "Bumper", self._touch),
             (StageFiducial, "fiducials", "Fiducials", self._read),
@@ -52,8 +38,8 @@ class FinderTopics:
         ):
             found = [device for device in devices if isinstance(device, kind)]
             for which, device in enumerate(found):
-                topic = naming.device_topic(robot.index, name, which, len(found))
-                publisher = node.advertise(topic, load_message(f"gazelle_msgs/{message}"), _QUEUE)
+                sort = load_message(f"gazelle_msgs/{message}")
+                publisher = at.advertise(name, sort, which, len(found))
                 self._topics.append(_Topic(publisher, fill(which, device)))
 
     def publish(self, stamp: Time) -> None:

@@ -7,47 +7,27 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges.stage.naming import Naming
-from gazelle.ros import Node, Time, load_message
-from gazelle.simulation.stage import COMMANDS, StageRobot, StageSimulation
-
-_QUEUE = 10
+from gazelle.bridges.stage.place import GraphRobot
+from gazelle.ros import Time, load_message
+from gazelle.simulation.stage import COMMANDS
 
 
 class GripperTopics:
     """Where paddles and lifts are, and what they are told to do.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics and frames.
-        world: Which world of a batch the graph sees.
+        at: The robot on the graph.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        world: int,
-    ) -> None:
-        self._simulation, self._robot, self._world = simulation, robot, world
-        self._frame = naming.frame(robot.index, "base_link")
+    def __init__(self, at: GraphRobot) -> None:
+        self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
+        self._frame = at.frame("base_link")
         self._state: Any = load_message("gazelle_msgs/Gripper")
         text = load_message("std_msgs/String")
-        count = len(simulation.devices.grippers.get(robot.index, ()))
-
-        def name(plain: str, which: int) -> str:
-            return naming.device_topic(robot.index, plain, which, count)
-
-        self._publishers = [
-            node.advertise(name("gripper", k), self._state, _QUEUE) for k in range(count)
-        ]
+        count = len(at.simulation.devices.grippers.get(at.robot.index, ()))
+        self._publishers = [at.advertise("gripper", self._state, k, count) for k in range(count)]
         self._subscribers = [
-            node.subscribe(name("cmd_gripper", k), text, self._told(k), _QUEUE)
-            for k in range(count)
+            at.subscribe("cmd_gripper", text, self._told(k), k, count) for k in range(count)
         ]
 
     def _told(self, which: int) -> Callable[[Any], None]:

@@ -14,14 +14,12 @@ from gazelle.bridges.stage.actuators import ActuatorTopics
 from gazelle.bridges.stage.cameras import CameraTopics
 from gazelle.bridges.stage.finders import FinderTopics
 from gazelle.bridges.stage.grippers import GripperTopics
-from gazelle.bridges.stage.naming import Naming
-from gazelle.ros import Node, Publisher, Time, load_message
-from gazelle.simulation.stage import Ranger, StageRobot, StageSimulation
+from gazelle.bridges.stage.place import GraphRobot
+from gazelle.ros import Publisher, Time, load_message
+from gazelle.simulation.stage import Ranger, StageSimulation
 
 Floats = NDArray[np.float64]
 Values = list[float]
-
-_QUEUE = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,60 +80,36 @@ class RobotTopics:
     """What one robot publishes.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics and frames.
+        at: The robot on the graph.
         messages: Classes.
-        world: Which world of a batch the graph sees.
         metres: Whether depths of cameras are in metres, not in millimetres.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        messages: Messages,
-        world: int,
-        *,
-        metres: bool = True,
-    ) -> None:
-        self._simulation, self._robot, self._messages = simulation, robot, messages
-        self._world, self._node = world, node
-        index = robot.index
-        self._z = robot.model.pose.z
+    def __init__(self, at: GraphRobot, messages: Messages, *, metres: bool = True) -> None:
+        self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
+        self._messages = messages
+        self._z = at.robot.model.pose.z
+        self._odom = at.advertise("odom", messages.odometry)
+        self._truth = at.advertise("base_pose_ground_truth", messages.odometry)
+        self._stall = at.advertise("stall", messages.bool)
+        self._crashed = at.advertise("is_crashed", messages.int8)
+        self._odom_frame = at.frame("odom")
+        self._footprint = at.frame("base_footprint")
+        self._base = at.frame("base_link")
+        self._lasers = self._open_lasers(at)
+        self._cameras = CameraTopics(at, metres=metres)
+        self._finders = FinderTopics(at)
+        self._grippers = GripperTopics(at)
+        self._actuators = ActuatorTopics(at)
 
-        def advertise(name: str, kind: Any) -> Publisher:
-            return node.advertise(naming.topic(index, name), kind, _QUEUE)
-
-        self._odom = advertise("odom", messages.odometry)
-        self._truth = advertise("base_pose_ground_truth", messages.odometry)
-        self._stall = advertise("stall", messages.bool)
-        self._crashed = advertise("is_crashed", messages.int8)
-        self._odom_frame = naming.frame(index, "odom")
-        self._footprint = naming.frame(index, "base_footprint")
-        self._base = naming.frame(index, "base_link")
-        self._lasers = self._open_lasers(naming)
-        self._cameras = CameraTopics(simulation, robot, node, naming, world=world, metres=metres)
-        self._finders = FinderTopics(simulation, robot, node, naming, world)
-        self._grippers = GripperTopics(simulation, robot, node, naming, world)
-        self._actuators = ActuatorTopics(simulation, robot, node, naming, world)
-
-    def _open_lasers(self, naming: Naming) -> list[_Laser]:
-        index = self._robot.index
+    def _open_lasers(self, at: GraphRobot) -> list[_Laser]:
         direct = [each for each in self._robot.rangers if each.direct]
         seeing = [(k, each) for k, each in enumerate(direct) if each.sensors]
         return [
             _Laser(
                 each,
-                naming.frame(index, "base_laser_link", k, len(direct)),
-                self._node.advertise(
-                    naming.device_topic(index, "base_scan", k, len(direct)),
-                    self._messages.scan,
-                    _QUEUE,
-                ),
+                at.frame("base_laser_link", k, len(direct)),
+                at.advertise("base_scan", self._messages.scan, k, len(direct)),
             )
             for k, each in seeing
         ]
@@ -240,32 +214,17 @@ class RobotInputs:
     """What one robot listens to: velocities and poses.
 
     Args:
-        simulation: Runs.
-        robot: Of it.
-        node: On the graph.
-        naming: Of topics.
-        world: Which world of a batch the graph commands.
+        at: The robot on the graph.
         flat_poses: Whether ``cmd_pose`` carries ``geometry_msgs/Pose2D``.
         told: Called with the robot's index at each velocity command.
     """
 
-    def __init__(
-        self,
-        simulation: StageSimulation,
-        robot: StageRobot,
-        node: Node,
-        naming: Naming,
-        *,
-        world: int,
-        flat_poses: bool,
-        told: Callable[[int], None],
-    ) -> None:
-        self._simulation, self._robot, self._world = simulation, robot, world
+    def __init__(self, at: GraphRobot, *, flat_poses: bool, told: Callable[[int], None]) -> None:
+        self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
         self._told = told
-        index = robot.index
         flat = "geometry_msgs/Pose2D" if flat_poses else "geometry_msgs/Pose"
         self._subscribers = [
-            node.subscribe(naming.topic(index, name), load_message(kind), self._between(act), 10)
+            at.subscribe(name, load_message(kind), self._between(act))
             for name, kind, act in (
                 ("cmd_vel", "geometry_msgs/Twist", self.drive),
                 ("cmd_pose", flat, self._place_flat if flat_poses else self.place),

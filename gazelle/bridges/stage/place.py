@@ -1,0 +1,49 @@
+"""Where on a graph one robot is: its node, its names, and the world that the graph sees."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.bridges.stage.naming import Naming
+from gazelle.ros import Node, Publisher, Subscriber
+from gazelle.simulation.stage import StageRobot, StageSimulation
+
+_QUEUE = 10
+
+
+@dataclass(frozen=True, slots=True)
+class GraphRobot:
+    """A robot of a simulation on a graph.
+
+    Attributes:
+        simulation: Runs.
+        robot: Of it.
+        node: On the graph.
+        naming: Of topics and frames.
+        world: Which world of a batch the graph sees.
+    """
+
+    simulation: StageSimulation
+    robot: StageRobot
+    node: Node
+    naming: Naming
+    world: int
+
+    def advertise(self, name: str, kind: Any, which: int = 0, count: int = 1) -> Publisher:
+        """Publish on a topic, of the device of a number if the robot has several of its kind."""
+        return self.node.advertise(self._topic(name, which, count), kind, _QUEUE)
+
+    def subscribe(
+        self, name: str, kind: Any, told: Callable[[Any], None], which: int = 0, count: int = 1
+    ) -> Subscriber:
+        """Listen to a topic; its name is found as ``advertise`` finds it."""
+        return self.node.subscribe(self._topic(name, which, count), kind, told, _QUEUE)
+
+    def frame(self, name: str, which: int = 0, count: int = 1) -> str:
+        """A frame of the robot, or of one of several devices."""
+        return self.naming.frame(self.robot.index, name, which, count)
+
+    def _topic(self, name: str, which: int, count: int) -> str:
+        return self.naming.device_topic(self.robot.index, name, which, count)
