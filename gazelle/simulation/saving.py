@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.errors import SimulationError
+from gazelle.errors import Error, SimulationError
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.ports import TwistInput
 
@@ -22,11 +22,31 @@ if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
 _FORMAT = 2
+
+# What reading an archive may raise that is none, or broken.
+_BROKEN = (
+    AttributeError,
+    EOFError,
+    LookupError,
+    NotImplementedError,
+    OSError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 _HINT = "restore into a simulation with the same world, models, engine and number of worlds"
 
 
 def snapshot(simulation: Simulation) -> bytes:
     """The state of physics, clock, commands, plugins, sensors and noise."""
+    buffer = io.BytesIO()
+    arrays = {_escape(name): value for name, value in _gather(simulation).items()}
+    np.savez(buffer, allow_pickle=False, **arrays)
+    return buffer.getvalue()
+
+
+def _gather(simulation: Simulation) -> dict[str, NDArray[Any]]:
+    """All that a snapshot holds, by key."""
     arrays: dict[str, NDArray[np.generic]] = {"engine": simulation.engine.snapshot()}
     for key, part in _parts(simulation).items():
         for name, value in part.state().items():
@@ -48,25 +68,58 @@ def snapshot(simulation: Simulation) -> bytes:
         "parameters": encode(simulation.parameters.state()),
     }
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
-    buffer = io.BytesIO()
-    np.savez(buffer, allow_pickle=False, **{_escape(k): v for k, v in arrays.items()})
-    return buffer.getvalue()
+    return arrays
 
 
 def restore(simulation: Simulation, data: bytes) -> None:
     """Put back what ``snapshot`` gave.
 
     Raises:
-        SimulationError: The bytes are no snapshot, or one of another simulation.
+        SimulationError: The bytes are no snapshot, or one of another simulation; nothing is
+            changed.
     """
     arrays = _read(data)
+    header = _header_of(arrays, simulation)
+    before = _gather(simulation)
+    try:
+        _put_back(simulation, header, arrays)
+    except (ArithmeticError, AttributeError, Error, LookupError, TypeError, ValueError) as error:
+        _put_back(simulation, json.loads(before["header"].tobytes()), before)
+        raise SimulationError(
+            f"the snapshot cannot be restored: {type(error).__name__}: {error}", hint=_HINT
+        ) from error
+
+
+def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: Simulation) -> dict[str, Any]:
+    """The header of a snapshot of this simulation.
+
+    Raises:
+        SimulationError: There is none, or it is of another simulation.
+    """
     if not {"header", "engine"} <= arrays.keys():
         raise SimulationError("these bytes are no snapshot: they lack a header")
-    header = json.loads(arrays.pop("header").tobytes())
-    if header.get("format") != _FORMAT or header.get("names") != _names(simulation):
+    try:
+        header = json.loads(arrays["header"].tobytes())
+    except ValueError:
+        header = None
+    if not isinstance(header, dict) or header.get("format") != _FORMAT:
+        raise SimulationError(f"these bytes are no snapshot of the form {_FORMAT}")
+    if header.get("names") != _names(simulation):
         raise SimulationError("the snapshot is of other models than those that run", hint=_HINT)
-    engine_state: Any = arrays.pop("engine")
-    _restore_engine(simulation, header, engine_state)
+    rows = arrays["engine"].shape[:1]
+    if rows != (simulation.nworld,):
+        raise SimulationError(
+            f"the snapshot is of {rows[0] if rows else 'no'} worlds, {simulation.nworld} run",
+            hint=_HINT,
+        )
+    return header
+
+
+def _put_back(
+    simulation: Simulation, header: dict[str, Any], saved: Mapping[str, NDArray[Any]]
+) -> None:
+    arrays = {key: value for key, value in saved.items() if key not in ("header", "engine")}
+    _restore_engine(simulation, header, saved["engine"])
     simulation.clock.now_ns = int(header["time"])
     simulation.seed = header["seed"]
     simulation.loads.restore(decode(header["loads"]))
@@ -126,11 +179,13 @@ def _plain(value: Any) -> Any:
 
 
 def _read(data: bytes) -> dict[str, NDArray[Any]]:
+    if not isinstance(data, bytes | bytearray | memoryview):
+        raise SimulationError(f"a snapshot is bytes, not {type(data).__name__}")
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             return {_unescape(name): archive[name] for name in archive.files}
-    except (ValueError, OSError, KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise SimulationError(f"these bytes are no snapshot: {error}") from None
+    except _BROKEN:
+        raise SimulationError("these bytes are no snapshot, or a damaged one") from None
 
 
 def _escape(name: str) -> str:
