@@ -43,12 +43,22 @@ STRANGERS = {
     "ros": SIMULATION,
     # Motions are arithmetic on poses and velocities, whoever brings these.
     "clients": (SIMULATION - {"navigation"}) | {"bridges"},
-    "builders": WIRE,
+    "builders": WIRE | SIMULATION,
     "envs": WIRE,
 }
 """Rooms that are lower in the order, and yet unknown to a room."""
 
 HEAVY = {"gymnasium", "lxml", "mujoco", "stable_baselines3", "torch", "trimesh"}
+OWNERS = {
+    "gymnasium": ("gazelle.envs", "gazelle.training"),
+    "llvmlite": ("gazelle.engines.native",),
+    "mujoco": ("gazelle.engines.mujoco",),
+    "pettingzoo": ("gazelle.envs",),
+    "stable_baselines3": ("gazelle.training",),
+    "torch": ("gazelle.training",),
+}
+"""Libraries that only these packages know, so that another can take their place."""
+
 FRONT_DOORS = {"gazelle", "gazelle.__main__"}
 """``__init__`` names what all rooms offer, and imports it when it is used; the other runs."""
 
@@ -145,6 +155,52 @@ def test_no_import_points_up():
         found += imports_of(module, text, is_package=path.name == "__init__.py")
     assert len(found) > 100
     assert faults(found) == []
+
+
+def strangers_of(module, text):
+    """Libraries that a module imports, and that are another package's."""
+    names = {
+        name.split(".")[0]
+        for node in ast.walk(ast.parse(text))
+        if not isinstance(node, ast.ImportFrom) or not node.level
+        for name in targets(node, module, is_package=False)
+    }
+    return {
+        name
+        for name in names & OWNERS.keys()
+        if not any(f"{module}.".startswith(f"{owner}.") for owner in OWNERS[name])
+    }
+
+
+def test_libraries_stay_in_their_packages():
+    texts = {module: path.read_text(encoding="utf-8") for module, path in modules().items()}
+    found = {module: strangers_of(module, text) for module, text in texts.items()}
+    assert {module: names for module, names in found.items() if names} == {}
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "expected"),
+    [
+        ("gazelle.simulation.robot", "import mujoco", {"mujoco"}),
+        ("gazelle.envs.options", "def f():\n    from torch import nn", {"torch"}),
+        ("gazelle.engines.mujoco_like", "import mujoco.batch", {"mujoco"}),
+        ("gazelle.engines.mujoco.engine", "import mujoco.batch", set()),
+        ("gazelle.engines.registry", "from .mujoco import Engine", set()),
+    ],
+)
+def test_a_library_out_of_its_package_is_caught(module, text, expected):
+    assert strangers_of(module, text) == expected
+
+
+def test_private_fields_of_others_are_read_line_by_line_only():
+    """Leave for a whole file hides the next line that does it."""
+    leave = {
+        module: line
+        for module, path in modules().items()
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if line.startswith("# ruff: noqa") and "SLF001" in line
+    }
+    assert leave == {}
 
 
 def test_every_folder_is_a_room():

@@ -1,5 +1,4 @@
 """What types there are and what they hold, as rosmsg and rossrv show it."""
-# ruff: noqa: SLF001 - genpy's names begin so
 
 from __future__ import annotations
 
@@ -44,7 +43,7 @@ def type_md5(name: str, kind: Kind) -> str:
         ToolError: There is no such type.
     """
     try:
-        return (load_message if kind == "msg" else load_service)(name)._md5sum
+        return (load_message if kind == "msg" else load_service)(name)._md5sum  # noqa: SLF001  # genpy's name
     except UnknownTypeError as error:
         raise _unknown(name, kind, error) from None
 
@@ -74,11 +73,11 @@ def _halves(name: str, kind: Kind) -> Iterator[MessageSpec]:
             classes = [load_message(name)]
         else:
             service = load_service(name)
-            classes = [service._request_class, service._response_class]
+            classes = [service._request_class, service._response_class]  # noqa: SLF001  # genpy's names
     except UnknownTypeError as error:
         raise _unknown(name, kind, error) from None
     for each in classes:
-        yield parse_message(each._type, each._full_text.partition("\n" + "=" * 80)[0])
+        yield parse_message(each._type, each._full_text.partition("\n" + "=" * 80)[0])  # noqa: SLF001  # genpy's names
 
 
 def _lines(spec: MessageSpec, indent: str) -> Iterator[str]:
