@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 from gazelle.description.material import Color
@@ -28,7 +29,7 @@ _ONLY_X11 = {
 def color_of(name: str) -> Color | None:
     """(red, green, blue, alpha) of a name such as ``DarkRed``, ``light blue`` or ``gray30``.
 
-    Shades that X11 mixes by hand, such as ``red3``, come out within some hundredths.
+    Shades that X11 mixes by hand, such as ``red3``, mostly come out within some hundredths.
     """
     key = name.lower().replace(" ", "").replace("_", "")
     found = _plain(key)
@@ -37,7 +38,7 @@ def color_of(name: str) -> Color | None:
         return found
     base, number = numbered[1], int(numbered[2])
     if base in {"gray", "grey"} and number <= 100:
-        level = round(number * 2.55) / 255.0
+        level = math.floor(number * 2.55 + 0.5) / 255.0
         return (level, level, level, 1.0)
     whole = _plain(base)
     if whole is None or number not in _SHADES:

@@ -175,7 +175,7 @@ def read_blobfinder(given: Properties) -> StageBlobfinder:
     return StageBlobfinder(
         colors=_blob_colors(given),
         image=(max(int(columns), 1), max(int(rows), 1)),
-        range=given.length("range", default.range),
+        range=given.number("range", default.range),  # in metres, whatever the unit of lengths
         fov=given.angle("fov", default.fov),
         pan=given.angle("pan", default.pan),
     )

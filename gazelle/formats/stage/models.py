@@ -33,18 +33,25 @@ _GONE = {
     "simulation": "that is of Player's files",
     "wifi": "Stage 4.3 has no wifi models",
 }
-_LIGHT = {"color", "color_rgba", "name", "pose"}
+_LIGHT = {"color", "name", "pose"}
 """Properties that an instance can change without the rest being read again."""
 _MAX_INTERVAL = 3600.0
 
 
-def read_models(entities: Iterable[Entity], context: Context) -> tuple[StageModel, ...]:
+def read_models(
+    entities: Iterable[Entity], context: Context, *, on_ground: bool = False
+) -> tuple[StageModel, ...]:
     """Models that stand beside each other, numbered by their types.
+
+    Args:
+        entities: What the file says of them.
+        context: Of the file.
+        on_ground: Whether they stand on the ground, which is a ``model`` to Stage, and its first.
 
     Raises:
         FormatError: One has a type that is not known, or says something that cannot be.
     """
-    counts: dict[str, int] = {}
+    counts = {"model": 1} if on_ground else {}
     found = []
     for entity in entities:
         kind = "ranger" if entity.type == "laser" else entity.type

@@ -152,9 +152,9 @@ class Properties:
         return StageSize(*values)
 
     def color(self) -> StageColor | None:
-        """Of ``color`` and ``color_rgba``: (red, green, blue, alpha), ``random``, or None."""
+        """(red, green, blue, alpha), ``random``, or None; a name counts more than numbers."""
         named, mixed = self.get("color"), self.get("color_rgba")
-        if mixed is not None:
+        if mixed is not None and named is None:
             red, green, blue, alpha = self.numbers("color_rgba", "ffff", (0.0,) * 4)
             return (red, green, blue, alpha)
         if named is None:

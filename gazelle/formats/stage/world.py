@@ -46,7 +46,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
     models = [part for part in root.children if part.type != "window"]
     world = StageWorld(
         name=given.text("name", Path(script.name).stem) or "default",
-        models=read_models(models, context),
+        models=read_models(models, context, on_ground=True),
         interval_sim=_interval(given),
         resolution=_resolution(given),
         quit_time=given.number("quit_time", 0.0),

@@ -63,7 +63,7 @@ def test_a_worlds_properties_are_read(tmp_path):
 
 def test_a_model_has_stages_defaults(tmp_path):
     model = one(tmp_path, "model ( )")
-    assert (model.name, model.type, model.size) == ("model:0", "model", (0.4, 0.4, 1.0))
+    assert (model.name, model.type, model.size) == ("model:1", "model", (0.4, 0.4, 1.0))
     assert (model.pose, model.origin) == (StagePose(), StagePose())
     assert model.color == (1.0, 0.0, 0.0, 1.0)
     assert (model.returns, model.gui, model.power) == (StageReturns(), StageGui(), StagePower())
@@ -197,7 +197,7 @@ def test_models_without_a_name_are_numbered_by_type_below_their_parent(tmp_path)
         "free",
         "position:1",
         "position:1.ranger:0",
-        "model:0",
+        "model:1",  # the ground is Stage's model:0
     ]
 
 
@@ -305,7 +305,26 @@ def test_old_sizes_and_lasers_are_understood(tmp_path):
     ],
 )
 def test_colours_are_x11s(tmp_path, name, color):
-    assert one(tmp_path, f'model ( color "{name}" )').color[:3] == pytest.approx(color, abs=0.01)
+    assert one(tmp_path, f'model ( color "{name}" )').color[:3] == pytest.approx(color, abs=0.001)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'model ( color "red" color_rgba [0 1 0 1] )',
+        'model ( color_rgba [0 1 0 1] color "red" )',
+        'define x model ( color "red" ) x ( color_rgba [0 1 0 1] )',
+        'define x model ( color_rgba [0 1 0 1] ) x ( color "red" )',
+    ],
+)
+def test_a_colours_name_counts_more_than_its_numbers(tmp_path, text):
+    assert one(tmp_path, text).color == (1.0, 0.0, 0.0, 1.0)
+
+
+def test_the_range_of_a_blobfinder_has_no_unit(tmp_path):
+    text = 'unit_length "cm" blobfinder ( range 3 pose [100 0 0 0] )'
+    model = one(tmp_path, text)
+    assert (model.device.range, model.pose.x) == (3.0, 1.0)
 
 
 def test_a_colour_may_be_random(tmp_path):
