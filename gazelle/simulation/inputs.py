@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+import operator
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.description import Model
 from gazelle.errors import SimulationError
 
 Floats = NDArray[np.float64]
@@ -104,6 +108,52 @@ def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tupl
         finite(f"the velocity of '{name}'", linear, 3, count),
         finite(f"the angular velocity of '{name}'", angular, 3, count),
     )
+
+
+def steps(count: int) -> int:
+    """A number of physics steps.
+
+    Raises:
+        SimulationError: It is negative, or no whole number.
+    """
+    try:
+        whole = operator.index(count)
+    except TypeError:
+        raise SimulationError(f"cannot step {count} times: that is no whole number") from None
+    if whole < 0:
+        raise SimulationError(f"cannot step {whole} times; time goes forward only")
+    return whole
+
+
+def duration(seconds: float) -> float:
+    """A time to run [s].
+
+    Raises:
+        SimulationError: It is negative or not finite.
+    """
+    if not 0.0 <= seconds < math.inf:
+        raise SimulationError(f"cannot run for {seconds} s; time goes forward only, and ends")
+    return seconds
+
+
+def placeable(model: Model) -> Model:
+    """A model that a world can hold.
+
+    Raises:
+        SimulationError: Its name or its pose cannot be.
+    """
+    name = model.name
+    if not name or "::" in name:
+        raise SimulationError(
+            f"a model cannot be called '{name}': "
+            + ("'::' parts names" if name else "it is empty"),
+            source=model.source,
+        )
+    if not np.isfinite((*model.pose.position, *model.pose.quaternion)).all():
+        raise SimulationError(
+            f"the pose of model '{name}' must be finite, not {model.pose}", source=model.source
+        )
+    return model
 
 
 def _short(values: ArrayLike) -> str:

@@ -17,7 +17,7 @@ from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import DivergenceError, make_engine
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.sensors import View
-from gazelle.simulation import pacing, saving
+from gazelle.simulation import inputs, pacing, saving
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.events import Events
 from gazelle.simulation.faults import Fault, FaultLog
@@ -134,12 +134,10 @@ class Simulation:
         """Advance by physics steps, also while paused.
 
         Raises:
-            SimulationError: The simulation is closed, or ``count`` is negative.
+            SimulationError: The simulation is closed, or ``count`` is no number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        if count < 0:
-            raise SimulationError(f"cannot step {count} times; time goes forward only")
-        self._walk(count, lambda: False)
+        self._walk(inputs.steps(count), lambda: False)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time, or until somebody pauses the simulation.
@@ -149,14 +147,14 @@ class Simulation:
             rate: Real-time factor to keep to; None means as fast as possible.
 
         Raises:
-            SimulationError: The simulation is paused or closed.
+            SimulationError: The simulation is paused or closed, or the time cannot be.
             DivergenceError: As ``step``.
         """
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
         pacing.run_paced(
             lambda piece: self._walk(self.clock.steps_in(piece), lambda: self.paused),
-            seconds,
+            inputs.duration(seconds),
             rate,
         )
 
@@ -233,13 +231,14 @@ class Simulation:
             namespace: Put before its topics.
 
         Raises:
-            SimulationError: The name is taken; nothing is changed.
+            SimulationError: The name is taken, or it or the pose cannot be; nothing is changed.
             FormatError: The file cannot be read.
             EngineError: The model cannot be simulated.
         """
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
-        return self.requests.call(lambda: self._spawn(placed, namespace))
+        whole = inputs.placeable(placed)
+        return self.requests.call(lambda: self._spawn(whole, namespace))
 
     def load_plugin(self, filename: str) -> None:
         """Start a plugin that no file names, with empty parameters, for the whole simulation.
@@ -282,7 +281,8 @@ class Simulation:
         Raises:
             EngineError: Neither link moves, or they are the same.
         """
-        self.requests.call(lambda: self.engine.attach(parent.name, child.name, worlds))
+        some = inputs.chosen(worlds, self.nworld)
+        self.requests.call(lambda: self.engine.attach(parent.name, child.name, some))
 
     def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
         """Let go two links that ``attach`` holds together.
@@ -290,7 +290,8 @@ class Simulation:
         Raises:
             EngineError: They never were.
         """
-        self.requests.call(lambda: self.engine.detach(parent.name, child.name, worlds))
+        some = inputs.chosen(worlds, self.nworld)
+        self.requests.call(lambda: self.engine.detach(parent.name, child.name, some))
 
     def set_light(self, name: str, **changes: Any) -> None:
         """Change a light of the world; the next picture shows it.

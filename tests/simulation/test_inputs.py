@@ -71,6 +71,14 @@ WRONG = {
     "has 2 axes": lambda s: s.robots["arm"].set_configuration(["u"], [0.1]),
     "mean 'j'|are: j": lambda s: s.robots["arm"].set_configuration(["jj"], [0.1]),
     "lower limit .* would be 2, above": lambda s: joint(s).set_properties(lower=2.0),
+    "no whole number": lambda s: s.step(1.5),
+    "step -1 times": lambda s: s.step(-1),
+    "run for nan s": lambda s: s.run(NAN),
+    "run for -1.0 s": lambda s: s.run(-1.0, rate=1.0),
+    "run for inf s": lambda s: s.run(math.inf),
+    "pose of model 'x' must be finite": lambda s: s.spawn(scenes.ball("x"), pose=Pose(NAN)),
+    "cannot be called 'a::b'": lambda s: s.spawn(scenes.ball("x"), name="a::b"),
+    "worlds must be": lambda s: s.attach(link(s), s.robots["arm"].links["b"], worlds=[5]),
     "must be 6 numbers": lambda s: link(s).set_properties(inertia=(1, 1, 1)),
     "positive definite": lambda s: link(s).set_properties(mass=7.0, inertia=(1, 1, -1, 0, 0, 0)),
     "link_mass of 'box::link' must be a number": lambda s: s.parameters.link_mass.set(
@@ -88,6 +96,12 @@ def test_what_cannot_be_is_refused_in_one_line_and_changes_nothing(sim, message)
     np.testing.assert_array_equal(sim.engine.snapshot(), before[0])
     np.testing.assert_array_equal(sim.parameters.link_mass["box::link"], before[1])
     np.testing.assert_array_equal(sim.parameters.joint_lower["arm::j"], -1.0)
+
+
+@pytest.mark.parametrize("options", [{"threads": 0}, {"time_step": math.inf}, {"nworld": 0}])
+def test_runs_that_cannot_be_are_refused(options):
+    with pytest.raises(Error, match="must be"):
+        Simulation(scenes.world(), **options)
 
 
 def test_limits_move_together_past_where_they_were(sim):

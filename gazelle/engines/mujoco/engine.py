@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -60,8 +61,10 @@ class MujocoEngine(ForcedSteps):
         step = world.profile.max_step_size if time_step is None else time_step
         if nworld < 1:
             raise EngineError(f"nworld must be at least 1, not {nworld}")
-        if not step > 0.0:
-            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        if threads is not None and threads < 1:
+            raise EngineError(f"threads must be at least 1, not {threads}")
+        if not 0.0 < step < math.inf:
+            raise EngineError(f"the physics step must be positive and finite, not {step:g} s")
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         self._nworld = nworld
