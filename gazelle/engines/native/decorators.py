@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 from gazelle.engines.native.function import Native
+from gazelle.engines.native.interpreter import interpreted
 
 Function = Callable[..., Any]
+
+_INTERPRET: Final = os.environ.get("GAZELLE_INTERPRET_KERNELS") == "1"
 
 
 def kernel(function: Function) -> Function:
@@ -16,19 +20,23 @@ def kernel(function: Function) -> Function:
     Kernels take ranges of worlds or bodies, so that any number of threads can share a task
     and none ever writes what another one reads; results do not depend on how it is shared.
     """
-    return Native(function)
+    return _made(Native(function))
 
 
 def whole(function: Function) -> Function:
     """Compile a kernel that other kernels call as it is; it is compiled once for all of them."""
-    return Native(function, whole=True)
+    return _made(Native(function, whole=True))
 
 
 def part(function: Function) -> Function:
     """Compile a function that only kernels call; it becomes part of them."""
-    return Native(function)
+    return _made(Native(function))
 
 
 def inner(function: Function) -> Function:
     """Compile a function into the loop that calls it, where handing over arrays would cost most."""
-    return Native(function, inline=True)
+    return _made(Native(function, inline=True))
+
+
+def _made(native: Native) -> Function:
+    return interpreted(native.function) if _INTERPRET else native

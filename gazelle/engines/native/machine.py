@@ -78,6 +78,13 @@ class Machine:
 
 
 @functools.cache
+def fuses() -> bool:
+    """Whether the processor rounds a product and a sum once, where a kernel lets it."""
+    x86 = llvm.get_process_triple().startswith(("x86", "i686"))
+    return bool(llvm.get_host_cpu_features().get("fma")) if x86 else True
+
+
+@functools.cache
 def machine() -> Machine:
     """The one there is."""
     return Machine()

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import ast
-import functools
 import itertools
-import linecache
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gazelle.engines.native.code import Code, rebuilt, words
 from gazelle.engines.native.kinds import RESULTS, Group, Kind, Value, flat
+from gazelle.engines.native.source import tree_of
 from gazelle.engines.native.statements import Statements, argument, returned
 from gazelle.errors import EngineError
 
@@ -126,12 +124,7 @@ class Module:
     ) -> Made:
         function = native.function
         file = function.__code__.co_filename
-        tree = _functions_of(file).get((function.__name__, function.__code__.co_firstlineno))
-        if tree is None:
-            raise EngineError(
-                f"there is no source of the kernel {function.__name__}",
-                file=file, hint="it may have changed since it was imported",
-            )  # fmt: skip
+        tree = tree_of(function)
         maker = Statements(tree, list(kinds), function.__globals__, self, file, self._numbers)
         maker.make()
         code = maker.code
@@ -162,15 +155,3 @@ def _check_result(native: Native, result: Kind | None) -> None:
         return
     code = native.function.__code__
     raise EngineError(message, file=code.co_filename, line=code.co_firstlineno, element=native.name)
-
-
-@functools.cache
-def _functions_of(file: str) -> dict[tuple[str, int], ast.FunctionDef]:
-    """The functions of a source file, by name and first line."""
-    tree = ast.parse("".join(linecache.getlines(file)), file)
-    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
-    return {(node.name, min(_lines(node))): node for node in found}
-
-
-def _lines(node: ast.FunctionDef) -> list[int]:
-    return [node.lineno, *(each.lineno for each in node.decorator_list)]
