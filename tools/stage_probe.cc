@@ -63,7 +63,8 @@ void write_senses(const Probe &probe)
     } else if (Stg::ModelFiducial *finder = dynamic_cast<Stg::ModelFiducial *>(device)) {
       for (const Stg::ModelFiducial::Fiducial &seen : finder->GetFiducials()) {
         begin(probe, "fiducial", i);
-        fprintf(probe.out, " %d %.9f %.9f %.9f\n", seen.id, seen.range, seen.bearing, seen.geom.a);
+        fprintf(probe.out, " %s %d %.9f %.9f %.9f\n", seen.mod->Token(), seen.id, seen.range,
+                seen.bearing, seen.geom.a);
       }
     } else if (Stg::ModelBlobfinder *blobs = dynamic_cast<Stg::ModelBlobfinder *>(device)) {
       for (const Stg::ModelBlobfinder::Blob &seen : blobs->GetBlobs()) {
