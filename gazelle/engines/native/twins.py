@@ -73,7 +73,8 @@ def _over(a: float, b: float) -> float:
 
 
 def _power(a: float, b: float) -> float:
-    sign = -1.0 if math.copysign(1.0, a) < 0.0 and math.fmod(b, 2.0) in (1.0, -1.0) else 1.0
+    odd = math.isfinite(b) and abs(math.fmod(b, 2.0)) == 1.0
+    sign = -1.0 if odd and math.copysign(1.0, a) < 0.0 else 1.0
     if a == 0.0 and b < 0.0:
         return sign * math.inf
     try:
@@ -127,7 +128,7 @@ def _fused(a: float, b: float, c: float) -> float:
     try:
         return float(exact)
     except OverflowError:
-        return math.copysign(math.inf, exact)
+        return math.inf if exact > 0 else -math.inf
 
 
 def _lawless(function: Callable[[float], float]) -> Callable[[Any], float]:

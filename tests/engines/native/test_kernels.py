@@ -114,6 +114,49 @@ def test_what_kernels_cannot_do_is_refused_with_its_line():
         Native(listed)(1)
 
 
+def test_variables_may_have_annotations():
+    assert Native(annotated)(2.0) == annotated(2.0)
+
+
+def annotated(a):
+    b: float = a + 1.0
+    c: float
+    c = 2.0 * b
+    return c
+
+
+def guarded(a):
+    with a:
+        b = 1
+    return b + 1
+
+
+def halved(a):  # noqa: RET503  # which is what is refused
+    if a > 0.0:
+        return a / 2.0
+
+
+def searched(a):
+    for k in range(9):
+        a += k
+    else:  # noqa: PLW0120  # which is what is refused
+        a = 0
+    return a
+
+
+@pytest.mark.parametrize(
+    ("function", "line", "message"),
+    [(guarded, 1, "kernels know no With: 'with a"), (halved, 0, "on some ways and none"),
+     (searched, 1, "kernels know no else of a loop")],
+)  # fmt: skip
+def test_what_is_refused_is_named_with_file_and_line(function, line, message):
+    with pytest.raises(EngineError, match=message) as caught:
+        Native(function)(1)
+    first = function.__code__.co_firstlineno
+    place = (caught.value.file, caught.value.line, caught.value.element)
+    assert place == (__file__, first + line, function.__name__)
+
+
 def test_a_kernel_without_source_is_refused():
     with pytest.raises(EngineError, match="no source of the kernel <lambda>"):
         Native(lambda a: a)(1)
