@@ -136,12 +136,14 @@ def _arguments_only(
 
 def _files(words: list[str], packages: Packages, parser: Any) -> list[str]:
     """The launch files that are meant: files, or a package and the name of a file in it."""
-    from gazelle.ros.launch.finding import find_launch_file
+    from gazelle.ros.launch.finding import find_launch_file, require_name
 
     if not words:
         parser.error("give a launch file, or a package and a launch file")
     if len(words) == 2 and not Path(words[0]).is_file():
         return [str(find_launch_file(words[0], words[1], packages))]
+    if len(words) == 1 and not Path(words[0]).is_file():
+        require_name(words[0], packages)
     return words
 
 

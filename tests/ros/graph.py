@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import threading
 import time
 from typing import ClassVar
 
@@ -104,3 +105,28 @@ def until(condition, timeout=15.0):
     while not condition():
         assert time.monotonic() < deadline, "it never came true"
         time.sleep(0.002)
+
+
+class Background:
+    """A function in a thread, which ends when its event is set."""
+
+    def __init__(self, function, *arguments, **keywords):
+        self.stop = threading.Event()
+        self.error = None
+
+        def run():
+            try:
+                function(*arguments, self.stop, **keywords)
+            except Exception as error:  # noqa: BLE001  # it is looked at in the test
+                self.error = error
+
+        self.thread = threading.Thread(target=run)
+        self.thread.start()
+
+    def end(self, *, stop=True):
+        if stop:
+            self.stop.set()
+        self.thread.join(10)
+        assert not self.thread.is_alive()
+        if self.error is not None:
+            raise self.error

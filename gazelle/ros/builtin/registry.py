@@ -70,11 +70,15 @@ _OWN = {
         BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),
         BuiltinPackage("tf", {
             "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf",
+            "tf_echo": "gazelle.ros.builtin.tf_tools:echo",
+            "tf_monitor": "gazelle.ros.builtin.tf_tools:monitor",
+            "view_frames": "gazelle.ros.builtin.tf_tools:frames",
         }),
         BuiltinPackage("tf2_ros", {
             "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf2",
             "buffer_server": "gazelle.ros.builtin.buffer_server:main",
         }),
+        BuiltinPackage("tf2_tools", {"view_frames.py": "gazelle.ros.builtin.tf_tools:frames"}),
         BuiltinPackage("topic_tools", {
             "relay": "gazelle.ros.builtin.topic_tools:relay",
             "throttle": "gazelle.ros.builtin.topic_tools:throttle",

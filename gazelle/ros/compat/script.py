@@ -136,8 +136,9 @@ def _explain(error: BaseException, source: bytes, file: Path) -> None:
     """One line instead of a traceback if the script is written for Python 2."""
     findings = explain(error, source.decode("utf-8", "replace"))
     if findings:
+        said = error.msg if isinstance(error, SyntaxError) else str(error)
         raise RosError(
-            "this is written for Python 2",
+            f"this is written for Python 2 ({type(error).__name__}: {said})",
             file=findings[0].file or str(file),
             line=findings[0].line,
             hint=advice_text(findings),

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from gazelle.errors import did_you_mean
+from gazelle.ros.builtin import registry
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages
 
@@ -22,12 +23,7 @@ def find_launch_file(package: str, name: str, packages: Packages) -> Path:
     folder = packages.folder(package)
     if (folder / name).is_file():
         return folder / name
-    known: dict[str, list[Path]] = {}
-    for place, folders, files in os.walk(folder):
-        folders[:] = sorted(each for each in folders if not each.startswith("."))
-        for file in files:
-            if file == name or file.endswith(_SUFFIXES):
-                known.setdefault(file, []).append(Path(place, file))
+    known = _files(folder, name)
     found = known.get(name, [])
     if not found:
         raise LaunchError(
@@ -40,3 +36,30 @@ def find_launch_file(package: str, name: str, packages: Packages) -> Path:
             hint="give its path in the package",
         )
     return found[0]
+
+
+def require_name(package: str, packages: Packages) -> None:
+    """Nothing if there is no such package; where only a package is given, its files are named.
+
+    Raises:
+        LaunchError: There is such a package: one of its launch files must be named, too.
+    """
+    folder = packages.installed(package)
+    if folder is None:
+        known = registry.package(package)
+        folder = known.folder if known is not None else None
+    if folder is None:
+        return
+    files = ", ".join(sorted(_files(folder))) or "none"
+    raise LaunchError(f"which launch file of the package '{package}'?", hint=f"it has: {files}")
+
+
+def _files(folder: Path, name: str | None = None) -> dict[str, list[Path]]:
+    """The launch files below a folder, and all of a name, by their names."""
+    known: dict[str, list[Path]] = {}
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(each for each in folders if not each.startswith("."))
+        for file in files:
+            if file == name or file.endswith(_SUFFIXES):
+                known.setdefault(file, []).append(Path(place, file))
+    return known

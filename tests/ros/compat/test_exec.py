@@ -116,7 +116,7 @@ def test_a_script_for_python_2_is_one_line_that_says_what_to_change(execute):
     assert process.returncode == 1
     assert out == ""
     first, second = err.splitlines()
-    assert first.endswith("script.py:2: this is written for Python 2")
+    assert "script.py:2: this is written for Python 2 (SyntaxError: Missing parentheses" in first
     assert second == "  hint: write print('hello')"
 
 

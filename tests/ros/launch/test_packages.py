@@ -9,7 +9,7 @@ import pytest
 from gazelle.errors import RosError
 from gazelle.ros.builtin import registry
 from gazelle.ros.launch import LaunchError, MissingPackageError, Packages
-from gazelle.ros.launch.finding import find_launch_file
+from gazelle.ros.launch.finding import find_launch_file, require_name
 from gazelle.ros.launch.programs import Program, Skipped, command_line, program_of
 
 
@@ -165,6 +165,10 @@ def test_launch_files_are_found_by_package_and_name(workspace):
     assert find_launch_file("robot", "launch/a.launch", packages) == launch / "a.launch"
     with pytest.raises(LaunchError, match=r"did you mean 'a.launch'"):
         find_launch_file("robot", "b.launch", packages)
+    with pytest.raises(LaunchError, match=r"which launch file of the package 'robot'\?") as caught:
+        require_name("robot", packages)
+    assert caught.value.hint == "it has: a.launch"
+    require_name("nobody", packages)
     (workspace / "robot" / "other").mkdir()
     (workspace / "robot" / "other" / "a.launch").write_text("<launch/>")
     with pytest.raises(LaunchError, match="several"):

@@ -1,0 +1,20 @@
+"""A graph as tools see it, and where they write."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from gazelle.ros.tools.graph import Graph
+
+
+@pytest.fixture
+def graph(master):
+    with Graph("rostool", master.uri, namespace="/") as made:
+        yield made
+
+
+@pytest.fixture
+def out():
+    return io.StringIO()
