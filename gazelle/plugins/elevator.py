@@ -11,6 +11,7 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
+from gazelle.states import restore_all, states_of
 
 Worlds = NDArray[np.intp]
 
@@ -102,13 +103,8 @@ class Elevator(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Where it goes, and how far it is."""
-        pids = {
-            f"{name} {key}": value
-            for name, pid in self._pids.items()
-            for key, value in pid.state().items()
-        }
         return {
-            **pids,
+            **states_of(self._pids),
             "phase": self._phase.copy(),
             "floor": self._floor.copy(),
             "until": self._until.copy(),
@@ -117,8 +113,7 @@ class Elevator(ModelPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        for name, pid in self._pids.items():
-            pid.restore({key: state[f"{name} {key}"] for key in ("sum", "last")})
+        restore_all(self._pids, state)
         self._phase[:], self._floor[:] = state["phase"], state["floor"]
         self._until[:] = state["until"]
         self._last_time = float(np.asarray(state["time"], np.float64))

@@ -22,6 +22,7 @@ from gazelle.formats.sdf import read_sdf
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
 from gazelle.simulation.values import Number
+from gazelle.states import restore_all, states_of
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -177,13 +178,8 @@ class Harness(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Where it hangs, and what the winch does."""
-        pids = {
-            f"{name} {key}": value
-            for name, pid in self._pids.items()
-            for key, value in pid.state().items()
-        }
         return {
-            **pids,
+            **states_of(self._pids),
             "held": self._held.copy(),
             "speed": self._speed.copy(),
             "place": self._place.copy(),
@@ -192,8 +188,7 @@ class Harness(ModelPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave; that it hangs is in the engine's state."""
-        for name, pid in self._pids.items():
-            pid.restore({key: state[f"{name} {key}"] for key in ("sum", "last")})
+        restore_all(self._pids, state)
         self._held[:] = state["held"]
         self._speed[:], self._place[:] = state["speed"], state["place"]
         self._last_time = float(np.asarray(state["time"], np.float64))

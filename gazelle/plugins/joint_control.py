@@ -12,6 +12,7 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import JointHandle, ModelPlugin, Robot
+from gazelle.states import restore_all, states_of
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -55,6 +56,8 @@ class JointControl(ModelPlugin):
             for tags in parameters.find_all("controller")
             for controller in _controllers(robot, tags)
         ]
+        pids = enumerate(each.pid for each in self._controllers)
+        self._pids = {str(i): pid for i, pid in pids if pid is not None}
         self._last_time = robot.simulation.time
 
     def on_update(self, time: float) -> None:
@@ -71,28 +74,19 @@ class JointControl(ModelPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Forget sums and errors."""
-        for each in self._controllers:
-            if each.pid is not None:
-                each.pid.reset(worlds)
+        for pid in self._pids.values():
+            pid.reset(worlds)
         if worlds is None:
             self._last_time = self._clock.now
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Sums and errors."""
-        pids = {
-            f"{i} {key}": value
-            for i, each in enumerate(self._controllers)
-            if each.pid is not None
-            for key, value in each.pid.state().items()
-        }
-        return {**pids, "time": np.array(self._last_time)}
+        return {**states_of(self._pids), "time": np.array(self._last_time)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._last_time = float(np.asarray(state["time"], np.float64))
-        for i, each in enumerate(self._controllers):
-            if each.pid is not None:
-                each.pid.restore({key: state[f"{i} {key}"] for key in ("sum", "last")})
+        restore_all(self._pids, state)
 
 
 def _controllers(robot: Robot, tags: Parameters) -> list[_Controller]:

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.simulation import Plugin
+from gazelle.states import Part, restore_all, states_of
 
 Worlds = NDArray[np.intp]
 
 
-class Stateful(Protocol):
+class Stateful(Part, Protocol):
     """Noise or a sensor: something with random numbers and drifts."""
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
@@ -21,12 +22,6 @@ class Stateful(Protocol):
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Forget drifts."""
-
-    def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
-
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
 
 
 class Noisy(Plugin):
@@ -46,16 +41,8 @@ class Noisy(Plugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """The noise."""
-        return {
-            f"{name}/{key}": value
-            for name, each in self._noises.items()
-            for key, value in each.state().items()
-        }
+        return states_of(self._noises)
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        for name, each in self._noises.items():
-            own = {
-                k.removeprefix(f"{name}/"): v for k, v in state.items() if k.startswith(f"{name}/")
-            }
-            each.restore(own)
+        restore_all(self._noises, state)

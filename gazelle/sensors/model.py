@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Noise
 from gazelle.sensors.noise import NoiseModel
+from gazelle.states import restore_all, states_of
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -85,11 +86,11 @@ class NoisySensor:
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
-        models = enumerate(self._noises)
-        return {f"{i}/{k}": v for i, noise in models for k, v in noise.state().items()}
+        return states_of(self._channels())
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        for i, noise in enumerate(self._noises):
-            own = {k.partition("/")[2]: v for k, v in state.items() if k.startswith(f"{i}/")}
-            noise.restore(own)
+        restore_all(self._channels(), state)
+
+    def _channels(self) -> dict[str, NoiseModel]:
+        return {str(i): noise for i, noise in enumerate(self._noises)}

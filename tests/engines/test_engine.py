@@ -259,7 +259,10 @@ def test_shapes_without_volume_are_nothing_to_hit():
 
     link = Link("l", collisions=(Collision("e", Empty()), Collision("m", Mesh("x.stl", None))))
     engine = make(Model("m", links=(link,), static=True), scenes.solid("b", Box((0.1, 0.1, 0.1))))
-    engine.step(3)
+    start = engine.link_placement("b::link").position[0, 2]
+    engine.step(100)
+    fallen = start - engine.link_placement("b::link").position[0, 2]
+    assert fallen == pytest.approx(0.5 * 9.8 * 0.1**2, rel=0.02)
 
 
 def test_velocity_decay_is_not_dropped_in_silence():

@@ -19,6 +19,8 @@ class StateViews:
     Attributes:
         faults: Counts of bad positions, velocities, accelerations and commands, shape
             (nworld, 4).
+
+    The others are the fields of ``mjData`` of their names.
     """
 
     qpos: Floats

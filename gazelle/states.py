@@ -1,0 +1,35 @@
+"""What changes in several parts, as one mapping for a snapshot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Part(Protocol):
+    """Something whose state can be taken and put back."""
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes."""
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+
+
+def states_of(parts: Mapping[str, Part]) -> dict[str, NDArray[np.generic]]:
+    """The states of parts, each key as ``name/key``; no name may be the head of another."""
+    return {
+        f"{name}/{key}": value
+        for name, part in parts.items()
+        for key, value in part.state().items()
+    }
+
+
+def restore_all(parts: Mapping[str, Part], state: Mapping[str, NDArray[np.generic]]) -> None:
+    """Put back what ``states_of`` gave; ``state`` may hold more."""
+    for name, part in parts.items():
+        start = f"{name}/"
+        part.restore({k.removeprefix(start): v for k, v in state.items() if k.startswith(start)})
