@@ -14,6 +14,7 @@ from gazelle.description import (
     Inertial,
     Joint,
     JointAxis,
+    JointPhysics,
     Link,
     Model,
     Pose,
@@ -25,9 +26,11 @@ from gazelle.engines import make_engine
 Y = (0.0, 1.0, 0.0)
 
 
-def wheel(moment=0.02, mass=1.0, kind="revolute", nworld=1, step=0.001, **axis):
+def wheel(moment=0.02, mass=1.0, kind="revolute", nworld=1, step=0.001, terms=None, **axis):
     links = (Link("w", inertial=Inertial(mass, Pose(), Inertia(moment, moment, moment))),)
-    joint = Joint("j", kind, "world", "w", axes=(JointAxis(Y, **axis),))
+    joint = Joint(
+        "j", kind, "world", "w", axes=(JointAxis(Y, **axis),), physics=terms or JointPhysics()
+    )
     world = scenes.world(Model("m", links=links, joints=(joint,)), gravity=(0, 0, 0), step=step)
     return make_engine("mujoco", world, nworld)
 
@@ -71,6 +74,19 @@ def test_a_soft_stop_of_an_arm_gives_way_the_same_wherever_the_load_is():
         engine.set_joint_effort("m::j", 4.0)
         engine.step(8000)
         assert angle(engine)[0] - 0.2 == pytest.approx(4.0 / 50.0, rel=0.05)
+
+
+@pytest.mark.parametrize(("erp", "cfm"), [(0.2, 0.5), (0.8, 2.0), (0.2, 0.1)])
+def test_a_stop_gives_way_by_h_cfm_torque_over_erp_as_odes_terms_say(erp, cfm):
+    terms = JointPhysics(stop_erp=erp, stop_cfm=cfm)
+    engine = wheel(lower=-0.5, upper=0.5, terms=terms)
+    engine.set_joint_effort("m::j", 1.0)
+    engine.step(10_000)
+    assert angle(engine)[0] - 0.5 == pytest.approx(0.001 * cfm / erp, rel=0.05)
+    own = wheel(lower=-0.5, upper=0.5, terms=terms, stiffness=50.0, dissipation=1.0)
+    own.set_joint_effort("m::j", 1.0)
+    own.step(10_000)
+    assert angle(own)[0] - 0.5 == pytest.approx(1.0 / 50.0, rel=0.05)
 
 
 def test_sdf_default_stops_do_not_give():

@@ -16,6 +16,7 @@ from gazelle.description import (
     Inertial,
     Joint,
     JointAxis,
+    JointPhysics,
     Link,
     Mesh,
     Mimic,
@@ -105,6 +106,8 @@ def other(name="b"):
             ["limits-crossed"],
         ),
         (Joint("j", "revolute", "l", "b", axes=(JointAxis(effort=0.0),)), ["no-effort"]),
+        (Joint("j", "ball", "l", "b", physics=JointPhysics(fudge_factor=0.1)), ["ode-terms"]),
+        (Joint("j", "ball", "l", "b", physics=JointPhysics(stop_cfm=0.1)), []),
         (Joint("j", "revolute", "l", "b", axes=(JointAxis(velocity=0.0),)), ["no-velocity"]),
         (
             Joint("j", "revolute", "l", "b", axes=(JointAxis(mimic=Mimic("jj")),)),

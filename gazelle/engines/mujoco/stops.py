@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 import mujoco
 
-from gazelle.description import JointAxis
+from gazelle.description import JointAxis, JointPhysics
 from gazelle.engines.mujoco.tree import Body
 
 # A spring is followed when its period with what it moves takes at least so many steps.
@@ -41,19 +41,31 @@ def tune_stops(model: mujoco.MjModel, bodies: Iterable[Body]) -> None:
             name = body.joint_name if index == 0 else f"{body.joint_name}#{index}"
             joint = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name)
             if joint >= 0 and model.jnt_limited[joint]:
-                _tune(model, joint, axis)
+                _tune(model, joint, *_spring_of(axis, body.joint.physics, model.opt.timestep))
 
 
-def _tune(model: mujoco.MjModel, joint: int, axis: JointAxis) -> None:
-    if axis.stiffness >= _RIGID:
+def _spring_of(axis: JointAxis, physics: JointPhysics, h: float) -> tuple[float, float]:
+    """Stiffness and damping of a stop, from its ERP and CFM if only those are given.
+
+    With erp = h k / (h k + c) and cfm = 1 / (h k + c), ODE's manual, k is erp / (h cfm) and c
+    is (1 - erp) / cfm.
+    """
+    erp, cfm = physics.stop_erp, physics.stop_cfm
+    if axis.stiffness >= _RIGID and cfm > 0.0:
+        return erp / (h * cfm), max(0.0, 1.0 - erp) / cfm
+    return axis.stiffness, max(axis.dissipation, 0.0)
+
+
+def _tune(model: mujoco.MjModel, joint: int, stiffness: float, damping: float) -> None:
+    if stiffness >= _RIGID:
         return
     h = float(model.opt.timestep)
     mobility = float(model.dof_invweight0[model.jnt_dofadr[joint]])
     stiffest = (2.0 * math.pi / (_FEWEST_STEPS_A_PERIOD * h)) ** 2
-    if not 0.0 < axis.stiffness * mobility <= stiffest:
+    if not 0.0 < stiffness * mobility <= stiffest:
         return
-    give = 1.0 / (h * axis.stiffness + max(axis.dissipation, 0.0))
-    erp = h * axis.stiffness * give
+    give = 1.0 / (h * stiffness + damping)
+    erp = h * stiffness * give
     d = min(max(1.0 / (1.0 + give / h / mobility), _LEAST), _MOST)
     model.jnt_solimp[joint] = (d, d, 0.001, 0.5, 2.0)
     model.jnt_solref[joint] = (-d * erp / h**2, -d / h)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gazelle.description import Joint, JointAxis, Model, World
+from gazelle.description import Joint, JointAxis, JointPhysics, Model, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.judge.finding import Finding
 
@@ -17,6 +17,7 @@ def judge(world: World) -> Iterator[Finding]:
             for joint in placed.model.joints:
                 name = f"{placed.scope}::{joint.name}"
                 yield from _links(name, joint, placed.model)
+                yield from _ode_terms(name, joint)
                 for axis in joint.axes:
                     yield from _axis(name, joint, axis)
                     yield from _mimic(name, joint, axis, placed.model)
@@ -43,6 +44,24 @@ def _link_names(model: Model, prefix: str = "") -> set[str]:
     for nested in model.models:
         names |= _link_names(nested, f"{prefix}{nested.name}::")
     return names
+
+
+def _ode_terms(name: str, joint: Joint) -> Iterator[Finding]:
+    """What only ODE's solver needs; a file that depends on it moves otherwise here."""
+    given, usual = joint.physics, JointPhysics()
+    terms = [
+        term
+        for term in ("fudge_factor", "cfm", "erp", "suspension_cfm", "suspension_erp")
+        if getattr(given, term) != getattr(usual, term)
+    ]
+    if terms:
+        yield Finding(
+            "ode-terms",
+            f"joint '{name}' has ODE's {', '.join(terms)}, which has no effect here",
+            "they make ODE's joints give way, or keep its motors from jumping at a stop",
+            "for a joint that gives way use <spring_stiffness>, <damping> and limits with <stiffness>",
+            joint.source,
+        )
 
 
 def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
