@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters
-from gazelle.sensors import ContactReading
+from gazelle.plugins.sensor_kinds import model_of
+from gazelle.sensors import ContactModel, ContactReading
 from gazelle.simulation import (
     FramePrefix,
     SensorOutput,
@@ -20,6 +21,7 @@ class Bumper(SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
+        model_of(sensor, ContactModel, parameters)
         robot = sensor.robot
         topic = parameters.get("bumperTopicName", "bumper_states")
         namespace = namespace_of(robot, parameters)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.description import Parameters
-from gazelle.errors import SimulationError
 from gazelle.plugins.hector_errors import Interval, SensorErrors
 from gazelle.plugins.hector_imu import rate_of
+from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel
 from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
@@ -19,17 +19,14 @@ class HectorSonar(Noisy, SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
-        if not isinstance(sensor.model, LidarModel):
-            raise SimulationError(
-                f"'{sensor.name}' has no rays to measure a range with", source=parameters.source
-            )
+        model = model_of(sensor, LidarModel, parameters)
         robot, simulation = sensor.robot, sensor.robot.simulation
         self._sensor, self._clock = sensor, simulation.clock
-        lidar = sensor.model.lidar
+        lidar = model.lidar
         self._least, self._most = lidar.range_min, lidar.range_max
         spans = [
             float(angles[-1] - angles[0])
-            for angles in (sensor.model.angles, sensor.model.vertical_angles)
+            for angles in (model.angles, model.vertical_angles)
             if len(angles) > 1
         ]
         self._fov = min(spans, default=0.0)

@@ -6,9 +6,10 @@ import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.plugins.publishing import Publisher
+from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply
-from gazelle.sensors import ImuReading, NoiseModel
+from gazelle.sensors import ImuModel, ImuReading, NoiseModel
 from gazelle.simulation import Output, SensorPlugin, SensorUnit, absolute, namespace_of
 
 
@@ -17,6 +18,7 @@ class ImuSensor(Noisy, Publisher, SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
+        model_of(sensor, ImuModel, parameters)
         robot = sensor.robot
         simulation = robot.simulation
         self._sensor, self._clock = sensor, simulation.clock

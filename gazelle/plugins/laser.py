@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters
-from gazelle.sensors import LaserScan
+from gazelle.plugins.sensor_kinds import model_of
+from gazelle.sensors import LaserScan, LidarModel
 from gazelle.simulation import SensorOutput, SensorPlugin, SensorUnit, absolute, namespace_of
 
 
@@ -12,6 +13,7 @@ class Laser(SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read topic and frame, open the port."""
+        model_of(sensor, LidarModel, parameters)
         robot = sensor.robot
         # Absent means the root; there but empty means the model's name.
         unnamed = robot.name if "robotNamespace" in parameters else ""

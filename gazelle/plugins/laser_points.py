@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Noise, Parameters
-from gazelle.errors import SimulationError
+from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel, NoiseModel
 from gazelle.sensors.lidar import directions_of
@@ -45,11 +45,7 @@ class PointLaser(Noisy, SensorPlugin):
         Raises:
             SimulationError: It has no rays.
         """
-        model = sensor.model
-        if not isinstance(model, LidarModel):
-            raise SimulationError(
-                f"'{sensor.name}' has no rays to make points of", source=parameters.source
-            )
+        model = model_of(sensor, LidarModel, parameters)
         simulation = sensor.robot.simulation
         self._sensor, self._clock = sensor, simulation.clock
         self._directions = directions_of(model.angles, model.vertical_angles)

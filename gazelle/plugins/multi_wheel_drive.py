@@ -12,6 +12,8 @@ from gazelle.simulation import Odometry, Robot, absolute, namespace_of
 class MultiWheelDrive(WheeledDrive):
     """Turns velocity commands into the speeds of any number of wheels a side."""
 
+    _usual_torque = 5.0
+
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, put motors on the wheels, open ``cmd_vel`` and ``odom``."""
         self._robot = robot
@@ -20,7 +22,7 @@ class MultiWheelDrive(WheeledDrive):
             self._joints(parameters),
             separation=parameters.get("wheelSeparation", 0.34),
             diameter=parameters.get("wheelDiameter", 0.15),
-            torque=parameters.get("torque", 5.0),
+            torque=parameters.get("torque", self._usual_torque),
             source=parameters.source,
         )
         self.update_rate = parameters.get("updateRate", 100.0)
@@ -54,6 +56,8 @@ class MultiWheelDrive(WheeledDrive):
 
 class SixWheelDrive(MultiWheelDrive):
     """Turns velocity commands into the speeds of three wheels a side."""
+
+    _usual_torque = 10.0
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
         return [

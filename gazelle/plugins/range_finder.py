@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.description import Noise, Parameters
-from gazelle.errors import SimulationError
+from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import LidarModel, NoiseModel
 from gazelle.simulation import (
@@ -24,14 +24,10 @@ class RangeFinder(Noisy, SensorPlugin):
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Read the tags, open the port."""
-        if not isinstance(sensor.model, LidarModel):
-            raise SimulationError(
-                f"'{sensor.name}' has no rays to measure a range with", source=parameters.source
-            )
         robot = sensor.robot
         simulation = robot.simulation
         self._sensor, self._clock = sensor, simulation.clock
-        lidar = sensor.model.lidar
+        lidar = model_of(sensor, LidarModel, parameters).lidar
         self._least, self._most = lidar.range_min, lidar.range_max
         self._ultrasound = parameters.get("radiation", "ultrasound") == "ultrasound"
         self._fov = parameters.get("fov", 0.05)

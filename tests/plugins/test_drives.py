@@ -60,6 +60,34 @@ def test_worlds_are_driven_each_by_its_own_command():
         assert back < -0.15
 
 
+@pytest.mark.parametrize(
+    ("filename", "torque", "tags"),
+    [
+        ("libgazebo_ros_diff_drive.so", 5.0, {"leftJoint": "joint0", "rightJoint": "joint1"}),
+        (
+            "libdiffdrive_plugin_multi_wheel.so",
+            5.0,
+            {"leftJoints": "joint0 joint2", "rightJoints": "joint1 joint3"},
+        ),
+        (
+            "libdiffdrive_plugin_6w.so",
+            10.0,
+            {
+                f"{place}{side}Joint": f"joint{number}"
+                for place in ("front", "mid", "rear")
+                for number, side in enumerate(("Left", "Right"))
+            },
+        ),
+    ],
+)
+def test_motors_have_the_torque_of_the_original_unless_told_otherwise(filename, torque, tags):
+    for given in ({}, {"torque": "3", "wheelTorque": "3"}):
+        with simulate(base(plugin(filename, **tags, **given))) as sim:
+            engine = sim.engine
+            efforts = [engine.parameter("motor_effort", f"base::joint{i}")[0, 0] for i in (0, 1)]
+            assert efforts == [3.0 if given else torque] * 2
+
+
 def test_the_skid_drives_odometry_has_the_variances_of_its_file():
     tags = SKID.replace("<torque>", "<covariance_x>0.5</covariance_x><torque>")
     with simulate(base(tags)) as sim:

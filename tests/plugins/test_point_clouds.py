@@ -101,8 +101,23 @@ def test_a_sonar_that_sees_nothing_gives_its_reach():
         assert sim.robots["cube"].outputs["sonar"].last.distance[0] == 0.5
 
 
-@pytest.mark.parametrize("filename", [VELODYNES[0], "libhector_gazebo_ros_sonar.so"])
-def test_a_sensor_without_rays_is_refused(filename):
-    sensor = f'<sensor name="imu" type="imu">{plugin(filename)}</sensor>'
-    with pytest.raises(PluginWarning, match="no rays"):
-        simulate(block(sensor))
+@pytest.mark.parametrize(
+    ("filename", "on", "wanted"),
+    [
+        ("libgazebo_ros_laser.so", "imu", "ray or gpu_ray"),
+        (VELODYNES[0], "imu", "ray or gpu_ray"),
+        ("libgazebo_ros_block_laser.so", "contact", "ray or gpu_ray"),
+        ("libgazebo_ros_range.so", "imu", "ray or gpu_ray"),
+        ("libhector_gazebo_ros_sonar.so", "imu", "ray or gpu_ray"),
+        ("libgazebo_ros_imu_sensor.so", "contact", "imu"),
+        ("libgazebo_ros_bumper.so", "imu", "contact"),
+    ],
+)
+def test_a_plugin_of_another_kind_of_sensor_is_named(filename, on, wanted):
+    sensor = f'<sensor name="s" type="{on}">{plugin(filename)}</sensor>'
+    text = f"needs a sensor of type {wanted}; 'cube::core::s' is of type '{on}'"
+    with pytest.warns(PluginWarning, match=text):
+        sim = simulate(block(sensor), ground=False)
+    with sim:
+        sim.run(seconds=0.1)
+        assert not sim.robots["cube"].outputs

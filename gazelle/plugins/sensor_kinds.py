@@ -1,0 +1,34 @@
+"""What kind of sensor a plugin needs."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+from gazelle.description import Parameters
+from gazelle.errors import SimulationError
+from gazelle.sensors import ContactModel, ImuModel, LidarModel
+from gazelle.simulation import SensorUnit
+
+M = TypeVar("M")
+
+_WORDS: dict[type[Any], str] = {
+    LidarModel: "ray or gpu_ray",
+    ImuModel: "imu",
+    ContactModel: "contact",
+}
+
+
+def model_of(sensor: SensorUnit, kind: type[M], parameters: Parameters) -> M:
+    """How a sensor measures, if it is of a kind.
+
+    Raises:
+        SimulationError: It is of another kind.
+    """
+    model: Any = sensor.model
+    if isinstance(model, kind):
+        return model
+    raise SimulationError(
+        f"it needs a sensor of type {_WORDS[kind]}; '{sensor.name}' is of type "
+        f"'{sensor.description.type}'",
+        source=parameters.source,
+    )
