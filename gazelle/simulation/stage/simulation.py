@@ -22,14 +22,14 @@ from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.opening import stage_of
-from gazelle.simulation.stage.scans import Eyes, RangeNoise
+from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.senses import Senses
+from gazelle.simulation.stage.steering import Steering
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 Listener = Callable[[], None]
 
-_CAR = "car"
 _PIECE = 65_536
 """Moves of robots made without a look at what other threads want."""
 
@@ -96,19 +96,11 @@ class StageSimulation(Senses):
         self.clock = Clock(self.stage.interval_sim)
         self.requests = RequestQueue()
         self.paused = self.stage.paused
+        self._rangers = Rangers(self.fleet, layout, seed)
         self.fans, self.mounts = layout.fans, layout.mounts
-        self.noise = [
-            RangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
-            for each in layout.noises
-        ]
-        self._eyes: dict[int, Eyes] = {}
-        self._seen: dict[int, Floats] = {}
+        self.noise = self._rangers.noise
         self._odometry = Odometry(layout.robots, nworld, seed, euler=euler)
-        positions = [robot.position for robot in self.robots]
-        self._cars = np.array([p.drive == _CAR for p in positions], np.bool_)
-        self._wheelbase = np.array([p.wheelbase for p in positions])
-        bounds = [p.velocity_bounds for p in positions if p.drive == _CAR]
-        self._car_bounds = np.array(bounds).reshape(-1, 4, 2)[:, (0, 1, 3)].transpose(2, 0, 1)
+        self._steering = Steering(self.robots)
         self._now = self.poses
         self._before = self._now.copy()
         self._listeners: list[Listener] = []
@@ -164,15 +156,7 @@ class StageSimulation(Senses):
     @property
     def velocities(self) -> Floats:
         """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
-        driven = self.fleet.velocity[:, self._own]
-        if not self._cars.any():
-            return driven
-        velocity = driven.copy()
-        speed, angle = driven[:, self._cars, 0], driven[:, self._cars, 2]
-        velocity[:, self._cars, 0] = speed * np.cos(angle)
-        velocity[:, self._cars, 2] = speed * np.sin(angle) / self._wheelbase[self._cars]
-        velocity[:, self._cars] = np.clip(velocity[:, self._cars], *self._car_bounds)
-        return velocity
+        return self._steering.velocities(self.fleet.velocity[:, self._own])
 
     @property
     def true_velocities(self) -> Floats:
@@ -215,11 +199,7 @@ class StageSimulation(Senses):
         Raises:
             SimulationError: There is no such scanner.
         """
-        if not 0 <= scanner < len(self.fans):
-            raise SimulationError(f"there is no scanner {scanner}; there are {len(self.fans)}")
-        if scanner not in self._seen:
-            self._seen[scanner] = self._eye(scanner).scan()
-        return self._seen[scanner]
+        return self._rangers.scan(scanner)
 
     def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
         """What one sensor of a robot measures now [m], shape (samples,).
@@ -239,24 +219,11 @@ class StageSimulation(Senses):
 
     def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
-        self.scan(scanner)
-        return self._eye(scanner).returns(place, world)
-
-    def _eye(self, scanner: int) -> Eyes:
-        if scanner not in self._eyes:
-            self._eyes[scanner] = Eyes(
-                self.fleet,
-                self.fans[scanner],
-                self.mounts[scanner],
-                self.noise[scanner],
-                seed=self.seed,
-                name=f"ranger/{scanner}",
-            )
-        return self._eyes[scanner]
+        return self._rangers.returns(scanner, place, world)
 
     def _forget(self) -> None:
         """Something moved: what was seen is seen no longer."""
-        self._seen.clear()
+        self._rangers.forget()
         self.forget_views()
 
     # -- time --------------------------------------------------------------------------
@@ -390,8 +357,7 @@ class StageSimulation(Senses):
     def reset(self) -> None:
         """Start over: robots, time, and random numbers."""
         self.reset_positions()
-        for eye in self._eyes.values():
-            eye.rewind()
+        self._rangers.rewind()
         for controller in self._controllers:
             controller.reset()
         self.clock.now_ns = 0
