@@ -162,6 +162,22 @@ def test_a_mimic_follows_its_leader():
     assert follow == pytest.approx(0.1 - 2.0 * (lead - 0.05), abs=2e-3)
 
 
+@pytest.mark.parametrize(
+    ("leader", "axis", "message"),
+    [
+        ("leed", 0, "robot.sdf:5: .*mimics 'm::leed'.*did you mean 'm::lead'"),
+        ("follow", 0, "robot.sdf:5: .*mimics 'm::follow', which is no other joint"),
+        ("lead", 1, "robot.sdf:5: .*axis 1 of 'm::lead', which has 1"),
+    ],
+)
+def test_a_mimic_with_nothing_to_follow_is_an_error_with_its_place(leader, axis, message):
+    axes = (JointAxis(X, mimic=Mimic(leader, axis)),)
+    source = Source("robot.sdf", 5, "joint")
+    follow = Joint("follow", "revolute", "a", "c", axes=axes, source=source)
+    with pytest.raises(EngineError, match=message):
+        engine_of(joint("lead", "revolute", "a", "b", X), follow, links=("a", "b", "c"))
+
+
 def four_bar(closing):
     """A parallelogram in the xz plane: ground a, cranks b and d, coupler c."""
     links = (

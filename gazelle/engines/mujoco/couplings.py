@@ -7,15 +7,15 @@ hold two bodies together at points.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import mujoco
 import numpy as np
 
-from gazelle.description import Joint
+from gazelle.description import Joint, Mimic
 from gazelle.engines.mujoco.tree import Body, Closure, lost_in_loop
-from gazelle.errors import EngineError, EngineWarning
+from gazelle.errors import EngineError, EngineWarning, did_you_mean
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
 _STEPS, _DAMPING_RATIO = 3.0, 1.0
@@ -28,8 +28,10 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float)
     """Tie together what the joints of a model tie: screws and mimics.
 
     Raises:
-        EngineError: A screw has no thread.
+        EngineError: A screw has no thread, or a mimic nothing to follow.
     """
+    bodies = list(bodies)
+    axes = {body.joint_name: len(body.joint.axes) for body in bodies if body.joint is not None}
     for body in bodies:
         joint = body.joint
         if joint is None:
@@ -47,10 +49,27 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float)
         for index, axis in enumerate(joint.axes):
             if axis.mimic is not None:
                 mimic = axis.mimic
+                _require_leader(body.joint_name, joint, mimic, axes)
                 follower = _coordinate(body.joint_name, index)
                 leader = _coordinate(mimic.joint, mimic.axis)
                 start = mimic.offset - mimic.multiplier * mimic.reference
                 _tie(spec, follower, leader, (start, mimic.multiplier), time_step)
+
+
+def _require_leader(name: str, joint: Joint, mimic: Mimic, axes: Mapping[str, int]) -> None:
+    others = {other: count for other, count in axes.items() if other != name and count > 0}
+    if mimic.joint not in others:
+        raise EngineError(
+            f"joint '{name}' mimics '{mimic.joint}', which is no other joint that moves a link",
+            source=joint.source,
+            hint=did_you_mean(mimic.joint, others),
+        )
+    if not 0 <= mimic.axis < others[mimic.joint]:
+        raise EngineError(
+            f"joint '{name}' mimics axis {mimic.axis} of '{mimic.joint}', which has "
+            f"{others[mimic.joint]}",
+            source=joint.source,
+        )
 
 
 def add_closure(
