@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.bridges import message_kinds
 from gazelle.errors import RosError
 from gazelle.ros.messages import load_message
 from gazelle.ros.tf.naming import resolve_frame
@@ -280,11 +281,14 @@ add_service(None, None, ServiceCodec("std_srvs/Empty", lambda _request: None, la
 
 
 def encoder_of(kind: type[Any]) -> Encoder:
-    """How values of a kind become messages.
+    """How values of a kind become messages; those of message classes are messages already.
 
     Raises:
         RosError: Nobody said; see ``add_encoder``.
     """
+    message = message_kinds.name_of(kind)
+    if message is not None:
+        return Encoder(message, message_kinds.fill)
     found: Encoder = _found(_ENCODERS, kind, "published")
     return found
 
@@ -295,6 +299,9 @@ def decoder_of(kind: type[Any]) -> Decoder:
     Raises:
         RosError: Nobody said; see ``add_decoder``.
     """
+    message = message_kinds.name_of(kind)
+    if message is not None:
+        return Decoder(message, message_kinds.same)
     found: Decoder = _found(_DECODERS, kind, "subscribed to")
     return found
 
@@ -305,6 +312,9 @@ def service_of(request: type[Any] | None, response: type[Any] | None) -> Service
     Raises:
         RosError: Nobody said; see ``add_service``.
     """
+    service = message_kinds.service_name_of(request, response)
+    if service is not None:
+        return ServiceCodec(service, message_kinds.same, message_kinds.slots_of)
     found: ServiceCodec = _found(_SERVICES, (request, response), "called")
     return found
 
@@ -314,4 +324,7 @@ def _found(table: Mapping[Any, Any], kind: Any, done: str) -> Any:
         return table[kind]
     except KeyError:
         name = getattr(kind, "__name__", str(kind))
-        raise RosError(f"a port of kind '{name}' cannot be {done} over ROS") from None
+        raise RosError(
+            f"a port of kind '{name}' cannot be {done} over ROS",
+            hint="take a class of gazelle.ros.load_message, or see gazelle.bridges.conversions",
+        ) from None

@@ -17,7 +17,7 @@ class ForceTorqueSensor(Noisy, Publishing):
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the joint, open the port."""
-        joint = parameters.require("jointName", str)
+        joint = parameters.require("jointName", str).removeprefix(f"{robot.name}::")
         topic = parameters.require("topicName", str)
         child = robot.joint_description(joint).child
         simulation = robot.simulation

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -101,10 +102,21 @@ def _controllers(robot: Robot, tags: Parameters) -> list[_Controller]:
     target, nworld = tags.get("target", 0.0), robot.simulation.nworld
     return [
         _Controller(
-            robot.joints[name.text.rpartition("::")[2]],
+            joint,
             kind,
             target,
             None if kind == "force" else Pid(Gains(p, i, d), nworld),
         )
         for name in tags.find_all("joint")
+        for joint in _joints(robot, name)
     ]
+
+
+def _joints(robot: Robot, tag: Parameters) -> list[JointHandle]:
+    """The joint of a name, or those whose whole names a regular expression fits."""
+    name = tag.text
+    try:
+        matching = [joint for known, joint in robot.joints.items() if re.fullmatch(name, known)]
+    except re.error:
+        matching = []
+    return [robot.joints[name]] if name in robot.joints or not matching else matching

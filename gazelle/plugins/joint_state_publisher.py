@@ -15,7 +15,9 @@ class JointStatePublisher(Publishing):
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the joints, open the port."""
         given = parameters.require("jointName", str)
-        self._names = tuple(name.strip() for name in given.split(",") if name.strip())
+        own = f"{robot.name}::"
+        names = (name.strip().removeprefix(own) for name in given.split(","))
+        self._names = tuple(name for name in names if name)
         self._joints = [robot.joints[name] for name in self._names]
         self._clock = robot.simulation.clock
         self.update_rate = parameters.get("updateRate", 100.0)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import warnings
 
 from gazelle.description import Parameters
-from gazelle.errors import SimulationWarning
+from gazelle.errors import SimulationWarning, describe
 from gazelle.simulation import Simulation, WorldPlugin
 
 _WAVERING = ("horizontal", "vertical")
@@ -24,12 +24,11 @@ class Wind(WorldPlugin):
         for tag in _WAVERING:
             node = parameters.find(tag)
             if node is not None:
-                place = f"{node.source}: " if node.source is not None else ""
-                warnings.warn(
-                    SimulationWarning(
-                        f"{place}the wind blows steadily; <{tag}> of WindPlugin (rise times, "
-                        "gusts, noise) is left out"
-                    ),
-                    stacklevel=2,
+                text = (
+                    f"the wind blows steadily; <{tag}> of WindPlugin (rise times, gusts, noise) "
+                    "is left out"
                 )
+                if node.source is not None:
+                    text = describe(text, file=node.source.file, line=node.source.line)
+                warnings.warn(SimulationWarning(text), stacklevel=2)
                 return

@@ -27,15 +27,22 @@ T = TypeVar("T")
 
 
 class Named(Mapping[str, T]):
-    """A mapping whose misses say what there is."""
+    """A mapping whose misses say what there is.
 
-    def __init__(self, kind: str, items: dict[str, T]) -> None:
+    Args:
+        kind: What the items are.
+        items: By name.
+        scope: May stand before the names, with ``::`` between them, as in Gazebo.
+    """
+
+    def __init__(self, kind: str, items: dict[str, T], scope: str = "") -> None:
         self._kind = kind
         self._items = items
+        self._scope = f"{scope}::" if scope else ""
 
     def __getitem__(self, name: str) -> T:
         try:
-            return self._items[name]
+            return self._items[self._own(name)]
         except KeyError:
             raise SimulationError(
                 f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
@@ -43,10 +50,13 @@ class Named(Mapping[str, T]):
 
     def get(self, name: str, default: Any = None) -> Any:
         """The item of a name; the default if there is none."""
-        return self._items.get(name, default)
+        return self._items.get(self._own(name), default)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._items
+        return isinstance(name, str) and self._own(name) in self._items
+
+    def _own(self, name: str) -> str:
+        return name if name in self._items else name.removeprefix(self._scope)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._items)
@@ -62,7 +72,7 @@ class Robot(Ports):
         name: Its name in the world.
         namespace: Put before its topics.
         description: What it was made from.
-        links: By name within the robot (``arm::hand`` for a nested model's).
+        links: By name within the robot (``arm::hand`` for a nested model's), its own before it or not.
         joints: Those that move, by name within the robot.
         sensors: By name.
     """
@@ -75,11 +85,13 @@ class Robot(Ports):
         self.description = model
         self._links = _link_handles(simulation, model)
         own = f"in '{self.name}'"
-        self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links)
+        self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)
         self.joints: Mapping[str, JointHandle] = Named(
-            f"moving joint {own}", _joint_handles(simulation, model)
+            f"moving joint {own}", _joint_handles(simulation, model), self.name
         )
-        self.sensors: Mapping[str, SensorUnit] = Named(f"sensor {own}", _sensor_units(self, model))
+        self.sensors: Mapping[str, SensorUnit] = Named(
+            f"sensor {own}", _sensor_units(self, model), self.name
+        )
 
     @property
     def pose(self) -> Pose:
@@ -220,7 +232,7 @@ class Robot(Ports):
             for placed in self.description.walk()
             for joint in placed.model.joints
         }
-        return Named(f"joint in '{self.name}'", found)[name]
+        return Named(f"joint in '{self.name}'", found, self.name)[name]
 
     def frame(self, name: str) -> tuple[LinkHandle, Pose]:
         """The link that a frame moves with, and the frame's pose in it.
@@ -230,8 +242,9 @@ class Robot(Ports):
         Raises:
             SimulationError: There is no link or frame of that name.
         """
-        if name in self._links:
-            return self._links[name], Pose()
+        if name in self.links:
+            return self.links[name], Pose()
+        name = name.removeprefix(f"{self.name}::")
         for placed in self.description.walk():
             for frame in placed.model.frames:
                 if frame.name == name and frame.attached_to in self._links:

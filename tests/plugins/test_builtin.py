@@ -79,6 +79,18 @@ def test_joints_are_held_at_positions_and_velocities_and_turned_by_forces():
         assert sim.robots["arm"].joints["elbow"].velocity == pytest.approx(1.0, rel=0.01)
 
 
+def test_a_controllers_joints_may_be_given_by_an_expression_or_with_their_model():
+    for name in ("el.*w", "arm::elbow", "(.*)"):
+        tags = plugin("libJointControlPlugin.so").replace(
+            "</plugin>",
+            f"""<controller type="position"><joint>{name}</joint><target>0.7</target>
+            <pid_gains>50 0 10</pid_gains></controller></plugin>""",
+        )
+        with simulate(ARM.format(plugin=tags), ground=False) as sim:
+            sim.run(seconds=3.0)
+            assert sim.robots["arm"].joints["elbow"].position == pytest.approx(0.7, abs=0.01)
+
+
 def test_an_unknown_controller_is_refused():
     with pytest.raises(PluginWarning, match="positoin"):
         controlled("positoin", 0.0)

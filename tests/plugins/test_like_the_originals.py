@@ -111,6 +111,24 @@ def test_forces_on_a_body_come_at_every_step_whatever_the_tag_says():
         assert count(sim, sim.robots["cube"].outputs["t"], 0.1) == pytest.approx(100, abs=1)
 
 
+@pytest.mark.parametrize(
+    ("filename", "tags", "output"),
+    [
+        ("libgazebo_ros_p3d.so", {"bodyName": "arm::tip", "topicName": "t"}, "t"),
+        ("libgazebo_ros_imu.so", {"bodyName": "arm::tip"}, "imu"),
+        ("libgazebo_ros_f3d.so", {"bodyName": "arm::tip", "topicName": "t"}, "t"),
+        ("libgazebo_ros_ft_sensor.so", {"jointName": "arm::elbow", "topicName": "t"}, "t"),
+        ("libgazebo_ros_joint_state_publisher.so", {"jointName": "arm::elbow"}, "joint_states"),
+    ],
+)
+def test_names_may_have_their_models_before_them(filename, tags, output):
+    arm = ARM.format(gravity=0, kind="revolute", plugin=plugin(filename, **tags))
+    with simulate(arm, ground=False) as sim:
+        port = sim.robots["arm"].outputs[output]
+        assert port.frame in ("", "tip", "arm::tip", "world")
+        assert getattr(port.last, "names", ("elbow",)) == ("elbow",)
+
+
 def test_an_empty_namespace_keeps_away_the_one_of_the_spawn():
     given = plugin(
         "libgazebo_ros_ft_sensor.so", jointName="elbow", topicName="a", robotNamespace=""

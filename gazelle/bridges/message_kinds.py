@@ -1,0 +1,41 @@
+"""Ports whose kind is a ROS message itself, for plugins that speak ROS: it goes over as it is.
+
+An output gives one message for all worlds, or a sequence of one a world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+
+def name_of(kind: Any) -> str | None:
+    """The ROS type of a message class, such as ``std_msgs/String``; None for other kinds."""
+    name = getattr(kind, "_type", None)
+    return name if isinstance(name, str) and hasattr(kind, "_md5sum") else None
+
+
+def service_name_of(request: Any, response: Any) -> str | None:
+    """The ROS type of a service's two classes; None for other kinds."""
+    asked, answered = name_of(request), name_of(response)
+    if asked is None or answered is None:
+        return None
+    name = asked.removesuffix("Request")
+    return name if answered.removesuffix("Response") == name else None
+
+
+def fill(message: Any, value: Any, view: Any) -> None:
+    """Copy a message, or that of the graph's world."""
+    given = value[view.world] if isinstance(value, Sequence) else value
+    for slot, content in slots_of(given).items():
+        setattr(message, slot, content)
+
+
+def slots_of(message: Any) -> dict[str, Any]:
+    """The fields of a message by name."""
+    return {slot: getattr(message, slot) for slot in message.__slots__}
+
+
+def same(message: Any) -> Any:
+    """The message."""
+    return message
