@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from gazelle.description import Inertial, Pose
-from gazelle.formats.urdf.lump import tensor
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 
@@ -147,7 +146,7 @@ def _link(link, name, outer, lines):
     if math.dist(own.pose.position, theirs.position) > 1e-9:
         yield f"link {name}: centre {own.pose.position} is not {theirs.position}"
     other = _turned(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), theirs)
-    mine = _turned(tensor(own.inertia), own.pose)
+    mine = _turned(own.inertia.matrix(), own.pose)
     if not np.allclose(mine, other, rtol=1e-9, atol=1e-9 * abs(other).max()):
         yield f"link {name}: inertia {mine.tolist()} is not {other.tolist()}"
 
