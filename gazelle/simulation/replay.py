@@ -9,11 +9,14 @@ from types import TracebackType
 from typing import Any, Self
 
 from gazelle.description import Link, Model, World
-from gazelle.engines import DivergenceError
+from gazelle.engines import CHANGES, DivergenceError
 from gazelle.errors import SimulationError
 from gazelle.simulation.encoding import decode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
+
+# What values of a wrong kind or shape raise, wherever they are used.
+_DAMAGE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 
 
 class Replay:
@@ -31,35 +34,28 @@ class Replay:
         simulation: What runs.
 
     Raises:
-        SimulationError: The file is no recording, or one of a later version.
+        SimulationError: The file is no recording, a damaged one, or one of a later version.
     """
 
     def __init__(self, path: str | Path, *, threads: int | None = None) -> None:
         self.path = Path(path)
         lines = _read(self.path)
         first = lines[0]
-        if first.get("format") != FORMAT:
+        version = first.get("version")
+        if first.get("format") != FORMAT or not isinstance(version, int):
             raise SimulationError("this is no recording of a run", file=str(path))
-        if first["version"] > VERSION:
+        if version > VERSION:
             raise SimulationError(
-                f"this recording has version {first['version']}, known are up to {VERSION}",
+                f"this recording has version {version}, known are up to {VERSION}",
                 file=str(path),
                 hint="read it with the Gazelle that wrote it",
             )
         self._events = lines[1:]
         self._next = 0
-        state = decode(first["state"])
-        self.simulation = Simulation(
-            _without_plugins(decode(first["world"])),
-            first["engine"],
-            nworld=len(state),
-            seed=first["seed"],
-            threads=threads,
-        )
-        engine = self.simulation.engine
-        engine.adopt(decode(first["history"]))
-        engine.restore(state)
-        self.simulation.clock.now_ns = first["time"]
+        try:
+            self.simulation = _begin(first, threads)
+        except _DAMAGE as error:
+            raise self._damaged(error) from error
 
     @property
     def done(self) -> bool:
@@ -70,20 +66,24 @@ class Replay:
         """Go on to the end of the next recorded run of steps; False when there is none.
 
         Raises:
-            SimulationError: The state is not the recorded one.
+            SimulationError: The state is not the recorded one, or the recording is damaged.
             DivergenceError: A world broke down, and the recorded run did not go on from there.
         """
         while not self.done:
             event = self._events[self._next]
             self._next += 1
             try:
-                self._do(event)
+                name, time_ns = str(event["call"]), int(event["time"])
+                try:
+                    self._do(event)
+                finally:
+                    self.simulation.clock.now_ns = time_ns
             except DivergenceError as error:
                 if event.get("diverged") != [int(world) for world in error.worlds]:
                     raise
-            finally:
-                self.simulation.clock.now_ns = event["time"]
-            if event["call"] == "step":
+            except _DAMAGE as error:
+                raise self._damaged(error) from error
+            if name == "step":
                 self._check(event)
                 return True
         return False
@@ -102,6 +102,8 @@ class Replay:
             simulation.spawn(_bare(arguments[0]))
         elif name == "delete":
             simulation.delete(arguments[0])
+        elif name not in CHANGES:
+            raise ValueError(f"there is no change '{name}'")
         else:
             options = decode(event["options"]) if "options" in event else {}
             getattr(engine, name)(*arguments, **options)
@@ -117,6 +119,10 @@ class Replay:
                 hint="the same version of MuJoCo and the same mesh files give the same bits",
             )
 
+    def _damaged(self, error: Exception) -> SimulationError:
+        text = f"the recording is damaged: {type(error).__name__}: {str(error).splitlines()[0]}"
+        return SimulationError(text, file=str(self.path), line=self._next + 1)
+
     def close(self) -> None:
         """Free the engine."""
         self.simulation.close()
@@ -131,6 +137,22 @@ class Replay:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def _begin(first: dict[str, Any], threads: int | None) -> Simulation:
+    """The simulation that a recording starts from, by its first line."""
+    state = decode(first["state"])
+    simulation = Simulation(
+        _without_plugins(decode(first["world"])),
+        first["engine"],
+        nworld=len(state),
+        seed=first["seed"],
+        threads=threads,
+    )
+    simulation.engine.adopt(decode(first["history"]))
+    simulation.engine.restore(state)
+    simulation.clock.now_ns = int(first["time"])
+    return simulation
 
 
 def _read(path: Path) -> list[dict[str, Any]]:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gazelle.description import Mesh, Pose
 from gazelle.engines import Call, DivergenceError
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import Error, SimulationError, SimulationWarning
 from gazelle.simulation import Replay, Simulation
 from gazelle.simulation.encoding import decode, encode
 
@@ -97,6 +97,35 @@ def test_what_is_no_recording_is_refused(tmp_path, text, message):
     path.write_text(text)
     with pytest.raises(SimulationError, match=message):
         Replay(path)
+
+
+@pytest.mark.parametrize(
+    ("line", "key", "value"),
+    [
+        (0, "state", {"#": "array", "type": "<f8", "shape": [1]}),
+        (0, "engine", 5),
+        (0, "time", None),
+        (0, "history", [5]),
+        (-1, "call", "close"),
+        (-1, "call", "_run"),
+        (-1, "call", None),
+        (-1, "arguments", 7),
+        (-1, "arguments", ["many"]),
+        (-1, "time", "late"),
+    ],
+)
+def test_a_damaged_recording_is_named_with_its_line(balls, tmp_path, line, key, value):
+    path = tmp_path / "run.jsonl"
+    with Simulation(balls) as sim, sim.record(path):
+        sim.step(3)
+    lines = path.read_text().splitlines()
+    lines[line] = json.dumps({**json.loads(lines[line]), key: value})
+    path.write_text("\n".join(lines) + "\n")
+    number = 1 if line == 0 else len(lines)
+    message = rf"run\.jsonl:{number}: |no engine '5'"
+    with pytest.raises(Error, match=message) as caught, Replay(path) as replay:
+        replay.run()
+    assert "\n" not in str(caught.value)
 
 
 def test_a_recorder_lets_go_of_the_engine(tmp_path):
