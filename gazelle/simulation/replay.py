@@ -157,10 +157,15 @@ def _begin(first: dict[str, Any], threads: int | None) -> Simulation:
 
 def _read(path: Path) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
-    for text in path.read_text(encoding="utf-8", errors="replace").splitlines():
+    texts = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    for number, text in enumerate(texts, 1):
         try:
             line = json.loads(text)
         except ValueError:
+            if lines and number < len(texts):
+                raise SimulationError(
+                    "the recording is damaged: this line is no JSON", file=str(path), line=number
+                ) from None
             break  # cut off
         lines.append(line if isinstance(line, dict) else {})
     if not lines:

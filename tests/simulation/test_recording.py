@@ -128,6 +128,18 @@ def test_a_damaged_recording_is_named_with_its_line(balls, tmp_path, line, key, 
     assert "\n" not in str(caught.value)
 
 
+def test_a_broken_line_in_the_middle_is_no_cut_off_end(balls, tmp_path):
+    path = tmp_path / "run.jsonl"
+    with Simulation(balls) as sim, sim.record(path):
+        for _ in range(3):
+            sim.step()
+    lines = path.read_text().splitlines()
+    lines[2] = lines[2][:20]
+    path.write_text("\n".join(lines) + "\n")
+    with pytest.raises(SimulationError, match=r"run\.jsonl:3: .*damaged"):
+        Replay(path)
+
+
 def test_a_recorder_lets_go_of_the_engine(tmp_path):
     with Simulation(world()) as sim:
         recorder = sim.record(tmp_path / "run.jsonl")
