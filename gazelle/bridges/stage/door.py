@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from gazelle.bridges.stage.naming import Naming
+from gazelle.bridges.stage.parameters import read_parameters
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
@@ -55,39 +56,41 @@ class StageDoor:
         self._simulation, self._node, self._world = simulation, node, world
         self._stop = threading.Event()
         node.set_param("/use_sim_time", True)
+        asked = read_parameters(node)
+        self._monotonic, self._offset_ns = asked.monotonic_clock, 0
         self.naming = Naming(
             [robot.name for robot in simulation.robots],
             model_names=model_names,
-            slashed_frames=bool(node.get_param("~slashed_frames", False)),
+            slashed_frames=asked.slashed_frames,
         )
-        self._schedule = Schedule(float(node.get_param("~publish_rate", 0.0)))
-        timeout = float(node.get_param("~base_watchdog_timeout", 0.2))
-        self._watchdog = Watchdog(simulation, timeout, world)
+        self._schedule = Schedule(asked.publish_rate)
+        self._watchdog = Watchdog(simulation, asked.base_watchdog_timeout, world)
         self._clock = node.advertise(
             "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
         )
         self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
         messages = Messages()
-        metres = bool(node.get_param("~is_depth_canonical", True))
         robots = [
             GraphRobot(simulation, robot, node, self.naming, world) for robot in simulation.robots
         ]
+        metres = asked.is_depth_canonical
         self._topics = [RobotTopics(robot, messages, metres=metres) for robot in robots]
-        flat = str(node.get_param("~cmd_pose_type", "Pose")).rpartition("/")[2] == "Pose2D"
         self._inputs = [
-            RobotInputs(robot, flat_poses=flat, told=self._watchdog.told) for robot in robots
+            RobotInputs(
+                robot, flat_poses=asked.flat_poses, told=self._watchdog.told, placed=self._show
+            )
+            for robot in robots
         ]
         self._services = Services(simulation, node, self, world)
-        kind = str(node.get_param("~pose_service", ""))
-        self._poses = PoseServices(simulation, node, self.naming, world, kind)
+        self._poses = PoseServices(simulation, node, self.naming, world, asked.pose_service)
         self._unsubscribe = simulation.subscribe(self._after_step)
         node.on_shutdown.append(lambda _reason: self.stop())
 
     # -- publishing ------------------------------------------------------------------------
 
     def now(self) -> Time:
-        """The simulated time."""
-        return Time(nsecs=self._simulation.clock.now_ns)
+        """The simulated time as the graph sees it."""
+        return Time(nsecs=self._simulation.clock.now_ns + self._offset_ns)
 
     def publish(self) -> None:
         """Publish what is true now, and the time, to all who listen."""
@@ -112,17 +115,25 @@ class StageDoor:
 
     def _tick(self) -> None:
         """Tell the time; zero means to ROS that there is none."""
-        if self._clock.has_listener and self._simulation.clock.now_ns > 0:
+        if self._clock.has_listener and (now := self.now()).to_nsec() > 0:
             message: Any = self._clock.message_class()
-            message.clock = self.now()
+            message.clock = now
             self._clock.publish(message)
 
     def _greet(self, _peer: str) -> None:
         """Tell who comes the time, also while the world is paused."""
         self._simulation.requests.post(self._tick)
 
-    def rewound(self) -> None:
-        """Time began again."""
+    def _show(self) -> None:
+        """Something was moved: with no step to come, that is seen now."""
+        if self._simulation.paused:
+            self.publish()
+
+    def rewind(self) -> None:
+        """Start over; the graph's time goes back to zero unless ``~monotonic_clock``."""
+        if self._monotonic:
+            self._offset_ns += self._simulation.clock.now_ns
+        self._simulation.reset()
         self._watchdog.forget()
         self._schedule.restart()
 

@@ -217,11 +217,19 @@ class RobotInputs:
         at: The robot on the graph.
         flat_poses: Whether ``cmd_pose`` carries ``geometry_msgs/Pose2D``.
         told: Called with the robot's index at each velocity command.
+        placed: Called when it was put somewhere.
     """
 
-    def __init__(self, at: GraphRobot, *, flat_poses: bool, told: Callable[[int], None]) -> None:
+    def __init__(
+        self,
+        at: GraphRobot,
+        *,
+        flat_poses: bool,
+        told: Callable[[int], None],
+        placed: Callable[[], None],
+    ) -> None:
         self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
-        self._told = told
+        self._told, self._placed = told, placed
         flat = "geometry_msgs/Pose2D" if flat_poses else "geometry_msgs/Pose"
         self._subscribers = [
             at.subscribe(name, load_message(kind), self._between(act))
@@ -258,6 +266,7 @@ class RobotInputs:
         if all(map(math.isfinite, (x, y, yaw))):
             worlds = np.array([self._world])
             self._simulation.set_pose_of(self._robot.index, (x, y, yaw), worlds)
+            self._placed()
 
     def close(self) -> None:
         """Listen no longer."""

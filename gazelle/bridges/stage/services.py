@@ -30,8 +30,8 @@ class Door(Protocol):
     def publish(self) -> None:
         """Publish what is true now."""
 
-    def rewound(self) -> None:
-        """Time began again."""
+    def rewind(self) -> None:
+        """Start over, time too."""
 
 
 class Services:
@@ -73,8 +73,7 @@ class Services:
 
     def reset(self, _request: Any) -> Answer:
         """Everything from the start, time too."""
-        self._simulation.reset()
-        self._door.rewound()
+        self._door.rewind()
         self._door.publish()
         return {}
 
@@ -115,11 +114,14 @@ class Services:
         return {"success": True, "status_message": "SetPose: done"}
 
     def _find(self, name: str) -> int:
-        _, _, number = name.strip("/").partition("robot_")
-        known = name in self._simulation.named
-        if not known and number.isdigit() and int(number) < len(self._simulation.robots):
-            return int(number)
-        return self._simulation.robot(name).index
+        known, plain = self._simulation.named, name.strip("/")
+        count, number = len(self._simulation.robots), plain.removeprefix("robot_")
+        if name in known or not (number != plain and number.isdecimal()):
+            return self._simulation.robot(name).index
+        if int(number) >= count:
+            hint = f"there are robot_0 to robot_{count - 1}" if count else "there are no robots"
+            raise SimulationError(f"there is no robot '{name}'", hint=hint)
+        return int(number)
 
     def set_rate(self, request: Any) -> Answer:
         """Simulated seconds a wall second to keep to: a number, or ``max``."""

@@ -26,6 +26,16 @@ def test_cmd_pose(stage):
     assert at(world) == pytest.approx([3.0, 4.0, 0.5])
 
 
+def test_cmd_pose_is_seen_while_the_world_is_paused(stage):
+    world = stage(ROBOT)
+    truth = world.listen("/base_pose_ground_truth", "nav_msgs/Odometry")
+    scan = world.listen("/base_scan", "sensor_msgs/LaserScan")
+    world.call("/gazelle/pause", EMPTY)
+    world.send("/cmd_pose", "geometry_msgs/Pose", position__x=4.0, orientation__w=1.0)
+    world.until(lambda: truth and scan)
+    assert truth[-1].pose.pose.position.x == 4.0
+
+
 def test_cmd_pose_with_no_orientation_has_no_heading(stage):
     world = stage(ROBOT)
     world.send("/cmd_pose", POSE, position__x=3.0)
@@ -64,6 +74,8 @@ def test_a_pose_can_be_set_by_service(stage):
     answer = world.call("/gazelle/set_pose", kind, name="c", pose=pose)
     assert not answer.success
     assert "there is no robot 'c'" in answer.status_message
+    answer = world.call("/gazelle/set_pose", kind, name="robot_2", pose=pose)
+    assert "there are robot_0 to robot_1" in answer.status_message
     answer = world.call("/gazelle/set_pose", kind, name="a", pose=_pose(math.nan, 0.0))
     assert "not finite" in answer.status_message
 
