@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import _stage_worlds as worlds
+import numpy as np
+from _stage_goals import Goals, shown
 from _stage_itself import Spent, Stage
 
 from gazelle.engines.planar import Fleet, Scanner
@@ -30,6 +32,7 @@ SIZES = (
     (10_000, 128.0, 2, 0.5),
 )
 SENSORS = (("none", ""), *worlds.SENSORS)
+INTERVAL_S = 0.1
 FIRST_S = 0.2  # what a run simulates that only shows how long loading takes
 CHEAP = 100  # robots up to which Stage runs twice, and the better counts
 OURS_S = 0.3  # of processor time a window, at least
@@ -44,13 +47,17 @@ class Run:
     loaded: Spent
 
 
-def rival(stage: Stage, largest: int, threads: int) -> None:
+def rival(stage: Stage, largest: int, threads: int, goals: Goals) -> None:
     """Print how all do, on files that differ in nothing but ``quit_time``."""
-    print(f"\nthe same files in turns, beside {stage.program}; times real time, a processor second")
+    print(f"\nthe same files in turns, beside {stage.program}")
+    print("real-time factors of a processor second: Stage, StageSimulation with the same")
+    print("controllers, and a Fleet that roams by itself")
     print(
-        f"{'robots':>8}  {'sensor':<9}{'Stage':>9}{'load s':>8}{'MB':>8}  "
-        f"{'StageSimulation':>16}{'load s':>8}{'times':>7}{'Fleet':>12}{'times':>7}"
+        f"{'robots':>7}  {'sensor':<7}{'Stage':>8}{'load s':>7}{'MB':>7}"
+        f"{'StageSim':>10}{'load s':>7}{'times':>7}{'Fleet':>10}{'times':>7}"
     )
+    alone: list[float] = []
+    own: list[float] = []
     with tempfile.TemporaryDirectory() as home:
         for count, side, blind, seeing in SIZES:
             for name, sensor in SENSORS if count <= largest else ():
@@ -60,13 +67,54 @@ def rival(stage: Stage, largest: int, threads: int) -> None:
                 theirs = of_stage(stage, file, seeing if sensor else blind, count)
                 ours, loaded = of_simulation(file, threads)
                 fleet = of_fleet(file, threads)
+                goals.stage[count, name] = theirs.factor * count / INTERVAL_S
+                alone.append(fleet / theirs.factor)
+                own.append(ours / theirs.factor)
                 print(
-                    f"{count:>8,}  {name:<9}{worlds.shown(theirs.factor):>9}"
-                    f"{theirs.loaded.seconds:>8.2f}{theirs.loaded.megabytes:>8,.0f}  "
-                    f"{worlds.shown(ours):>16}{loaded:>8.2f}{ours / theirs.factor:>7.1f}"
-                    f"{worlds.shown(fleet):>12}{fleet / theirs.factor:>7.1f}",
+                    f"{count:>7,}  {name:<7}{shown(theirs.factor):>8}"
+                    f"{theirs.loaded.seconds:>7.2f}{theirs.loaded.megabytes:>7,.0f}"
+                    f"{shown(ours):>10}{loaded:>7.2f}{own[-1]:>7.1f}"
+                    f"{shown(fleet):>10}{alone[-1]:>7.1f}",
                     flush=True,
                 )
+    goals.least("times Stage on its files, Fleet: the least", min(alone), 10.0)
+    goals.least("times Stage on its files, StageSimulation", min(own), 10.0)
+    if stage.plugins is not None:
+        theirs_off, ours_off = box_errors(stage)
+        print(f"rays in a 10 m box: Stage {theirs_off:.3g} mm off, Gazelle {ours_off:.1g} mm")
+        goals.most("mean error in a 10 m box [mm]", ours_off, 4.0)
+
+
+def box_errors(stage: Stage) -> tuple[float, float]:
+    """Mean error of 20 scans of 361 rays in a 10 m box of both [mm]."""
+    rng = np.random.default_rng(1)
+    poses = rng.uniform((-4.9, -4.9, -180.0), (4.9, 4.9, 180.0), (20, 3))
+    sensor = "ranger ( sensor ( range [0 20] fov 360 samples 361 ) )"
+    lines = ["interval_sim 100 resolution 0.02 quit_time 1 model ( size [10 10 1] )"]
+    for i, (x, y, yaw) in enumerate(poses.tolist()):
+        lines.append(
+            f'position ( name "r{i}" size [.1 .1 .1] ranger_return -1 obstacle_return 0'
+            f' pose [{x:.6f} {y:.6f} 0 {yaw:.6f}] {sensor} ctrl "stage_probe drive 0 0 0" )'
+        )
+    with tempfile.TemporaryDirectory() as home:
+        file, log = Path(home) / "box.world", Path(home) / "log"
+        file.write_text("\n".join(lines), encoding="utf-8")
+        stage.run(file, log)
+        said = [line.split() for line in log.read_text(encoding="utf-8").splitlines()]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            sim = StageSimulation(file, threads=1)
+    theirs = {name: rest[1:] for kind, name, *rest in said if kind == "ranges"}
+    errors: list[list[float]] = []
+    for i, (x, y, yaw) in enumerate(np.round(poses, 6)):
+        angles = np.radians(yaw + np.linspace(-180.0, 180.0, 361))
+        across = (np.where(np.cos(angles) > 0, 5.0, -5.0) - x) / np.cos(angles)
+        along = (np.where(np.sin(angles) > 0, 5.0, -5.0) - y) / np.sin(angles)
+        true = np.minimum(across, along)
+        found = (np.array(theirs[f"r{i}"], float), sim.scan_of(f"r{i}"))
+        errors.append([1000.0 * float(np.abs(each - true).mean()) for each in found])
+    first, second = np.mean(errors, axis=0).tolist()
+    return first, second
 
 
 def write(home: Path, count: int, side: float, sensor: str) -> Path:

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from _stage_goals import Goals, shown
 from PIL import Image
 
 from gazelle import assets, formats
@@ -23,6 +24,7 @@ from gazelle.simulation.stage import StageSimulation
 
 HERE = Path(__file__).resolve().parent
 FLEET = 72
+MANY = 10_000
 WINDOW_S = 0.5  # of processor time
 
 # Where a world is in the corpus or in a folder of Stage's own, what Stage's robots looked through
@@ -63,15 +65,15 @@ class Case:
     stage: float
 
 
-def worlds(threads: int, folder: Path | None) -> None:
+def worlds(threads: int, folder: Path | None, goals: Goals) -> None:
     """Print how much faster than real time, and than Stage, Stage files run."""
     print(
-        f"\n{'Stage file':<22}{'robots':>7}{'beams':>7}{'load s':>8}{'bytes each':>12}"
-        f"{'real time':>11}{'Stage 4.3':>11}{'times':>7}"
+        f"\n{'Stage file':<20}{'robots':>7}{'beams':>6}{'load s':>7}{'bytes each':>11}"
+        f"{'real time':>11}{'Stage 4.3':>10}{'times':>7}"
     )
     with tempfile.TemporaryDirectory() as home:
         for case in cases(Path(home), folder):
-            measure(case, threads)
+            measure(case, threads, goals)
 
 
 def cases(home: Path, folder: Path | None) -> Iterator[Case]:
@@ -115,7 +117,7 @@ def write_office(home: Path, count: int, side: float, sensor: str) -> Path:
     return file
 
 
-def measure(case: Case, threads: int) -> None:
+def measure(case: Case, threads: int, goals: Goals) -> None:
     """Print a line."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -128,17 +130,15 @@ def measure(case: Case, threads: int) -> None:
         seen = [k for k, (_, count) in enumerate(sizes) if case.beams in (None, count)]
         beams = sum(math.prod(sizes[k]) for k in seen)
         factor = sim.time_step / seconds_a_step(sim, seen)
-        size = f"{each:>12,.0f}" if each else f"{'':>12}"
+        size = f"{each:>11,.0f}" if each else f"{'':>11}"
+        if len(sim.robots) == MANY and not beams:
+            goals.most(f"bytes a robot of {MANY:,}, from a Stage file", each, 1024.0)
+            goals.most(f"loading {MANY:,} from a Stage file [s]", loaded, 1.0)
         print(
-            f"{case.name:<22}{len(sim.robots):>7,}{beams / len(sim.robots):>7.0f}{loaded:>8.2f}{size}"
-            f"{shown(factor):>11}{shown(case.stage):>11}{factor / case.stage:>7.1f}",
+            f"{case.name:<20}{len(sim.robots):>7,}{beams / len(sim.robots):>6.0f}{loaded:>7.2f}{size}"
+            f"{shown(factor):>11}{shown(case.stage):>10}{factor / case.stage:>7.1f}",
             flush=True,
         )
-
-
-def shown(factor: float) -> str:
-    """With three digits at least."""
-    return f"{factor:,.0f}" if factor >= 100 else f"{factor:.3g}"
 
 
 def seconds_a_step(sim: StageSimulation, seen: list[int]) -> float:
@@ -183,14 +183,13 @@ def bytes_each(file: Path) -> float:
     return (used - shared) / count
 
 
-def graph() -> None:
+def graph(goals: Goals) -> None:
     """Print how the bundled fleet runs, alone and on a ROS graph with a subscriber a robot."""
     world = formats.load(assets.world("fleet"))
     with StageSimulation(world, threads=1) as sim:
         factor = sim.time_step / seconds_a_step(sim, [0])
-    print(
-        f"\n{FLEET} AGVs with 640 rays, no window{'':18}{factor:>8,.0f} times real time (goal 70)"
-    )
+    print(f"\n{FLEET} AGVs with 640 rays, no window:{factor:>10,.0f} times real time")
+    goals.least(f"{FLEET} AGVs, no window: times real time", factor, 70.0)
     sys.path.insert(0, str(HERE))
     import ros
 
@@ -208,7 +207,7 @@ def graph() -> None:
         finally:
             server.terminate()
             server.wait()
-    print(
-        f"on ROS, a subscriber of {who} a robot: scans of each{'':3}{heard['rate']:>8.1f} a second (goal 10)"
-    )
-    print(f"{'':39}processor{heard['share']:>8.1f} % of one (goal under 50)")
+    print(f"on ROS, a subscriber of {who} a robot: {heard['rate']:.1f} scans/s of each,")
+    print(f"{heard['share']:.1f} % of a processor")
+    goals.least(f"{FLEET} AGVs on ROS: scans/s of each", heard["rate"], 9.9)
+    goals.most(f"{FLEET} AGVs on ROS: % of a processor", heard["share"], 50.0)

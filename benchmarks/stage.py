@@ -2,8 +2,9 @@
 
 Robots of 0.26 m roam an office of 8 m rooms at 0.4 m/s in steps of 100 ms, turn away from what
 their rangers see, and back off where they stall. Stage's figures were measured on two virtual
-processors of an AMD EPYC (Zen 5), in the same kind of world; it uses one of them. Rates are a
-second of processor time, so that other work on the machine counts little.
+processors of an AMD EPYC (Zen 5), in the same kind of world; where Stage runs beside Gazelle,
+those of this run count. Rates are a second of processor time, so that other work on the machine
+counts little. The last table says which goals are reached.
 """
 
 from __future__ import annotations
@@ -15,11 +16,15 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
 from gazelle.engines.planar.roaming import Roaming
+
+if TYPE_CHECKING:
+    from _stage_goals import Goals
 
 ROOM = 8.0
 SENSORS = {
@@ -40,7 +45,7 @@ SIZES = (
 )
 RIVALS = 1_000  # robots up to which Stage itself runs, unless it is asked for alone
 BATCHES = (64, 1024, 4096)
-PARTS = ("rival", "fleets", "batches", "worlds", "graph")
+PARTS = ("rival", "fleets", "batches", "worlds", "graph", "task")
 
 
 def main() -> None:
@@ -54,26 +59,32 @@ def main() -> None:
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
     sys.path.insert(0, str(Path(__file__).resolve().parent))
+    from _stage_goals import Goals
+
+    goals = Goals()
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")
     began = time.process_time()
     roam(8, 16.0, None, 1)
     print(f"kernels ready after {time.process_time() - began:.1f} s of processor time")
     if args.only in {None, "rival"}:
-        rival(args)
+        rival(args, goals)
     if args.only in {None, "fleets"}:
-        fleets(args)
+        fleets(args, goals)
     if args.only in {None, "batches"}:
-        batches(args)
+        batches(args, goals)
     if args.only in {None, "worlds", "graph"}:
         import _stage_worlds
 
         if args.only != "graph":
-            _stage_worlds.worlds(args.threads, args.worlds)
+            _stage_worlds.worlds(args.threads, args.worlds, goals)
         if args.only != "worlds":
-            _stage_worlds.graph()
+            _stage_worlds.graph(goals)
+    if args.only in {None, "task"}:
+        task(args, goals)
+    goals.show()
 
 
-def rival(args: argparse.Namespace) -> None:
+def rival(args: argparse.Namespace, goals: Goals) -> None:
     """Stage itself, if it is there."""
     import _stage_itself
     import _stage_rival
@@ -85,16 +96,16 @@ def rival(args: argparse.Namespace) -> None:
     if stage is None:
         print(_stage_rival.ABSENT)
     else:
-        _stage_rival.rival(
-            stage, args.largest if args.only == "rival" else min(args.largest, RIVALS), args.threads
-        )
+        largest = args.largest if args.only == "rival" else min(args.largest, RIVALS)
+        _stage_rival.rival(stage, largest, args.threads, goals)
 
 
-def fleets(args: argparse.Namespace) -> None:
+def fleets(args: argparse.Namespace, goals: Goals) -> None:
     """Robots in an office."""
     print(
         f"\n{'robots':>8}  {'sensor':<17}{'updates/s':>12}{'Mrays/s':>9}{'Stage 4.3':>11}{'times':>7}"
     )
+    ratios, rates = [], {}
     for count, side, blind, seeing, stage in SIZES:
         if count > args.largest:
             continue
@@ -105,13 +116,22 @@ def fleets(args: argparse.Namespace) -> None:
             steps = blind if fan is None else seeing
             rate = count * steps / best(lambda r=roaming, n=steps: r.run(n), args.windows)
             rays = 0.0 if fan is None else rate * fan.count / 1e6
-            beside = f"{'-':>11}{'-':>7}"
-            if stage is not None:
-                beside = f"{stage[column]:>11,}{rate / stage[column]:>7.0f}"
+            beside, rates[count, name] = f"{'-':>11}{'-':>7}", rate
+            theirs = None if stage is None else stage[column]
+            theirs = goals.stage.get((count, name.split()[0]), theirs)
+            if theirs is not None:
+                ratios.append(rate / theirs)
+                beside = f"{theirs:>11,.0f}{ratios[-1]:>7.0f}"
             print(f"{count:>8,}  {name:<17}{rate:>12,.0f}{rays:>9.1f}{beside}", flush=True)
             if fan is None:
                 size = memory(roaming.fleet) / count
                 print(f"{'':>10}loaded in {loaded:.2f} s, {size:.0f} bytes a robot")
+    goals.least("times Stage at all sizes, the least", min(ratios), 10.0)
+    for name in SENSORS:
+        costs = [1.0 / rate for (count, own), rate in rates.items() if own == name and count >= 100]
+        if len(costs) > 1:
+            spread = max(costs) / min(costs)
+            goals.most(f"cost a robot from 100 up, {name.split()[0]}: times", spread, 1.5)
 
 
 def roam(count: int, side: float, fan: Fan | None, threads: int) -> Roaming:
@@ -157,7 +177,7 @@ def memory(fleet: Fleet) -> int:
     return sum(v.nbytes for v in vars(fleet).values() if isinstance(v, np.ndarray))
 
 
-def batches(args: argparse.Namespace) -> None:
+def batches(args: argparse.Namespace, goals: Goals) -> None:
     """Many worlds of one robot among 12 walls and 4 pillars, step and scan."""
     print(
         f"\n{'worlds':>8}{'beams':>7}{'robot steps/s':>15}{'ns a step':>11}{'ns a scan':>11}{'worst beam':>14}"
@@ -166,7 +186,9 @@ def batches(args: argparse.Namespace) -> None:
     walls, pillars = clutter(rng)
     statics = [Part((tuple(w[:2]), tuple(w[2:])), closed=False) for w in walls]
     statics += [Part.circle(*pillar) for pillar in pillars]
-    for beams in (24, 360):
+    worst = 0.0
+    for beams, wanted in ((24, 2e6), (360, 2e5)):
+        slowest = math.inf
         for nworld in BATCHES:
             body = Body((Part.circle(0.0, 0.0, 0.105),), drive=Drive())
             fleet = Fleet([body], statics, nworld=nworld, threads=args.threads)
@@ -183,11 +205,26 @@ def batches(args: argparse.Namespace) -> None:
             seeing = best(lambda s=scanner, n=repeats: [s.scan() for _ in range(n)], args.windows)
             total = nworld * repeats
             error = np.abs(scanner.scan()[:, 0] - exact(fleet, scanner.fan, walls, pillars)).max()
+            worst, slowest = max(worst, error), min(slowest, total / (moving + seeing))
             print(
                 f"{nworld:>8,}{beams:>7}{total / (moving + seeing):>15,.0f}"
                 f"{1e9 * moving / total:>11.0f}{1e9 * seeing / total:>11.0f}{error:>12.1e} m",
                 flush=True,
             )
+        goals.least(f"robot steps/s with {beams} beams", slowest, wanted)
+    goals.most("error of a beam [m]", worst, 1e-5)
+
+
+def task(args: argparse.Namespace, goals: Goals) -> None:
+    """The whole environment of TurtleBot3Stage4, wall time, with all processors."""
+    import env
+
+    print(f"\n{env.ENVIRONMENT}, engine planar, 1,024 worlds")
+    for rays, wanted in ((24, 1.5e6), (360, 1.5e5)):
+        window = argparse.Namespace(seconds=1.0, windows=args.windows)
+        rate = env.best(env.gazelle_stepper(rays, 1024, "planar"), 1024, window)
+        print(f"{rays:>5} rays{rate:>13,.0f} control steps/s")
+        goals.least(f"control steps/s with {rays} rays", rate, wanted)
 
 
 def clutter(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
