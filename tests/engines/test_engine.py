@@ -122,7 +122,7 @@ def test_a_failed_spawn_changes_nothing():
         "loop",
         links=(Link("a", inertial=Inertial()), Link("b", inertial=Inertial())),
         joints=(
-            Joint("ab", "revolute", "a", "b", axes=(JointAxis(),)),
+            Joint("ab", "prismatic", "a", "b", axes=(JointAxis(),)),
             Joint("slide", "prismatic", "b", "a", axes=(JointAxis(),), source=SOURCE),
         ),
     )
