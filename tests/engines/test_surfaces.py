@@ -149,6 +149,19 @@ def test_without_a_patch_radius_a_ball_spins_on():
 
 
 @pytest.mark.parametrize(
+    "torsional",
+    [
+        TorsionalFriction(use_patch_radius=False, surface_radius=0.1),
+        TorsionalFriction(patch_radius=0.01, slip=0.2),
+    ],
+)
+def test_torsional_friction_that_is_lost_is_warned_about(torsional):
+    ball = with_surface(scenes.ball(pose=Pose(z=0.1)), Surface(Friction(torsional=torsional)))
+    with pytest.warns(EngineWarning, match="<torsional> of collision 'ball::link::.*patch_radius"):
+        make_engine("mujoco", scenes.world(scenes.ground(), ball))
+
+
+@pytest.mark.parametrize(
     ("cfm", "erp", "mass"), [(0.01, 0.2, 1.0), (0.05, 0.5, 2.0), (1e-3, 0.1, 5.0)]
 )
 def test_a_soft_surface_gives_way_as_its_cfm_and_erp_say(cfm, erp, mass):

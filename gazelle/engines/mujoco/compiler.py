@@ -21,7 +21,7 @@ from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.loose import tumbling
 from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
-from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_slip
+from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
     friction_of,
@@ -193,7 +193,7 @@ def draft_world(recipe: Recipe) -> Draft:
     hold_tyres(spec, slips, recipe.time_step)
     if _needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    warn_of_slip(bodies.values(), slips)
+    warn_of_losses(bodies.values(), slips)
     gravity = math.hypot(*recipe.world.gravity)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
     if pairs.springs or pairs.bounces or pairs.rubs:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from gazelle.description import Capsule, Collision, Cylinder, Pose, Sphere
+from gazelle.description import Capsule, Collision, Cylinder, Pose, Sphere, TorsionalFriction
 from gazelle.engines.mujoco.tree import Body
 from gazelle.errors import EngineWarning
 
@@ -41,25 +41,48 @@ def described_slips(models: Iterable[Sequence[Body]]) -> dict[str, Slip]:
     return slips
 
 
-def warn_of_slip(models: Iterable[Sequence[Body]], known: Collection[str]) -> None:
-    """Say that slip is not simulated, if some surface has it and is no wheel's that is known."""
-    lost = [
-        f"{body.name}::{collision.name}"
-        for bodies in models
-        for body in bodies
-        for collision in body.link.collisions
-        if _has_slip(collision) and body.name not in known
-    ]
+def warn_of_losses(models: Iterable[Sequence[Body]], known: Collection[str]) -> None:
+    """Say what friction of some surface is not simulated: slip of what is no wheel, and patches.
+
+    Args:
+        models: The bodies of each.
+        known: Links whose slip is simulated.
+    """
+    bodies = [body for bodies in models for body in bodies]
+    _warn(
+        "slip1 and slip2",
+        [
+            f"{body.name}::{collision.name}"
+            for body in bodies
+            for collision in body.link.collisions
+            if _has_slip(collision) and body.name not in known
+        ],
+        "they need a wheel (one revolute joint, a cylinder, capsule or sphere) and an fdir1 along "
+        "its axle or across it",
+    )
+    _warn(
+        "surface_radius and slip of <torsional>",
+        [
+            f"{body.name}::{collision.name}"
+            for body in bodies
+            for collision in body.link.collisions
+            if _is_lost(collision.surface.friction.torsional)
+        ],
+        "rigid bodies have no depth for a patch to grow with; give a <patch_radius>",
+    )
+
+
+def _warn(what: str, lost: Sequence[str], why: str) -> None:
     if lost:
         others = f" and {len(lost) - 1} others" if len(lost) > 1 else ""
-        warnings.warn(
-            EngineWarning(
-                f"slip1 and slip2 of collision '{lost[0]}'{others} have no effect: they need a "
-                "wheel (one revolute joint, a cylinder, capsule or sphere) and an fdir1 along "
-                "its axle or across it"
-            ),
-            stacklevel=2,
-        )
+        text = f"{what} of collision '{lost[0]}'{others} have no effect: {why}"
+        warnings.warn(EngineWarning(text), stacklevel=3)
+
+
+def _is_lost(torsional: TorsionalFriction | None) -> bool:
+    if torsional is None or torsional.coefficient <= 0.0:
+        return False
+    return torsional.slip > 0.0 or (not torsional.use_patch_radius and torsional.surface_radius > 0)
 
 
 def _placed(bodies: Sequence[Body]) -> Iterator[tuple[Body, Pose]]:
