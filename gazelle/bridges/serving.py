@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import threading
 from types import TracebackType
 from typing import Self
 
@@ -42,6 +43,7 @@ class RosDoor:
         self.master_uri = node.master_uri
         self._master = master
         self._pacer = Pacer(simulation)
+        self._thread: threading.Thread | None = None
         self.gazebo = GazeboDoor(simulation, node, world=world, monotonic_clock=monotonic_clock)
         node.on_shutdown.append(lambda _reason: self._pacer.stop())
 
@@ -53,6 +55,13 @@ class RosDoor:
         """
         self._pacer.run(seconds)
 
+    def start(self) -> Self:
+        """Let ``run`` go on in a thread of its own, until ``close`` or ``stop``; returns this."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._pacer.run, name="simulator", daemon=True)
+            self._thread.start()
+        return self
+
     def stop(self) -> None:
         """Let ``run`` return; from any thread."""
         self._pacer.stop()
@@ -60,6 +69,8 @@ class RosDoor:
     def close(self) -> None:
         """Leave the graph, and end the master if it was started here."""
         self.stop()
+        if self._thread is not None:
+            self._thread.join()
         self.gazebo.close()
         self.node.close()
         if self._master is not None:

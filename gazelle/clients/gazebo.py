@@ -127,10 +127,7 @@ class Gazebo(PhysicsCalls):
         Raises:
             ClientError: The parameter holds no text, or the robot cannot be spawned.
         """
-        text = self.node.get_param(parameter, None)
-        if not isinstance(text, str):
-            raise ClientError(f"the parameter '{parameter}' holds no description")
-        self.spawn_urdf(name, text, **where)
+        self.spawn_urdf(name, self._parameter(parameter), **where)
 
     def spawn_sdf(self, name: str, text: str, **where: Any) -> None:
         """Put a model or a light there.
@@ -151,6 +148,20 @@ class Gazebo(PhysicsCalls):
     ) -> None:
         """Put a model of an SDF file there; see ``spawn_sdf``."""
         self.spawn_sdf(name, find_file(path, package).read_text(encoding="utf-8"), **where)
+
+    def spawn_sdf_parameter(self, name: str, parameter: str, **where: Any) -> None:
+        """Put a model there whose SDF a parameter holds; see ``spawn_sdf`` for where.
+
+        Raises:
+            ClientError: The parameter holds no text, or the model cannot be spawned.
+        """
+        self.spawn_sdf(name, self._parameter(parameter), **where)
+
+    def _parameter(self, name: str) -> str:
+        text = self.node.get_param(name, None)
+        if not isinstance(text, str):
+            raise ClientError(f"the parameter '{name}' holds no description")
+        return text
 
     def _spawn(
         self,

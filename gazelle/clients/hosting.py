@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,7 +16,9 @@ from typing import Self
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle.ros import net
-from gazelle.ros.errors import RosError
+from gazelle.ros.errors import MasterUnreachableError, RosError
+from gazelle.ros.tools import nodes as node_tools
+from gazelle.ros.tools.graph import Graph
 
 _POLL_S = 0.05
 _END_S = 10.0
@@ -31,6 +35,7 @@ class SimulatorProcess:
         rate: Real-time factor; None for as fast as possible.
         paused: Whether time stands still at the beginning.
         seed: Decides all random numbers.
+        options: More of ``gazelle run``, such as ``["--plugins", "my_plugins"]``.
         master_uri: Of the master; by default ``ROS_MASTER_URI``. It starts one if there is none.
         timeout: For the simulator to be there [s of wall time].
 
@@ -38,7 +43,8 @@ class SimulatorProcess:
         gazebo: A client of it.
 
     Raises:
-        ClientError: It ends at once, or is not there in time; the message has what it said.
+        ClientError: There is a simulator on the graph already; or this one ends at once, or is
+            not there in time: the message has what it said.
     """
 
     def __init__(
@@ -49,6 +55,7 @@ class SimulatorProcess:
         rate: float | None = 1.0,
         paused: bool = False,
         seed: int = 0,
+        options: Sequence[str] = (),
         master_uri: str | None = None,
         timeout: float = 60.0,
     ) -> None:
@@ -58,12 +65,15 @@ class SimulatorProcess:
         command += ["--paused"] if paused else []
         for robot in robots:
             command += ["--spawn", str(robot)]
+        command += options
+        _refuse_another(uri)
+        # A file, for a pipe that nobody reads would stop a simulator that says much.
+        self._said = tempfile.TemporaryFile()  # noqa: SIM115  # it is closed with the process
         self._process = subprocess.Popen(  # noqa: S603  # this very program
             command,
             env={**os.environ, "ROS_MASTER_URI": uri},
             stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
+            stderr=self._said,
         )
         try:
             self.gazebo = self._wait(uri, time.monotonic() + timeout, timeout)
@@ -100,17 +110,15 @@ class SimulatorProcess:
     def _wait(self, uri: str, deadline: float, timeout: float) -> Gazebo:
         while True:
             if not self.running:
-                said = self._process.stderr.read().strip() if self._process.stderr else ""
+                self._said.seek(0)
+                said = self._said.read().decode(errors="replace").strip()
                 raise ClientError(f"the simulator ended at once: {said}")
             try:
-                gazebo = Gazebo(master_uri=uri)
-                gazebo.node.wait_for_service("/gazebo/get_world_properties", timeout=1.0)
+                return _client(uri)
             except RosError:
                 if time.monotonic() > deadline:
                     raise ClientError(f"the simulator is not there after {timeout:g} s") from None
                 time.sleep(_POLL_S)
-                continue
-            return gazebo
 
     def _end(self) -> None:
         self._process.terminate()
@@ -119,5 +127,29 @@ class SimulatorProcess:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        if self._process.stderr is not None:
-            self._process.stderr.close()
+        self._said.close()
+
+
+def _client(uri: str) -> Gazebo:
+    """A client of the simulator that is there.
+
+    Raises:
+        RosError: None is, yet.
+    """
+    gazebo = Gazebo(master_uri=uri)
+    try:
+        gazebo.node.wait_for_service("/gazebo/get_world_properties", timeout=1.0)
+    except BaseException:
+        gazebo.close()
+        raise
+    return gazebo
+
+
+def _refuse_another(uri: str) -> None:
+    """Make sure that no other simulator will be taken for the one that starts."""
+    with contextlib.suppress(MasterUnreachableError), Graph("clients", uri) as graph:
+        if node_tools.alive(graph, "/gazebo"):
+            raise ClientError(
+                "a simulator is on this graph already: /gazebo",
+                hint="end it, or give another master_uri",
+            )

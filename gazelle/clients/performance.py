@@ -20,6 +20,12 @@ from gazelle.ros import Node, load_message
 _TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
 _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 
+_LABELS = {
+    "real_time_factor": "real-time factor",
+    "cpu": "processor [cores]",
+    "memory": "memory [MB]",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Sample:
@@ -92,7 +98,7 @@ class PerformanceWatch:
         if not self.samples:
             raise ClientError("nothing was seen yet", hint="watch for longer")
         found = {}
-        for name in ("real_time_factor", "cpu", "memory"):
+        for name in _LABELS:
             values = [getattr(sample, name) for sample in self.samples]
             found[name] = {
                 "mean": statistics.fmean(values),
@@ -100,6 +106,20 @@ class PerformanceWatch:
                 "most": max(values),
             }
         return found
+
+    def report(self) -> str:
+        """The same as a table, for people.
+
+        Raises:
+            ClientError: Nothing was seen yet.
+        """
+        found = self.summary()
+        lines = [f"{'':18}{'mean':>9}{'least':>9}{'most':>9}"]
+        lines += [
+            f"{_LABELS[name]:18}" + "".join(f"{value:9.2f}" for value in values.values())
+            for name, values in found.items()
+        ]
+        return "\n".join(lines)
 
     def save(self, path: str | Path) -> None:
         """Write all samples to a ``.csv`` or ``.json`` file.
@@ -132,18 +152,14 @@ class PerformanceWatch:
             raise MissingExtraError("matplotlib", "viewer") from None
         figure: Any = Figure(figsize=(8.0, 7.0), layout="constrained")
         FigureCanvasAgg(figure)
-        labels = {
-            "real_time_factor": "real-time factor",
-            "cpu": "processor [cores]",
-            "memory": "memory [MB]",
-        }
         wall = [sample.wall for sample in self.samples]
         for axes, (name, label) in zip(
-            figure.subplots(3, 1, sharex=True), labels.items(), strict=True
+            figure.subplots(3, 1, sharex=True), _LABELS.items(), strict=True
         ):
-            axes.plot(wall, [getattr(sample, name) for sample in self.samples])
+            values = [getattr(sample, name) for sample in self.samples]
+            axes.plot(wall, values)
             axes.set_ylabel(label)
-            axes.set_ylim(bottom=0.0)
+            axes.set_ylim(0.0, 1.1 * max(values, default=0.0) or 1.0)
             axes.grid(alpha=0.3)
         axes.set_xlabel("wall time [s]")
         figure.savefig(path, dpi=120)

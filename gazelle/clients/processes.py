@@ -137,8 +137,20 @@ class Processes:
             self._launches.pop().close()
 
     def kill(self, *nodes: str) -> list[str]:
-        """Ask any nodes of the graph to end; returns those that do."""
+        """Ask any nodes of the graph to end; returns those that could not be asked."""
         return node_tools.kill(Graph("clients", self._uri), nodes)
+
+    def kill_all(self) -> list[str]:
+        """Ask all nodes of the graph to end, whoever started them; see ``kill``."""
+        return self.kill(*self.nodes())
+
+    def kill_master(self) -> None:
+        """Ask the master to end.
+
+        Raises:
+            MasterUnreachableError: There is none.
+        """
+        Graph("clients", self._uri).master.call("shutdown", "asked by a client")
 
     def __enter__(self) -> Self:
         return self

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import socket
+import threading
 from collections.abc import Callable, Mapping
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from gazelle.ros.clock import Clock
     from gazelle.ros.services import ServiceServer
 
+_CLOSING_S = 5.0
+"""How long the main thread waits for another that closes the node already."""
 _REQUIRED: Any = object()
 _neighbours: dict[str, Node] = {}
 """The nodes of this process by their URI."""
@@ -172,10 +175,16 @@ class Node(TopicUser, ServiceUser):
 
     def close(self) -> None:
         """Unregister everything, close everything. Not to be called on the event loop."""
+        me = threading.current_thread()
         with self._lock:
-            if self._closing:
-                return
-            self._closing = True
+            first, self._closing = not self._closing, True
+            if first:
+                self._closer = me
+        if not first:
+            if me is threading.main_thread() and me is not self._closer:
+                # The process may end after this, and with it the thread that is at it.
+                self._closed.wait(_CLOSING_S)
+            return
         # What re-registers must be quiet before anything is unregistered.
         self.loop.run(self._close_calls)
         self._unregister_all()

@@ -57,6 +57,7 @@ class NodeBase:
         self._lock = threading.RLock()
         self._numbers = itertools.count(1)
         self._closing = False
+        self._closer: threading.Thread | None = None
         self._closed = threading.Event()
 
     def resolve(self, name: str) -> str:

@@ -12,6 +12,8 @@ from gazelle.ros import Master
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="core"><inertial><mass>2</mass></inertial>
 <gravity>0</gravity></link></model></sdf>"""
+STONE = """<robot name="s"><link name="core"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
 
 
 def test_time_is_stopped_stepped_and_let_go(graph):
@@ -78,8 +80,11 @@ def test_robots_are_spawned_from_files_packages_and_parameters(graph):
         position=(-1.0, 0.0, 0.0),
         namespace="/r3",
     )
-    gazebo.node.set_param("ball_description", "<robot name='b'><link name='x'/></robot>")
-    assert {"r2", "r3"} <= set(gazebo.models)
+    gazebo.node.set_param("ball_description", STONE)
+    gazebo.node.set_param("ball_sdf", BALL)
+    gazebo.spawn_sdf_parameter("ball", "ball_sdf", position=(0.0, 1.0, 1.0))
+    gazebo.spawn_urdf_parameter("stone", "ball_description")
+    assert {"r2", "r3", "ball", "stone"} <= set(gazebo.models)
     assert graph.sim.robots["r3"].outputs["odom"].topic == "/r3/odom"
     with pytest.raises(ClientError, match="holds no description"):
         gazebo.spawn_urdf_parameter("r4", "nothing")

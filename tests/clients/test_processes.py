@@ -2,6 +2,7 @@
 
 import os
 import time
+from pathlib import Path
 
 import pytest
 from ros.graph import until
@@ -18,6 +19,8 @@ from gazelle.clients import (
     spawn_robot,
 )
 from gazelle.ros import Master, Node
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture
@@ -48,6 +51,56 @@ def test_a_simulator_is_there_when_made_and_gone_when_closed(master):
     assert summary["real_time_factor"]["most"] > 0.0
 
 
+def test_a_simulator_is_not_taken_for_another(master):
+    with SimulatorProcess(), pytest.raises(ClientError, match="on this graph already: /gazebo"):
+        SimulatorProcess()
+
+
+def test_clients_outlive_their_simulator_and_find_the_next(master):
+    with Gazebo(master_uri=master.uri, timeout=0.5) as gazebo:
+        with SimulatorProcess("turtlebot3_stage_1", robots=["turtlebot3_burger"]):
+            table = gazebo.watch_models().wait()
+            assert "turtlebot3_burger" in gazebo.models
+        with pytest.raises(ClientError, match=r"get_world_properties"):
+            gazebo.models  # noqa: B018  # it asks the simulator
+        with SimulatorProcess("empty", paused=False):
+            gazebo.wait_for_model("ground_plane")
+            until(lambda: set(table) == {"ground_plane"})
+            gazebo.pause()
+        table.close()
+
+
+def test_a_model_with_the_example_plugin_is_driven(master):
+    world = EXAMPLES.parent / "tests" / "clients" / "driven.world"
+    options = ["--plugins", str(EXAMPLES)]
+    with (
+        SimulatorProcess(world, options=options) as simulator,
+        Driver(simulator.gazebo.node, "puck", linear=0.5, angular=1.0).wait() as driver,
+    ):
+        for move, moved in (
+            (driver.forward, lambda: driver.state.position[0] > 0.1),
+            (driver.back, lambda: driver.state.position[0] < 0.05),
+            (driver.left, lambda: driver.state.yaw > 0.2),
+            (driver.right, lambda: driver.state.yaw < 0.1),
+        ):
+            until(lambda move=move, moved=moved: move() or moved())
+        driver.stop()
+        until(lambda: driver.state.linear[0] == pytest.approx(0.0, abs=1e-3))
+
+
+def test_everything_on_a_graph_is_ended_the_master_too():
+    with Master(port=0) as master, Processes(master.uri) as processes:
+        processes.start_node(
+            "tf", "static_transform_publisher", name="pole", arguments="0 0 1 0 0 0 a b 100"
+        )
+        until(lambda: "/pole" in processes.nodes())
+        assert processes.kill("/nobody") == ["/nobody"]
+        assert processes.kill_all() == []
+        until(lambda: "/pole" not in processes.nodes())
+        processes.kill_master()
+        assert master.ended.wait(5.0)
+
+
 def test_a_simulator_that_cannot_begin_says_why(master):
     with pytest.raises(ClientError, match="no_such_world"):
         SimulatorProcess("no_such_world")
@@ -59,6 +112,7 @@ def test_what_was_seen_is_saved_and_drawn(master, tmp_path):
     for name in ("run.csv", "run.json"):
         watch.save(tmp_path / name)
         assert "real_time_factor" in (tmp_path / name).read_text(encoding="utf-8")
+    assert watch.report().splitlines()[1].startswith("real-time factor")
     watch.plot(tmp_path / "run.png")
     assert (tmp_path / "run.png").read_bytes().startswith(b"\x89PNG")
     with pytest.raises(ClientError, match="csv or"):
