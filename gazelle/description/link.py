@@ -9,6 +9,7 @@ from gazelle.description.inertial import Inertial
 from gazelle.description.light import Light
 from gazelle.description.material import Material
 from gazelle.description.parameters import Parameters
+from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose
 from gazelle.description.sensor import Sensor
 from gazelle.description.source import Source
@@ -50,6 +51,7 @@ class Visual:
         cast_shadows: Whether it throws shadows.
         laser_retro: Intensity that a GPU lidar reports.
         visibility_flags: Cameras see it when their mask shares a bit.
+        plugins: What shows something on it.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Visual:
     cast_shadows: bool = True
     laser_retro: float = 0.0
     visibility_flags: int = 0xFFFFFFFF
+    plugins: tuple[Plugin, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)
 
 

@@ -6,10 +6,10 @@ import warnings
 from typing import Any, ClassVar
 
 from gazelle.errors import SimulationWarning
-from gazelle.simulation import ModelPlugin, SensorPlugin, WorldPlugin
+from gazelle.simulation import ModelPlugin, SensorPlugin, VisualPlugin, WorldPlugin
 
 
-class NotSimulated(WorldPlugin, ModelPlugin, SensorPlugin):
+class NotSimulated(WorldPlugin, ModelPlugin, SensorPlugin, VisualPlugin):
     """Of any kind: the load goes on without it."""
 
     missing: ClassVar[str]

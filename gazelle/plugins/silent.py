@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.simulation import ModelPlugin, SensorPlugin, WorldPlugin
+from gazelle.simulation import ModelPlugin, SensorPlugin, VisualPlugin, WorldPlugin
 
 
-class Silent(WorldPlugin, ModelPlugin, SensorPlugin):
+class Silent(WorldPlugin, ModelPlugin, SensorPlugin, VisualPlugin):
     """Does nothing: Gazelle does what it is for by itself, or it is a library of others."""
 
     def load(self, entity: Any, parameters: Any) -> None:

@@ -5,7 +5,14 @@ from gazelle.simulation.faults import Fault
 from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
-from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, SystemPlugin, WorldPlugin
+from gazelle.simulation.plugin import (
+    ModelPlugin,
+    Plugin,
+    SensorPlugin,
+    SystemPlugin,
+    VisualPlugin,
+    WorldPlugin,
+)
 from gazelle.simulation.ports import FramePrefix, Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
@@ -47,6 +54,7 @@ __all__ = [
     "Tunable",
     "Tuning",
     "TwistInput",
+    "VisualPlugin",
     "WorldParameters",
     "WorldPlugin",
     "WrenchValue",

@@ -10,7 +10,7 @@ from gazelle.description import Model
 from gazelle.errors import SimulationWarning, describe
 from gazelle.simulation import registry
 from gazelle.simulation.blame import warn_of_fault
-from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
+from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.stepping import make_scheduled, title
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _PLACES: dict[type[Plugin], str] = {
     ModelPlugin: "model",
     SensorPlugin: "sensor",
+    VisualPlugin: "visual",
     WorldPlugin: "world",
 }
 
@@ -30,6 +31,9 @@ def adopt(simulation: Simulation, model: Model, robot: Robot) -> None:
     for placed in model.walk():
         for plugin in placed.model.plugins:
             _start(simulation, ModelPlugin, robot, plugin, robot)
+        for visual in (visual for link in placed.model.links for visual in link.visuals):
+            for plugin in visual.plugins:
+                _start(simulation, VisualPlugin, robot, plugin, robot)
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
             _start(simulation, SensorPlugin, unit, plugin, robot)

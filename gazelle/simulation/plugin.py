@@ -85,6 +85,13 @@ class ModelPlugin(Plugin):
         """Start: read the parameters, open ports on the robot."""
 
 
+class VisualPlugin(Plugin):
+    """A plugin of a visual, such as one that shows a video on it."""
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Start, on the robot that has the visual."""
+
+
 class SensorPlugin(Plugin):
     """A plugin of a sensor."""
 

@@ -148,3 +148,21 @@ def test_a_system_plugin_is_given_besides_the_world(write):
 def test_a_system_plugin_that_is_not_there_is_named():
     with simulation() as sim, pytest.warns(PluginWarning, match="'nowhere:Mine' failed"):
         sim.load_plugin("nowhere:Mine")
+
+
+def test_a_visuals_plugin_is_known_too(write):
+    text = WORLD.format(world="", model="", sensor="").replace(
+        "</link>",
+        f"""<visual name="v"><geometry><box><size>1 1 1</size></box></geometry>
+        {place("libgazebo_ros_video.so")}{place("mine:Mine")}</visual></link>""",
+    )
+    write("class Mine(ModelPlugin):\n    pass\n")
+    with pytest.warns(SimulationWarning) as told:
+        gazelle.Simulation(formats.load_string(text)).close()
+    texts = [str(each.message) for each in told]
+    assert "pictures on models are not shown" in texts[0]
+    assert "belongs into a <model>, not into a <visual>" in texts[1]
+    assert len(texts) == 2
+    again = formats.load_string(formats.to_string(formats.load_string(text), "sdf"))
+    kept = again.models[0].links[0].visuals[0].plugins
+    assert [plugin.filename for plugin in kept] == ["libgazebo_ros_video.so", "mine:Mine"]

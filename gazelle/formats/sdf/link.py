@@ -12,6 +12,7 @@ from gazelle.formats.sdf.geometry import read_geometry
 from gazelle.formats.sdf.inertial import read_inertial
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.material import read_material
+from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.sdf.surface import read_surface
@@ -122,5 +123,6 @@ def read_visual(node: Parameters, place: Placer, reading: Reading) -> Visual:
         cast_shadows=values.flag(node, "cast_shadows", default=True),
         laser_retro=values.real(node, "laser_retro", 0.0),
         visibility_flags=values.whole(node, "visibility_flags", 0xFFFFFFFF),
+        plugins=read_plugins(node),
         source=node.source,
     )

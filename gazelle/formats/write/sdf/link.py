@@ -17,6 +17,7 @@ from gazelle.formats.materials import STANDARD, is_standard, script_colors
 from gazelle.formats.sdf.inertial import check_inertia
 from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf
 from gazelle.formats.write.sdf.geometry import write_geometry
+from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.sdf.sensor import write_sensor
 from gazelle.formats.write.sdf.surface import write_surface
 from gazelle.formats.write.writing import Writing
@@ -103,6 +104,7 @@ def write_visual(visual: Visual, writing: Writing) -> Parameters:
             *visual_extras(visual),
             write_geometry(visual.geometry, writing),
             None if visual.material is None else write_material(visual.material, writing),
+            *map(write_plugin, visual.plugins),
             name=visual.name,
         )
 
