@@ -7,11 +7,14 @@ from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, load_service
-from gazelle.ros.messages import UnknownTypeError
+from gazelle.ros.messages import InvalidDefinitionError
+from gazelle.ros.messages.registry import package_names
 from gazelle.simulation.stage import StageRobot, StageSimulation
 
 USUAL_TYPE = "sim_agv/AgvPose"
 """Its response is float64 x, y [m] and angle [degrees]; the request is empty."""
+
+_FIELDS, _NUMBERS = ("x", "y", "angle"), {"float64", "float32"}
 
 
 class PoseServices:
@@ -29,6 +32,7 @@ class PoseServices:
 
     Raises:
         UnknownTypeError: There is no such type.
+        InvalidDefinitionError: Its response has no x, y or angle that can hold a number.
     """
 
     def __init__(
@@ -61,9 +65,17 @@ class PoseServices:
 
 
 def _service(kind: str) -> Any:
-    if kind:
-        return load_service(kind)
-    try:
-        return load_service(USUAL_TYPE)
-    except UnknownTypeError:
+    package, _, name = USUAL_TYPE.partition("/")
+    if not kind and name not in package_names(package, "srv"):
         return None
+    service: Any = load_service(kind or USUAL_TYPE)
+    response = service._response_class  # noqa: SLF001  # genpy's names
+    types = dict(zip(response.__slots__, response._slot_types, strict=True))  # noqa: SLF001
+    wrong = [field for field in _FIELDS if types.get(field, "float64") not in _NUMBERS]
+    if wrong or not types.keys() & set(_FIELDS):
+        raise InvalidDefinitionError(
+            f"the response of {kind or USUAL_TYPE} cannot hold a pose"
+            + (f": {wrong[0]} is of type {types[wrong[0]]}" if wrong else ""),
+            hint="write 'float64 x', 'float64 y' and 'float64 angle' below the line ---",
+        )
+    return service

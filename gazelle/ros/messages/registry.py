@@ -23,7 +23,7 @@ from gazelle.ros.messages.library import (
     bundled_packages,
 )
 from gazelle.ros.messages.parse import parse_message, parse_service
-from gazelle.ros.messages.spec import MessageSpec, ServiceSpec
+from gazelle.ros.messages.spec import BUILTIN, MessageSpec, ServiceSpec
 
 _HALVES = ("Request", "Response")
 
@@ -119,7 +119,7 @@ class Registry:
         try:
             known: dict[str, type[Message]] = {}
             for each in spec.depends:
-                inner = self.message(each)
+                inner = self._part_of(spec, each)
                 known |= {each: inner, **_known_of(inner)}
         finally:
             self._making.pop()
@@ -131,6 +131,13 @@ class Registry:
             module=module,
         )
         return made
+
+    def _part_of(self, spec: MessageSpec, name: str) -> type[Message]:
+        try:
+            return self.message(name)
+        except UnknownTypeError as error:
+            place = error.file or spec.full_name
+            raise UnknownTypeError(error.message, file=place, hint=error.hint) from None
 
     def _md5_of(self, name: str) -> str:
         return self.message(name)._md5sum  # noqa: SLF001  # our own class
@@ -156,6 +163,7 @@ class Registry:
                 hint="put the folder it is in on ROS_PACKAGE_PATH",
             )
         names = [each for source in sources for each in getattr(source, kind)]
+        names += BUILTIN if kind == "messages" and short[:1].islower() else ()
         return UnknownTypeError(
             f"the package '{package}' has no {kind.removesuffix('s')} '{short}'",
             hint=did_you_mean(short, names),

@@ -105,6 +105,20 @@ def test_without_the_type_there_is_no_such_service(stage):
     assert not any("get_pose" in name for name in services)
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("---\nstring x\nfloat64 y\n", "x is of type string; write 'float64 x'"),
+        ("float64 x\n---\n", "cannot hold a pose"),
+        ("---\nflaot64 x\n", "odd_agv/AgvPoseResponse: .*did you mean 'float64'"),
+    ],
+)
+def test_a_type_that_cannot_hold_a_pose_is_refused_at_the_start(stage, text, said):
+    register("odd_agv", "AgvPose", text, "srv")
+    with pytest.raises(RosError, match=said):
+        stage("robot ( )", {"pose_service": "odd_agv/AgvPose"})
+
+
 def test_a_pose_service_of_an_unknown_type_is_an_error(stage):
     with pytest.raises(RosError, match="nothing is known of the package"):
         stage(ROBOT, {"pose_service": "nowhere/Pose"})
