@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.planar.kernels_wander import wander
 from gazelle.errors import SimulationWarning
 from gazelle.simulation.stage.layout import StageRobot
 from gazelle.streams import Stream
@@ -28,6 +29,7 @@ FRONT = 1.0  # distance ahead at which it turns away [m]
 STOP = 0.3  # distance at which it stands [m]
 PATIENCE = 10  # least updates that it turns for, and how many more it may
 DEVIATION = 0.05  # of lasernoise [m]
+_SHARE = 64  # robots that are worth a thread
 
 
 class Controller(Protocol):
@@ -65,41 +67,37 @@ class Wander:
     """
 
     def __init__(self, simulation: StageSimulation, robots: list[StageRobot], scanner: int) -> None:
-        self._simulation = simulation
-        self._scanner = scanner
-        self._robots = np.array([robot.index for robot in robots])
-        self._places = np.array([robot.rangers[0].places[0][1] for robot in robots])
-        shape = (simulation.nworld, len(robots))
-        self._left = np.zeros(shape, np.int64)
-        self._turn = np.zeros(shape)
-        self._stream = Stream(simulation.seed, f"wander/{scanner}", simulation.nworld)
+        fleet = simulation.fleet
+        self._simulation, self._scanner = simulation, scanner
+        own = np.array([robot.index for robot in robots], np.int64)
+        places = np.array([robot.rangers[0].places[0][1] for robot in robots], np.int64)
+        worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
+        self._bodies = (worlds * fleet.nbody + own).ravel()
+        self._sensors = (worlds * len(simulation.mounts[scanner]) + places).ravel()
+        self._mood = np.zeros((len(self._bodies), 2), np.int64)
+        self._manner = np.array([CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE], np.float64)
+        self._command = fleet.command.reshape(-1, 3)
+        key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
+        self._seed, self._tick = int(key >> np.uint64(1)), 0
 
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
-        ranges = self._simulation.scan(self._scanner)[:, self._places]
-        count = ranges.shape[-1]
-        third = count // 3
-        ahead = ranges[..., third : max(count - third, third + 1)].min(axis=-1)
-        near = ahead < FRONT
-        right = ranges[..., : max(count // 2, 1)].min(axis=-1)
-        left = ranges[..., count // 2 :].min(axis=-1)
-        begin = near & (self._left < 1)
-        drawn = self._stream.uniform(self._left.shape[1]) * PATIENCE
-        self._left = np.where(begin, PATIENCE + drawn.astype(np.int64), self._left)
-        self._turn = np.where(begin, np.where(left < right, -TURN, TURN), self._turn)
-        turning = near | (self._left > 0)
-        speed = np.where(turning, np.where(ahead < STOP, 0.0, CREEP), CRUISE)
-        command = self._simulation.commands
-        command[:, self._robots, 0] = speed
-        command[:, self._robots, 1] = 0.0
-        command[:, self._robots, 2] = np.where(turning, self._turn, 0.0)
-        self._left = np.where(turning, self._left - 1, 0)
+        ranges = self._simulation.scan(self._scanner)
+        flat = ranges.reshape(-1, ranges.shape[-1])
+        self._simulation.fleet.crew.share(
+            lambda first, last, _: wander(
+                first, last, self._manner, self._seed, self._tick, self._sensors, self._bodies,
+                flat, self._command, self._mood,
+            ),
+            len(self._bodies),
+            _SHARE,
+        )  # fmt: skip
+        self._tick += 1
 
     def reset(self) -> None:
         """Start over."""
-        self._left[:] = 0
-        self._turn[:] = 0.0
-        self._stream.rewind()
+        self._mood[:] = 0
+        self._tick = 0
 
 
 class LaserNoise:

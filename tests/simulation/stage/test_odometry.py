@@ -4,24 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from stage_samples import write
-
-from gazelle.simulation.stage import StageSimulation
-
-HEAD = "interval_sim 100\n"
-
-
-@pytest.fixture
-def start(tmp_path):
-    made = []
-
-    def make(text, **options):
-        made.append(StageSimulation(write(tmp_path, HEAD + text), threads=1, **options))
-        return made[-1]
-
-    yield make
-    for sim in made:
-        sim.close()
 
 
 def test_odometry_is_the_true_pose_with_gps(start):

@@ -1,0 +1,58 @@
+"""A controller in native code: go ahead until something is near, then turn away for a while."""
+
+from __future__ import annotations
+
+from gazelle.engines.native import kernel
+from gazelle.engines.planar.kernels_noise import stream, uniform
+from gazelle.engines.planar.tables import Floats, Indices
+
+# Columns of a manner: speed ahead [m/s], while it turns [m/s], of turning [rad/s], distance
+# ahead at which it turns away and at which it stands [m], and least steps that it turns for.
+CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE = 0, 1, 2, 3, 4, 5
+
+
+@kernel
+def wander(
+    first: int, last: int, manner: Floats, seed: int, tick: int, sensors: Indices, bodies: Indices,
+    ranges: Floats, command: Floats, mood: Indices,
+) -> None:  # fmt: skip
+    """Choose the commands of wanderers first to last.
+
+    Args:
+        first: Of them.
+        last: The one after the last.
+        manner: As above.
+        seed: Of how long they turn.
+        tick: Number of the step.
+        sensors: Row of ``ranges`` of each.
+        bodies: Row of ``command`` of each.
+        ranges: What the sensors measured [m].
+        command: What is chosen.
+        mood: Steps for which each still turns, and 1 or -1 for the way.
+    """
+    count = ranges.shape[1]
+    third, half = count // 3, count // 2
+    for i in range(first, last):
+        m, b = sensors[i], bodies[i]
+        right, left = ranges[m, 0], ranges[m, count - 1]
+        for k in range(half):
+            right, left = min(right, ranges[m, k]), min(left, ranges[m, count - 1 - k])
+        if 2 * half < count:
+            left = min(left, ranges[m, half])
+        ahead = ranges[m, third]
+        for k in range(third, max(count - third, third + 1)):
+            ahead = min(ahead, ranges[m, k])
+        near = ahead < manner[FRONT]
+        if near and mood[i, 0] < 1:
+            more = int(uniform(stream(seed, i, tick), 0) * manner[PATIENCE])
+            mood[i, 0] = int(manner[PATIENCE]) + more
+            mood[i, 1] = -1 if left < right else 1
+        turning = near or mood[i, 0] > 0
+        command[b, 1] = 0.0
+        if turning:
+            command[b, 0] = 0.0 if ahead < manner[STOP] else manner[CREEP]
+            command[b, 2] = manner[TURN] * mood[i, 1]
+            mood[i, 0] -= 1
+        else:
+            command[b, 0], command[b, 2] = manner[CRUISE], 0.0
+            mood[i, 0] = 0

@@ -1,0 +1,72 @@
+"""Stage's controller ``wander``, in native code."""
+
+import pytest
+from stage_samples import write
+
+from gazelle.simulation.stage import StageSimulation
+
+SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"
+ROBOT = 'position ( size [.1 .1 .1] ctrl "wander" ' + SCANNER + " pose [{} {} 0 {}] )"
+
+
+def wall(x, y):
+    """A block of 0.2 m whose middle is there."""
+    return f"model ( size [.2 .2 1] pose [{x} {y} 0 0] )"
+
+
+@pytest.mark.parametrize("samples", [1, 3, 180, 181])
+@pytest.mark.parametrize(
+    ("things", "command"),
+    [
+        ("", (0.4, 0.0, 0.0)),
+        (wall(1.5, 0.0), (0.4, 0.0, 0.0)),
+        (wall(0.0, 1.0), (0.4, 0.0, 0.0)),  # beside it
+        (wall(0.8, 0.0), (0.05, 0.0, 0.5)),
+        (wall(0.3, 0.0), (0.0, 0.0, 0.5)),
+    ],
+)
+def test_it_turns_away_from_what_is_ahead(start, samples, things, command):
+    sim = start(ROBOT.format(samples, 0, 0, 0) + things)
+    sim.step()
+    assert abs(sim.commands[0, 0]) == pytest.approx(command)
+
+
+@pytest.mark.parametrize("samples", [180, 181])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_it_turns_to_where_there_is_more_room(start, samples, side):
+    things = wall(0.8, 0.0) + wall(0.3, 0.5 * side)
+    sim = start(ROBOT.format(samples, 0, 0, 0) + things)
+    sim.step()
+    assert sim.commands[0, 0, 2] == pytest.approx(-0.5 * side)
+
+
+def test_it_turns_for_one_to_two_seconds_once_it_began(start):
+    sim = start("".join(ROBOT.format(180, 0, 9 * i, 0) + wall(0.8, 9 * i) for i in range(40)))
+    turned = [0] * 40
+    for _ in range(25):
+        sim.step()
+        for i in range(40):
+            turned[i] += bool(sim.commands[0, i, 2])
+            sim.set_pose_of(i, (-5.0, 9.0 * i, 3.0))  # away from what it saw
+    assert set(turned) <= set(range(10, 20))
+    assert len(set(turned)) > 5
+
+
+def test_threads_and_other_worlds_change_nothing(start, tmp_path):
+    text = "".join(ROBOT.format(45, i % 10, i // 10, 40 * i) for i in range(100)) + wall(5.5, 5.5)
+    file = write(tmp_path, text)
+    runs = [
+        start(text, seed=2),
+        StageSimulation(file, seed=2, threads=2),
+        StageSimulation(file, seed=2, threads=2, nworld=3),
+    ]
+    for sim in runs:
+        sim.step(60)
+    assert (runs[0].poses == runs[1].poses).all()
+    assert (runs[0].poses[0] == runs[2].poses[0]).all()
+    for sim in runs[1:]:
+        sim.close()
+    again = runs[0].poses.copy()
+    runs[0].reset()
+    runs[0].step(60)
+    assert (runs[0].poses == again).all()
