@@ -199,7 +199,7 @@ class Scanner:
                 lambda a, b, part: self._work(a, b, part, other), len(owners), least
             )
         self.tick += 1
-        return self.ranges[:count]
+        return self.ranges if worlds is None else self.ranges[:count]
 
     def _work(
         self, first: int, last: int, part: int, owners: NDArray[np.int64] | None = None

@@ -77,17 +77,19 @@ class Wander:
         self._mood = np.zeros((len(self._bodies), 2), np.int64)
         self._manner = np.array([CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE], np.float64)
         self._command = fleet.command.reshape(-1, 3)
+        self._ranges = self._flat = np.zeros((0, 0))
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
         self._seed, self._tick = int(key >> np.uint64(1)), 0
 
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
         ranges = self._simulation.scan(self._scanner)
-        flat = ranges.reshape(-1, ranges.shape[-1])
+        if ranges is not self._ranges:
+            self._ranges, self._flat = ranges, ranges.reshape(-1, ranges.shape[-1])
         self._simulation.fleet.crew.share(
             lambda first, last, _: wander(
                 first, last, self._manner, self._seed, self._tick, self._sensors, self._bodies,
-                flat, self._command, self._mood,
+                self._flat, self._command, self._mood,
             ),
             len(self._bodies),
             _SHARE,
