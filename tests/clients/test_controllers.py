@@ -7,7 +7,7 @@ import contextlib
 import pytest
 
 from gazelle.clients import ClientError, Controllers
-from gazelle.ros import Master, Node, load_service
+from gazelle.ros import Master, Node, load_message, load_service
 
 MANAGER = "/r1/controller_manager"
 KNOWN = {"left", "right"}
@@ -27,7 +27,8 @@ class ControllerManager:
             node.serve(f"{MANAGER}/{name}", load_service(f"controller_manager_msgs/{kind}"), act)
 
     def list(self, _request):
-        return {"controller": [{"name": k, "state": v} for k, v in self.states.items()]}
+        made = load_message("controller_manager_msgs/ControllerState")
+        return {"controller": [made(name=k, state=v) for k, v in self.states.items()]}
 
     def load(self, request):
         good = request.name in KNOWN and request.name not in self.states
