@@ -27,6 +27,10 @@ def test_nanoseconds_are_carried_over(secs, nsecs):
     assert value.to_nsec() == secs * NSEC + nsecs
 
 
+def test_a_time_is_told_in_seconds_as_the_standard_library_counts():
+    assert Time(1_600_000_000, 250_000_000).to_time() == 1_600_000_000.25
+
+
 @given(DURATIONS, DURATIONS)
 def test_durations_add_and_subtract_exactly(one, two):
     assert (one + two).to_nsec() == one.to_nsec() + two.to_nsec()

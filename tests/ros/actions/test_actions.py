@@ -132,6 +132,25 @@ def test_goals_can_be_taken_by_hand(make_node):
     assert not server.is_active()
 
 
+def test_a_server_by_hand_is_told_that_its_goal_shall_end(make_node):
+    came, ended = threading.Event(), threading.Event()
+    server = SimpleActionServer(make_node("server"), "/act", TEST, auto_start=False)
+    server.register_goal_callback(came.set)
+    server.register_preempt_callback(ended.set)
+    server.start()
+    client = SimpleActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(5.0)
+    client.send_goal(GOAL(4))
+    assert came.wait(5.0)
+    server.accept_new_goal()
+    assert not ended.is_set()
+    client.cancel_goal()
+    assert ended.wait(5.0)
+    server.set_preempted(RESULT(-1))
+    assert client.wait_for_result(5.0)
+    assert client.get_state() == GoalStatus.PREEMPTED
+
+
 @pytest.fixture
 def full(make_node):
     """A client and a server whose goals wait to be judged."""
