@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.frames import joint_transforms
+from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
@@ -90,9 +90,7 @@ class DiffDrive(ModelPlugin):
             published.append(odometry)
         if parameters.get("publishWheelTF", False):
             self._wheel_joints = [robot.joint_description(name) for name in self.wheel_joints[::-1]]
-            robot.outputs["wheel_tf"] = Output(
-                "/tf", Transforms, self._wheel_frames, namespace=namespace
-            )
+            robot.outputs["wheel_tf"] = frames_output(self._wheel_frames, namespace)
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             robot.outputs["joint_states"] = Output(

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from gazelle.description import Joint, Pose
 from gazelle.engines import Placement
 from gazelle.rotations import conjugate, multiply, rotate
-from gazelle.simulation import LinkHandle, Robot, Transform, Transforms
+from gazelle.simulation import FramePrefix, LinkHandle, Output, Robot, Transform, Transforms
+
+# Of tf2_ros::TransformBroadcaster.
+_QUEUE = 100
 
 Frame = tuple[LinkHandle, Pose]
 """A link, and a frame's pose in it; see ``Robot.frame``."""
@@ -38,6 +41,15 @@ def transform(parent: Frame, child: Frame, parent_name: str, child_name: str) ->
     """The transform between two frames of a robot."""
     seen = relative(placed(parent), placed(child))
     return Transform(parent_name, child_name, seen.position, seen.quaternion)
+
+
+def frames_output(
+    produce: Callable[[], Transforms],
+    namespace: str | None = None,
+    prefix: FramePrefix = FramePrefix.NEAREST,
+) -> Output[Transforms]:
+    """An output on ``/tf``, with the queue of tf's own broadcasters: many publish there at once."""
+    return Output("/tf", Transforms, produce, queue_size=_QUEUE, namespace=namespace, prefix=prefix)
 
 
 def joint_transforms(robot: Robot, joints: Iterable[Joint]) -> Transforms:

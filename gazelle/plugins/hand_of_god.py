@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Parameters
+from gazelle.plugins.frames import frames_output
 from gazelle.plugins.heard_frames import HeardFrames
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, multiply
-from gazelle.simulation import FramePrefix, Input, Output, Robot, Transform, Transforms
+from gazelle.simulation import FramePrefix, Input, Robot, Transform, Transforms
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -41,7 +42,7 @@ class HandOfGod(Publishing):
             "/tf_static", Transforms, self._hear_static, queue_size=100
         )
         actual = f"{self._name}_actual"
-        robot.outputs[actual] = Output("/tf", Transforms, self._tell, prefix=FramePrefix.NONE)
+        robot.outputs[actual] = frames_output(self._tell, prefix=FramePrefix.NONE)
         self._published.append(robot.outputs[actual])
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from gazelle.plugins.frames import frames_output
 from gazelle.rotations import conjugate, from_yaw, rotate, yaw_of
 from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
 from gazelle.simulation.values import SixNumbers
@@ -65,8 +66,8 @@ class OdometryOutputs:
                 topic, Odometry, measure, namespace=namespace
             )
         if framed:
-            self._frame = robot.outputs["odom_tf"] = Output(
-                "/tf", Transforms, lambda: as_transforms(measure()), namespace=namespace
+            self._frame = robot.outputs["odom_tf"] = frames_output(
+                lambda: as_transforms(measure()), namespace
             )
 
     @property

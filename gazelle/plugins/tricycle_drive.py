@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.frames import joint_transforms
+from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
@@ -92,9 +92,7 @@ class TricycleDrive(ModelPlugin):
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         published: list[Published] = [OdometryOutputs(robot, topic, self._measure, namespace)]
         if parameters.get("publishWheelTF", False):
-            robot.outputs["wheel_tf"] = Output(
-                "/tf", Transforms, self._wheel_frames, namespace=namespace
-            )
+            robot.outputs["wheel_tf"] = frames_output(self._wheel_frames, namespace)
             published.append(robot.outputs["wheel_tf"])
         if parameters.get("publishWheelJointState", False):
             states = absolute(namespace, "joint_states")

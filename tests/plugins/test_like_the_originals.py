@@ -60,6 +60,37 @@ def test_a_drives_odometry_tells_the_motion_on_the_ground():
         assert odometry.quaternion[0] == pytest.approx(robot.quaternion[0])
 
 
+@pytest.mark.parametrize(
+    ("model", "queues"),
+    [
+        (
+            base(drive("joint0", "joint1", publishWheelTF="true", publishWheelJointState="true")),
+            {"odom": 1, "odom_tf": 100, "wheel_tf": 100, "joint_states": 1000},
+        ),
+        (
+            block(plugin=plugin("libgazebo_ros_hand_of_god.so", linkName="core")),
+            {"hog_actual": 100, "hog_desired": 100, "hog_static": 100},
+        ),
+        (
+            block(plugin=plugin("libhector_gazebo_ros_gps.so")),
+            {"fix": 10, "fix_velocity": 10},
+        ),
+        (block(plugin=plugin("libhector_gazebo_ros_magnetic.so")), {"magnetic": 1}),
+        (block(plugin=plugin("libhector_gazebo_ros_imu.so")), {"imu": 10, "imu/bias": 10}),
+        (
+            block(plugin=plugin("libgazebo_ros_joint_pose_trajectory.so")),
+            {"set_joint_trajectory": 100},
+        ),
+        (block(RAYS.format(plugin=plugin("libgazebo_ros_laser.so"))), {"world": 1}),
+    ],
+)
+def test_queues_have_the_length_of_the_originals(model, queues):
+    with simulate(model, ground=False) as sim:
+        robot = next(iter(sim.robots.values()))
+        ports = {**robot.inputs, **robot.outputs}
+        assert {name: ports[name].queue_size for name in queues} == queues
+
+
 def test_wheel_frames_hang_on_the_link_that_bears_the_wheel():
     with simulate(base(drive("joint0", "joint1", publishWheelTF="true"))) as sim:
         frames = sim.robots["base"].outputs["wheel_tf"].last.transforms

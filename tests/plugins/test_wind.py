@@ -38,5 +38,7 @@ def test_a_file_with_wind_blows_what_it_enables():
 
 def test_gusts_are_said_to_be_left_out():
     more = "<horizontal><magnitude><time_for_rise>10</time_for_rise></magnitude></horizontal>"
-    with pytest.warns(SimulationWarning, match=r"^string:\d+: the wind.*<horizontal> of WindPlugin.*is left out"):
+    with pytest.warns(
+        SimulationWarning, match=r"^string:\d+: the wind.*<horizontal> of WindPlugin.*is left out"
+    ):
         Simulation(load_string(WORLD.format(more=more))).close()
