@@ -147,7 +147,9 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     text = os.fspath(path)
     if "://" not in text:
         plain = Path(text).expanduser()
-        if plain.exists():
+        # Any folder here may be called "office": only that of a model hides what is bundled.
+        hidden = _is_other_folder(plain) and _bundled(text, reading.resolver, model=model)
+        if plain.exists() and not hidden:
             return entry_file(plain.absolute())
     found = reading.resolver.find(text, Path.cwd()) if "://" in text else None
     found = found or _bundled(text, reading.resolver, model=model)
@@ -158,6 +160,10 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
     reading.resolver.look_around(found)
     return entry_file(found)
+
+
+def _is_other_folder(path: Path) -> bool:
+    return path.is_dir() and not (path / "model.config").exists()
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:

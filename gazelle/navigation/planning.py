@@ -28,19 +28,29 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
         limits: Of the base.
 
     Returns:
-        Points from start to goal [m], shape (n, 2), a cell apart; (0, 2) if there is no way.
+        Points from start to goal [m], shape (n, 2), a cell apart; (0, 2) if there is no way, not
+        even one without clearance.
     """
     grid.include(np.stack((start, goal)))
-    prices = _prices(grid, start, limits)
-    first = _cell(grid, start)
-    last = _nearest_open(grid, prices, start, goal, limits)
-    way = None if last is None else find_way(prices, first, last)
+    way = _way(grid, start, goal, limits, limits.radius + limits.clearance)
+    if way is None:
+        # A map draws walls thicker than they are: where a base got in it may get out.
+        way = _way(grid, start, goal, limits, limits.radius)
     if way is None:
         return np.zeros((0, 2))
     points = grid.centre_of(way)
-    if last == _cell(grid, goal):
+    if way[-1] == _cell(grid, goal):
         points[-1] = goal
     return _smoothed(points)
+
+
+def _way(
+    grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits, room: float
+) -> list[Cell] | None:
+    """The cells of the cheapest way that keeps so far from obstacles [m]; None if there is none."""
+    prices = _prices(grid, start, room)
+    last = _nearest_open(grid, prices, start, goal, limits)
+    return None if last is None else find_way(prices, _cell(grid, start), last)
 
 
 def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:
@@ -50,8 +60,7 @@ def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimi
     return bool(grid.is_near(rest, limits.radius + 0.5 * limits.clearance).any())
 
 
-def _prices(grid: OccupancyGrid, start: Floats, limits: BaseLimits) -> Floats:
-    room = limits.radius + limits.clearance
+def _prices(grid: OccupancyGrid, start: Floats, room: float) -> Floats:
     prices = np.ones(grid.cells.shape)
     for distance, price in reversed(_NEAR):
         prices[grid.near_obstacles(room + distance)] = price

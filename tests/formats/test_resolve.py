@@ -2,7 +2,7 @@
 
 import pytest
 
-from gazelle import ResolveError, formats
+from gazelle import FormatError, ResolveError, formats
 from gazelle.formats import Resolver
 
 
@@ -152,6 +152,18 @@ def test_bundled_files_load_by_the_file_name_too(tmp_path, monkeypatch):
     assert formats.load_model("turtlebot3_burger.urdf.xacro").links
     (tmp_path / "fleet.world").write_text("position ( )")
     assert len(formats.load("fleet.world").stage.robots) == 1
+
+
+def test_a_folder_that_is_no_model_does_not_hide_what_is_bundled(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "own").mkdir()
+    assert formats.load("empty").models
+    with pytest.raises(FormatError, match="has no model.config"):
+        formats.load("own")
+    (tmp_path / "empty" / "model.config").write_text("<model/>", encoding="utf-8")
+    with pytest.raises(FormatError, match="<sdf> element"):
+        formats.load("empty")
 
 
 def test_every_bundled_name_loads_without_a_warning():
