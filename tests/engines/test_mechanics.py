@@ -129,3 +129,18 @@ def test_a_free_rigid_body_keeps_its_angular_momentum_and_energy():
     before = momentum()
     engine.step(2000)
     assert momentum() == pytest.approx(before, abs=0.02 * np.linalg.norm(before))
+
+
+@pytest.mark.parametrize(("ratio", "deepest"), [(10.0, 2e-4), (100.0, 2e-3), (1e5, 4e-3)])
+def test_what_is_heavy_stands_still_on_what_is_light(ratio, deepest):
+    """Two light boxes with one on them that is many times heavier."""
+    heavy = scenes.box("heavy", mass=ratio, pose=Pose(z=0.5))
+    light = [scenes.box(f"light{i}", pose=Pose(z=0.1 + 0.2 * i)) for i in range(2)]
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), *light, heavy))
+    engine.step(2000)
+    heights = []
+    for _ in range(200):
+        engine.step(10)
+        heights.append(engine.model_placement("heavy").position[0, 2])
+    assert 0.5 - min(heights) < deepest
+    assert np.ptp(heights) < 2e-4
