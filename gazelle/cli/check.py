@@ -19,7 +19,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.errors import Error, FormatWarning, GazelleWarning, describe
+from gazelle.errors import Error, FormatWarning, GazelleWarning, PluginWarning, describe
 
 if TYPE_CHECKING:
     from gazelle.formats import Problem
@@ -120,8 +120,9 @@ def _build(file: str, engine: str) -> list[Problem]:
     for warning in caught:
         # What the files hold was reported by `gazelle.formats.check` already.
         ours = issubclass(warning.category, GazelleWarning)
+        failed = issubclass(warning.category, PluginWarning)
         if ours and not issubclass(warning.category, FormatWarning):
-            found.append(Problem("warning", str(warning.message)))
+            found.append(Problem("error" if failed else "warning", str(warning.message)))
     return found
 
 

@@ -20,7 +20,7 @@ class Problem:
     """One finding.
 
     Attributes:
-        severity: An error stops the load; a warning does not.
+        severity: An error stops the load, or a plugin; a warning does not.
         message: What is wrong.
         file: File it is in.
         line: Line in that file, counted from 1.

@@ -266,8 +266,8 @@ class Ports:
         self.inputs: dict[str, Any] = Table()
         self.outputs: dict[str, Output[Any]] = Table()
         self.services: dict[str, Service[Any, Any]] = Table()
-        self.settings: dict[str, Setting[Any]] = {}
-        self.tunings: dict[str, Tuning] = {}
+        self.settings: dict[str, Setting[Any]] = Table()
+        self.tunings: dict[str, Tuning] = Table()
 
     def mark(self) -> tuple[Mapping[str, Any], ...]:
         """What there is now, for ``back_to``."""

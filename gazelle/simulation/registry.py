@@ -12,7 +12,7 @@ import functools
 import importlib
 import warnings
 from importlib.metadata import EntryPoint, entry_points
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from gazelle import description
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
@@ -84,13 +84,24 @@ def _import(plugin: description.Plugin) -> type[Plugin]:
             hint="put its folder on PYTHONPATH, or give it as 'gazelle run --plugins DIR'",
         ) from error
     found = getattr(module, attribute, None)
-    if not (isinstance(found, type) and issubclass(found, Plugin)):
+    if found is None:
+        known = [each for each, value in vars(module).items() if _is_plugin(value)]
+        raise SimulationError(
+            f"the module '{name}' has no '{attribute}'",
+            source=plugin.source,
+            hint=did_you_mean(attribute, known),
+        )
+    if not _is_plugin(found):
         raise SimulationError(
             f"'{plugin.filename}' is no plugin class",
             source=plugin.source,
             hint="subclass gazelle.simulation's WorldPlugin, ModelPlugin or SensorPlugin",
         )
-    return found
+    return cast("type[Plugin]", found)
+
+
+def _is_plugin(value: object) -> bool:
+    return isinstance(value, type) and issubclass(value, Plugin)
 
 
 def _load(point: EntryPoint) -> type[Plugin]:

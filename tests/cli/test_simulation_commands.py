@@ -86,6 +86,17 @@ def test_check_names_file_and_line_and_fails(cli, tmp_path):
     assert out.endswith("bad.urdf: 1 error, 0 warnings\n")
 
 
+def test_check_fails_for_a_plugin_that_fails(cli, tmp_path):
+    file = tmp_path / "wrong.world"
+    file.write_text(
+        '<sdf version="1.6"><world name="w"><model name="m"><link name="l"/>\n'
+        '<plugin name="p" filename="libgazebo_ros_p3d.so"/></model></world></sdf>'
+    )
+    code, out, _ = cli("check", file)
+    assert code == 1
+    assert re.search(r"error: .*wrong\.world:2: plugin 'p' of 'm' failed .*<bodyName>", out)
+
+
 def test_check_warns_of_an_unsupported_plugin_without_failing(cli, tmp_path):
     file = tmp_path / "odd.world"
     file.write_text(

@@ -94,6 +94,12 @@ def test_a_module_that_cannot_be_had_is_named(write, text):
         simulation(model="mine:Mine").close()
 
 
+def test_a_class_that_a_module_lacks_has_the_nearest_named(write):
+    write("class Hop(ModelPlugin):\n    pass\n")
+    with pytest.warns(PluginWarning, match="module 'mine' has no 'Hup'; did you mean 'Hop'"):
+        simulation(model="mine:Hup").close()
+
+
 @pytest.mark.parametrize(
     ("place", "kind", "wanted"),
     [
