@@ -159,7 +159,7 @@ def test_a_folder_that_is_no_model_does_not_hide_what_is_bundled(tmp_path, monke
     (tmp_path / "empty").mkdir()
     (tmp_path / "own").mkdir()
     assert formats.load("empty").models
-    with pytest.raises(FormatError, match="has no model.config"):
+    with pytest.raises(FormatError, match=r"has no model\.config"):
         formats.load("own")
     (tmp_path / "empty" / "model.config").write_text("<model/>", encoding="utf-8")
     with pytest.raises(FormatError, match="<sdf> element"):
