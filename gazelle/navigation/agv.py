@@ -19,6 +19,8 @@ from gazelle.navigation.pid import Pid
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
+_STANDS = 0.25  # of a tolerance, between two updates
+
 
 class Outcome(IntEnum):
     """How a robot's last motion stands."""
@@ -91,6 +93,7 @@ class Motions:
         self._limit = np.zeros(count)
         self._start = np.full(count, math.nan)
         self._last = math.nan
+        self._before = np.full((count, 3), math.nan)  # poses at the last update
         most = self.limits.turn_most
         self._pid = Pid(
             self.limits.turn_gain,
@@ -176,13 +179,29 @@ class Motions:
         self._start[fresh] = time
         self.taken[rows] = time - self._start[rows]
         straight = self._straight[rows]
-        self._turn(rows[~straight], pose, dt, command)
-        self._go(rows[straight], pose, dt, command)
+        still = self._still(pose)
+        self._turn(rows[~straight], pose, dt, command, still)
+        self._go(rows[straight], pose, dt, command, still)
+        self._before[:] = pose
         late = rows[self.active[rows] & (self.taken[rows] >= self._limit[rows])]
         self.outcome[late], command[late] = Outcome.TIMED_OUT, 0.0
         return command
 
-    def _turn(self, rows: Rows, pose: Floats, dt: float, command: Floats) -> None:
+    def _still(self, pose: Floats) -> NDArray[np.bool_]:
+        """Who hardly moved since the last update, shape (count,).
+
+        Only who stands has arrived: where time runs faster than commands travel, a robot may
+        be seen at the goal in passing.
+        """
+        moved = np.abs(pose - self._before)
+        moved[:, 2] = np.abs(wrapped(pose[:, 2] - self._before[:, 2]))
+        least = self.limits.distance, self.limits.distance, self.limits.angle
+        still: NDArray[np.bool_] = (moved < _STANDS * np.array(least)).all(axis=1)
+        return still
+
+    def _turn(
+        self, rows: Rows, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
+    ) -> None:
         heading = pose[rows, 2]
         relative = self._relative[rows]
         error = wrapped(self._heading[rows] - heading)
@@ -194,16 +213,18 @@ class Motions:
             by = rows[relative]
             self._heading[by] -= done[relative]
             error[relative] = self._heading[by]
-        self._finish(rows[np.abs(error) <= self.limits.angle])
+        self._finish(rows[(np.abs(error) <= self.limits.angle) & still[rows]])
         left = np.abs(error) > self.limits.angle
         command[rows[left], 1] = self._pid.update(error[left], dt, rows[left])
 
-    def _go(self, rows: Rows, pose: Floats, dt: float, command: Floats) -> None:
+    def _go(
+        self, rows: Rows, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
+    ) -> None:
         limits = self.limits
         way = self._goal[rows] - pose[rows, :2]
         distance = np.hypot(way[:, 0], way[:, 1])
         there = distance <= limits.distance
-        self._finish(rows[there])
+        self._finish(rows[there & still[rows]])
         error = wrapped(np.arctan2(way[:, 1], way[:, 0]) - pose[rows, 2])
         # Once on its way a robot that has passed the point backs up and does not turn round.
         on_way = self._aligned[rows] & (distance < 0.25)

@@ -87,6 +87,23 @@ def test_old_poses_do_no_harm():
     assert np.hypot(*(end[:, :2] - [[3.0, 1.0], [-2.0, 2.0], [0.0, -4.0]]).T).max() < 0.06
 
 
+def test_who_is_seen_at_the_goal_in_passing_has_not_arrived():
+    motions = Motions(2)
+    motions.move_l([1.0, 1.0], 0.0)
+    motions.update([[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 0.0)
+    command = motions.update([[0.99, 0.0, 0.0], [0.99, 0.0, 0.0]], 1.0)
+    assert motions.active.all()
+    assert not command.any()
+    command = motions.update([[1.2, 0.0, 0.0], [0.99, 0.0, 0.0]], 1.1)
+    assert motions.outcome.tolist() == [Outcome.MOVING, Outcome.REACHED]
+    assert command[0, 0] < 0.0
+    motions.move_ofsc(0.5, [1])
+    motions.update([[1.2, 0.0, 0.0], [0.99, 0.0, 0.5]], 1.2)
+    assert motions.active[1]
+    motions.update([[1.2, 0.0, 0.0], [0.99, 0.0, 0.5]], 1.3)
+    assert motions.outcome[1] == Outcome.REACHED
+
+
 def test_a_robot_that_does_not_get_there_times_out_and_stands():
     motions = Motions(2)
     motions.move_l(5.0, 0.0, [1], timeout=2.0)
