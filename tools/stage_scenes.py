@@ -331,7 +331,7 @@ def bumpers(stage: Stage, folder: Path) -> Iterator[Row]:
         (theirs,) = heard.senses["bumps", f"r{i}"]
         ours = heard.sim.bumps(f"r{i}")
         apart_from += sum((a == "-") != (b is None) for a, b in zip(theirs, ours, strict=True))
-    why = "strips within a body meet no outline in Stage"
+    why = "strips within a body meet no outline in Stage, those beside one only in its cells"
     yield share("bumpers", "strips that touch for one only", apart_from, 4 * len(robots), why)
 
 
