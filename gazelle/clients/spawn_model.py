@@ -62,9 +62,9 @@ class _Spawner:
     def spawn(self) -> bool:
         """Do what the command line says; False if Gazebo does not."""
         options = self._options
-        text = _read(self._node, options)
         if options.wait:
             self._wait_for(options.wait)
+        text = _read(self._node, options)
         kind = "urdf" if options.urdf else "sdf"
         service = f"spawn_{kind}_model"
         self._wait_for_service(f"{self._gazebo}/{service}")

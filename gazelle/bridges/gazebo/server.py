@@ -5,26 +5,33 @@ from __future__ import annotations
 import argparse
 import os
 import threading
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from gazelle import assets
 from gazelle.bridges.serving import RosDoor, refuse_twin
-from gazelle.errors import ResolveError
+from gazelle.errors import ResolveError, SimulationWarning
 from gazelle.ros import names
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
 
-# Options that name a value, and those that do not, which change nothing here.
-_PASSED_OVER = (
-    *("-e", "--physics", "-g", "--gui-plugin", "-o", "--profile"),
-    *("--record_path", "--record_encoding", "--record_period", "--record_filter"),
-)
-_IGNORED = (
-    *("-r", "--record", "--record_resources", "--verbose", "--lockstep", "--minimal_comms"),
-    *("-q", "--quiet", "--pose"),
-)
+# Options that change nothing here, with a value and without.
+_PASSED_OVER = ("-g", "--gui-plugin", "-o", "--profile")
+_IGNORED = ("--verbose", "--lockstep", "--minimal_comms", "-q", "--quiet", "--pose")
+# Those that ask for what is not here: one line says so.
+_NO_RECORDING = "the simulator writes no log: 'gazelle bag record -a' records topics"
+_NOT_HERE = {
+    **dict.fromkeys(("-r", "--record", "--record_resources"), _NO_RECORDING),
+    **dict.fromkeys(("--record_path", "--record_encoding"), _NO_RECORDING),
+    **dict.fromkeys(("--record_period", "--record_filter"), _NO_RECORDING),
+    **dict.fromkeys(("-p", "--play"), "logs of Gazebo are not played"),
+    "--initial_sim_time": "time begins at zero",
+}
+_WITHOUT_VALUE = ("-r", "--record", "--record_resources")
+_ENGINES = ("ode", "mujoco")  # worlds for ODE are what MuJoCo is made to resemble
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -77,7 +84,23 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(flag, action="store_true", dest="ignored")
     for flag in _PASSED_OVER:
         parser.add_argument(flag, action="append", dest="passed_over")
-    return parser.parse_args(list(arguments))
+    parser.add_argument("-e", "--physics", default="ode")
+    for flag, notice in _NOT_HERE.items():
+        how: dict[str, Any] = {} if flag in _WITHOUT_VALUE else {"type": _noticed(notice)}
+        action = "append_const" if flag in _WITHOUT_VALUE else "append"
+        how |= {"const": notice} if flag in _WITHOUT_VALUE else {}
+        parser.add_argument(flag, action=action, dest="notices", default=[], **how)
+    options = parser.parse_args(list(arguments))
+    if options.physics not in _ENGINES:
+        options.notices.append(f"there is no physics '{options.physics}': MuJoCo computes it")
+    for notice in dict.fromkeys(options.notices):
+        warnings.warn(notice, SimulationWarning, stacklevel=2)
+    return options
+
+
+def _noticed(notice: str) -> Callable[[str], str]:
+    """Takes any value, and gives the notice in its place."""
+    return lambda _value: notice
 
 
 def find_world(name: str) -> str:

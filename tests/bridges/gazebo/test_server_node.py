@@ -14,7 +14,7 @@ from ros.graph import until
 from gazelle.bridges import refuse_twin
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.bridges.gazebo.server import main as serve
-from gazelle.errors import ResolveError, RosError
+from gazelle.errors import ResolveError, RosError, SimulationWarning
 from gazelle.ros import Master, Node, load_message
 from gazelle.ros.master.proxy import MasterProxy
 
@@ -61,6 +61,18 @@ def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
 
 def test_it_ends_by_itself_after_so_many_steps(master, world):
     assert serve(["--iters", "20", str(world)]) == 0
+
+
+def test_a_flag_for_what_is_not_here_is_one_line(master, world):
+    flags = "-r --record_path /nowhere --play log -e bullet --initial_sim_time 3 --verbose"
+    with pytest.warns(SimulationWarning) as caught:
+        assert serve([*flags.split(), "--iters", "1", str(world)]) == 0
+    assert [str(each.message).partition(":")[0] for each in caught] == [
+        "the simulator writes no log",
+        "logs of Gazebo are not played",
+        "time begins at zero",
+        "there is no physics 'bullet'",
+    ]
 
 
 def test_worlds_are_found_below_gazebos_resource_path(world, monkeypatch):
