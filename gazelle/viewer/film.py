@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
@@ -39,7 +40,8 @@ def take_plan(
         The picture, shape (height, width, 3).
 
     Raises:
-        Error: The simulation is not in the plane, or the suffix is not a picture's.
+        Error: The simulation is not in the plane, the suffix is not a picture's, or there is no
+            such folder.
     """
     file = _checked(path, _STILLS)
     picture = TopView(simulation, world=world, size=size, scans=scans).look()
@@ -125,10 +127,11 @@ def _write_mp4(file: Path, pictures: Iterable[Picture], rate: float) -> None:
     with subprocess.Popen(  # noqa: S603  # the program found, and arguments made here
         command, stdin=subprocess.PIPE, stderr=subprocess.PIPE
     ) as process:
-        if process.stdin is not None:
-            process.stdin.write(first.tobytes())
-            for picture in stream:
-                process.stdin.write(picture.tobytes())
+        with contextlib.suppress(BrokenPipeError):  # it ended early, and says why below
+            if process.stdin is not None:
+                process.stdin.write(first.tobytes())
+                for picture in stream:
+                    process.stdin.write(picture.tobytes())
         _, said = process.communicate()
     if process.returncode != 0:
         raise Error(
@@ -143,4 +146,6 @@ def _checked(path: str | Path, suffixes: tuple[str, ...]) -> Path:
             f"'{file.name}' does not end with {' or '.join(suffixes)}",
             hint=did_you_mean(file.suffix, suffixes),
         )
+    if not file.absolute().parent.is_dir():
+        raise Error(f"there is no folder '{file.parent}' to write '{file.name}' to")
     return file

@@ -72,6 +72,15 @@ def test_without_ffmpeg_an_mp4_is_refused_clearly(room, tmp_path, monkeypatch):
     assert ".gif" in caught.value.hint
 
 
+def test_what_ffmpeg_says_is_told(room, tmp_path, monkeypatch):
+    program = tmp_path / "ffmpeg"
+    program.write_text("#!/bin/sh\necho no such codec >&2\nexit 1\n", encoding="utf-8")
+    program.chmod(0o755)
+    monkeypatch.setattr(shutil, "which", lambda _program: str(program))
+    with pytest.raises(Error, match="no such codec"):
+        film_plan(room, tmp_path / "room.mp4", 2.0)
+
+
 def test_worlds_of_the_planar_engine_are_drawn_too_and_keep_their_random_numbers():
     with gazelle.Simulation("turtlebot3_stage_4", engine="planar", nworld=2) as simulation:
         robot = simulation.spawn("turtlebot3_burger", pose=gazelle.Pose(x=-0.7))
@@ -93,6 +102,7 @@ def test_what_cannot_be_drawn_is_refused(room, tmp_path):
         TopView(simulation)
     for attempt in (
         lambda: take_plan(room, tmp_path / "room.gif"),
+        lambda: take_plan(room, tmp_path / "nowhere" / "room.png"),
         lambda: film_plan(room, tmp_path / "room.png", 1.0),
         lambda: film_plan(room, tmp_path / "room.gif", 0.0),
         lambda: TopView(room, world=1),
