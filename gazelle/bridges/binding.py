@@ -26,6 +26,7 @@ from gazelle.simulation import (
     Tuning,
     TwistInput,
 )
+from gazelle.simulation.blame import warn_of_fault
 
 
 class Binding:
@@ -63,9 +64,15 @@ class Binding:
 
     def refresh(self) -> None:
         """Publish what is true now to all who listen."""
-        for output in self._outputs:
-            if not output.event:
+        for output in tuple(self._outputs):
+            if output.event:
+                continue
+            try:
                 output.publish()
+            except Exception as error:  # noqa: BLE001  a plugin's fault is not the graph's
+                self._outputs.remove(output)
+                name = f"the topic '{output.topic}'"
+                warn_of_fault(output, name, "to tell what is true now", error)
 
     def close(self) -> None:
         """Take the topics and services off the graph."""

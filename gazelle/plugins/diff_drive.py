@@ -63,6 +63,12 @@ class DiffDrive(ModelPlugin):
                 "wheelSeparation and wheelDiameter must be positive", source=parameters.source
             )
         self.update_rate = parameters.get("updateRate", 100.0)
+        if "left_joint" in parameters and "leftJoint" not in parameters:
+            raise SimulationError(
+                "it has the tags of ROS 2 (<left_joint>)",
+                source=parameters.source,
+                hint="ROS 1's are <leftJoint>, <wheelSeparation> and so on",
+            )
         torque = parameters.get("wheelTorque", 5.0)
         names = [parameters.get("leftJoint", "left_joint")]
         names.append(parameters.get("rightJoint", "right_joint"))

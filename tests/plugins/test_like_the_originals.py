@@ -6,6 +6,7 @@ from models import base, block, plugin, simulate
 from test_state_plugins import ARM, RAYS
 
 from gazelle import Pose, formats
+from gazelle.errors import PluginWarning
 
 SIZES = {"wheelSeparation": "0.4", "wheelDiameter": "0.2", "wheelTorque": "20"}
 
@@ -36,6 +37,12 @@ def test_a_base_may_have_a_drive_for_each_pair_of_wheels():
         sim.reset()
         sim.run(seconds=0.2)
         assert abs(robot.joints["joint0"].velocity) < 0.01
+
+
+def test_a_drive_with_the_tags_of_ros_2_says_so():
+    tags = plugin("libgazebo_ros_diff_drive.so", left_joint="joint0", right_joint="joint1")
+    with pytest.raises(PluginWarning, match=r"has the tags of ROS 2.*<leftJoint>"):
+        simulate(base(tags))
 
 
 def test_joints_may_be_told_by_several_plugins_on_one_topic():

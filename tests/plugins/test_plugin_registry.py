@@ -1,11 +1,14 @@
 """Plugins by file name."""
 
+import argparse
 import dataclasses
 import warnings
+from importlib.metadata import EntryPoint
 
 import pytest
 import scenes
 
+from gazelle.cli import plugins
 from gazelle.description import Parameters, Plugin, Source
 from gazelle.errors import SimulationWarning
 from gazelle.simulation import ModelPlugin, Simulation, register, registry
@@ -49,3 +52,13 @@ def test_a_program_can_register_its_own():
 
 def test_the_bundled_ones_are_found():
     assert {"libgazebo_ros_diff_drive.so", "libgazebo_ros_laser.so"} <= set(registry.names())
+
+
+def test_a_broken_plugin_of_another_package_hides_none_in_the_list(monkeypatch, capsys):
+    broken = EntryPoint("aaa_broken", "nowhere_at_all:X", "gazelle.plugins")
+    known = {**registry._entry_points(), "aaa_broken": broken}
+    monkeypatch.setattr(registry, "_entry_points", lambda: known)
+    assert plugins.run(argparse.Namespace()) == 0
+    listed = " ".join(capsys.readouterr().out.split())
+    assert "libaaa_broken.so cannot be had: No module named 'nowhere_at_all'" in listed
+    assert "libgazebo_ros_p3d.so" in listed

@@ -1,5 +1,6 @@
 """Plugins of users on a graph: any message, any service, and what cannot be there."""
 
+import warnings
 from types import SimpleNamespace
 
 import pytest
@@ -74,6 +75,46 @@ def test_what_an_input_raises_ends_neither_the_simulation_nor_the_topic():
         publisher = send(graph, "/cube/word", "std_msgs/String", data="fail")
         publisher.publish(String(data="again"))
         wait(lambda: any(each.data == "again" for each in heard))
+
+
+class Tired(ModelPlugin):
+    """Tells its height until it is told to stop."""
+
+    update_rate = 50.0
+    tired = False
+
+    def load(self, robot, parameters):
+        robot.inputs["stop"] = Input("/stop", String, self.stop)
+        self.height = robot.outputs["height"] = Output("/height", float, self.tell)
+
+    def stop(self, message, worlds):
+        self.tired = True
+
+    def tell(self):
+        return 1.0 / (not self.tired)
+
+    def on_update(self, time):
+        self.height.publish()
+
+
+register("libtired.so", Tired)
+
+
+def test_a_reset_does_not_wait_for_a_topic_that_failed():
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with running(block(plugin='<plugin name="p" filename="libtired.so"/>')) as graph:
+            first(graph, "/height", "std_msgs/Float64")
+            send(graph, "/stop", "std_msgs/String")
+            wait(lambda: told)
+            for _ in range(2):
+                graph.client.call("reset_simulation", "std_srvs/Empty")
+            wait(lambda: graph.sim.time > 0.1)
+    texts = [str(each.message) for each in told]
+    assert [text.partition(" failed")[0] for text in texts] == [
+        "plugin 'p' of 'cube'",
+        "the topic '/height'",
+    ]
 
 
 class Odd(ModelPlugin):
