@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from gazelle import Error
 from gazelle.clients import AGVFleet
 from gazelle.navigation import Limits
 from gazelle.ros import Node, net
@@ -95,6 +96,8 @@ def world(rate: float) -> Iterator[str]:
     from gazelle.simulation.stage import StageSimulation
 
     with Master(port=0) as master, StageSimulation(assets.world("fleet")) as simulation:
+        stalls: set[int] = set()
+        simulation.subscribe(lambda: stalls.update(np.flatnonzero(simulation.stalled[0]).tolist()))
         with serve_stage(simulation, master.uri, rate=rate) as server:
             thread = threading.Thread(target=server.run, args=(1e9,))
             thread.start()
@@ -103,8 +106,13 @@ def world(rate: float) -> Iterator[str]:
             finally:
                 server.stop()
                 thread.join()
-        print(f"AGVs that stalled at the end: {int(simulation.stalled.sum())}")
+    if stalls:
+        raise SystemExit(f"AGVs that bumped into something on their way: {sorted(stalls)}")
+    print("no AGV bumped into anything at any step")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except Error as error:
+        raise SystemExit(f"drive_fleet: {error}") from None

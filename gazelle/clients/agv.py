@@ -18,12 +18,14 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.clients.agv_poses import PoseSource, pose_source
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
+from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
 from gazelle.ros import Node, load_message
 
 Floats = NDArray[np.float64]
 
 _PATIENCE_S = 30.0  # of wall time without a new pose
+_MOST_NAMES = 5  # in one message
 
 
 class AGVFleet:
@@ -56,6 +58,7 @@ class AGVFleet:
         rate: float = 10.0,
     ) -> None:
         names = [f"/{space.strip('/')}" if space.strip("/") else "" for space in spaces]
+        self._node, self._names = node, names
         self.motions = Motions(len(names), limits)
         self._lock = threading.RLock()
         self._ended = threading.Condition(self._lock)
@@ -77,10 +80,29 @@ class AGVFleet:
         end = time.monotonic() + timeout
         while not (self._source.known and all(p.num_connections for p in self._publishers)):
             if time.monotonic() > end:
-                what = "cmd_vel" if self._source.known else self._source.name
-                raise ClientError(f"not all robots have a {what} within {timeout:g} s")
+                raise self._absent(timeout)
             time.sleep(0.01)
         return self
+
+    def _absent(self, timeout: float) -> ClientError:
+        """Who is missed, and who is there."""
+        blind = not self._source.known
+        if blind:
+            rows = [bool(np.isnan(pose).any()) for pose in self._source.latest()[0]]
+        else:
+            rows = [not publisher.num_connections for publisher in self._publishers]
+        missed = [name for name, missing in zip(self._names, rows, strict=True) if missing]
+        there = {topic.removesuffix("/cmd_vel") for topic in self._drives()} - set(missed)
+        return ClientError(
+            f"{_list_of(missed)} has no {self._source.name if blind else 'cmd_vel'} within "
+            f"{timeout:g} s of wall time",
+            hint=did_you_mean(missed[0], there) if there else "is the simulation running?",
+        )
+
+    def _drives(self) -> list[str]:
+        """What somebody else listens to as to a velocity."""
+        _, listeners, _ = self._node.master.system_state()
+        return [topic for topic in listeners if topic.endswith("/cmd_vel")]
 
     @property
     def poses(self) -> Floats:
@@ -161,9 +183,9 @@ class AGVFleet:
             (Outcome.TIMED_OUT, "did not get there in time"),
             (Outcome.CANCELLED, "was cancelled"),
         ):
-            found = np.asarray(rows)[outcome == code]
-            if len(found):
-                raise ClientError(f"the motion of AGV {', '.join(map(str, found))} {text}")
+            found = [self._names[row] for row in np.asarray(rows)[outcome == code].tolist()]
+            if found:
+                raise ClientError(f"the motion of {_list_of(found)} {text}")
         return taken
 
     def _run(self) -> None:
@@ -187,6 +209,12 @@ class AGVFleet:
             self._publishers[robot].publish(twist_message((linear, 0.0, 0.0), (0.0, 0.0, angular)))
         with self._ended:
             self._ended.notify_all()
+
+
+def _list_of(names: Sequence[str]) -> str:
+    """The first few names."""
+    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    return ", ".join(name or "the AGV" for name in names[:_MOST_NAMES]) + more
 
 
 class AGV:
