@@ -49,9 +49,9 @@ class Run:
 
 def rival(stage: Stage, largest: int, threads: int, goals: Goals) -> None:
     """Print how all do, on files that differ in nothing but ``quit_time``."""
-    print(f"\nthe same files in turns, beside {stage.program}")
-    print("real-time factors of a processor second: Stage, StageSimulation with the same")
-    print("controllers, and a Fleet that roams by itself")
+    print("\nthe same files in turns in Stage itself and here, each on one processor;")
+    print("times real time of Stage, of StageSimulation with the same controllers, and of")
+    print("a Fleet that roams by itself")
     print(
         f"{'robots':>7}  {'sensor':<7}{'Stage':>8}{'load s':>7}{'MB':>7}"
         f"{'StageSim':>10}{'load s':>7}{'times':>7}{'Fleet':>10}{'times':>7}"
