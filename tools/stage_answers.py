@@ -20,6 +20,21 @@ sys.path[:0] = [str(ROOT / "benchmarks"), str(ROOT / "tools")]
 AT = (1, 20, 60)  # steps after which poses count
 HEIGHTS = ((0.0, 0.3, 0.3, 1.0), (0.0, 0.3, 0.0, 0.0), (0.0, 0.3, 0.31, 1.0), (0.2, 0.1, 0.0, 0.1))
 
+NESTED = (
+    "model ( pose [.4 0 0 30] size [.3 .2 .2] )",
+    "model ( pose [.4 0 0 30] size [.3 .2 .2] obstacle_return 0 )",
+    "model ( pose [.4 0 -.2 9] size [.3 .2 .2] model ( pose [.3 .1 0 0] size [.1 .4 .1] ) )",
+    "obstacle_return 0 model ( pose [.4 0 0 30] size [.3 .2 .2] )",
+    "origin [.2 .1 0 30]",
+    "noblocks 1",
+    (
+        "block ( points 4 point[0] [0 0] point[1] [3 0] point[2] [3 1] point[3] [0 2] z [0 1] )"
+        " block ( points 3 point[0] [4 0] point[1] [5 0] point[2] [4 1] z [0 .5] )"
+    ),
+    "gripper ( pose [.3 0 -.3 0] )",
+    "position ( pose [.5 0 -.3 0] size [.3 .4 .3] )",
+)
+
 
 def main() -> None:
     """Run all of them."""
@@ -69,6 +84,11 @@ def scenes() -> Iterator[tuple[str, list[Any], str]]:
         text = f"size [.4 .4 {high}] origin [0 0 {low} 0]"
         robots.append(Robot(text, (0.0, 3.0 * i, 0.0), (0.5, 0.0, 0.0)))
     yield "heights", robots, "\n".join(more)
+    robots, more = [], []
+    for i, text in enumerate(NESTED):
+        more.append(f"model ( size [.3 4 1] pose [1.93 {12 * i} 0 0] )")
+        robots.append(Robot(f"size [.4 .4 .3] {text}", (0.0, 12.0 * i, 3.0), (0.5, 0.0, 0.02)))
+    yield "bodies on bodies", robots, "\n".join(more)
     for i, kind in enumerate(("", "range_max 4 range_max_id 2", "fov 60", "range_min 3")):
         rng = np.random.default_rng(30 + i)
         yield f"fiducials {kind}", [anywhere(rng, f"fiducial ( {kind} )")], crowd(i)

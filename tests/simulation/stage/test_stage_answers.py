@@ -70,6 +70,15 @@ def test_robots_stall_at_the_heights_that_stall_them_in_stage(run):
     assert apart(ours, stage)[..., :2].max() < 0.05 + 1e-6  # a step
 
 
+@pytest.mark.filterwarnings("ignore::gazelle.errors.SimulationWarning")  # one is on another
+def test_what_is_on_robots_bumps_as_in_stage(run):
+    ours, _ = run(SCENES["bodies on bodies"])
+    stage = theirs(SCENES["bodies on bodies"])
+    assert stage[-1, :, 3].sum() == len(stage[-1]) - 1  # all but the one without a body
+    assert (ours[..., 3] == stage[..., 3]).all()
+    assert apart(ours, stage)[..., :3].max() < 2e-8
+
+
 @pytest.mark.parametrize("name", [name for name in SCENES if name.startswith("fiducials")])
 def test_fiducial_finders_see_what_they_see_in_stage(run, name):
     _, sim = run(SCENES[name])
