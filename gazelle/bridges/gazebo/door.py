@@ -197,7 +197,7 @@ class GazeboDoor:
 
     def _offer_empty(self, world: WorldServices) -> None:
         for name, handler in {
-            "pause_physics": world.pause,
+            "pause_physics": self._then_flush(world.pause),
             "unpause_physics": world.unpause,
             "reset_simulation": world.reset_simulation,
             "reset_world": world.reset_world,
@@ -218,6 +218,16 @@ class GazeboDoor:
         def work(request: Any) -> Any:
             answer = handler(request)
             self._publish()
+            return answer
+
+        return work
+
+    def _then_flush(self, handler: Handler) -> Handler:
+        """The same; the last ticks of the clock leave before the answer does."""
+
+        def work(request: Any) -> Any:
+            answer = handler(request)
+            self._flush()
             return answer
 
         return work

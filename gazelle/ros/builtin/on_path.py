@@ -45,6 +45,9 @@ _PROGRAM = """#!/bin/sh
 import runpy
 import sys
 
+from gazelle.ros.process_name import call_process
+
+call_process({name!r})
 sys.argv[1:1] = {words!r}
 runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
 """
@@ -89,14 +92,15 @@ def _files() -> dict[str, str]:
     python = _quoted(sys.executable)
     files = {name: _PYTHON.format(python=python) for name in _PYTHONS}
     for name, words in _COMMANDS.items():
-        files[name] = _program("gazelle.cli.main", words)
+        files[name] = _program(name, "gazelle.cli.main", words)
     for name, words in _NODES.items():
-        files[name] = _program("gazelle.ros.builtin.start", words)
+        files[name] = _program(name, "gazelle.ros.builtin.start", words)
     return files | {f"{_SITE}/sitecustomize.py": _CUSTOMIZE}
 
 
-def _program(module: str, words: tuple[str, ...]) -> str:
-    return _PROGRAM.format(python=_quoted(sys.executable), words=list(words), module=module)
+def _program(name: str, module: str, words: tuple[str, ...]) -> str:
+    python = _quoted(sys.executable)
+    return _PROGRAM.format(python=python, name=name, words=list(words), module=module)
 
 
 def _quoted(path: str) -> str:

@@ -8,11 +8,13 @@ from typing import TextIO
 
 from gazelle.errors import Error, GazelleWarning
 from gazelle.ros.builtin.registry import main_of
+from gazelle.ros.process_name import call_process
 
 
 def main(arguments: list[str]) -> int:
     """Run the node that the first two arguments name; returns the exit code."""
     package, kind, *rest = arguments
+    call_process(kind)
     warnings.showwarning = _show_warning
     try:
         return main_of(package, kind)(rest)

@@ -15,23 +15,37 @@ SCRIPT = """
 import sys
 import rospy, tf2_ros
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import JointState, LaserScan
 from std_srvs.srv import Empty
 rospy.init_node("watcher")
 buffer = tf2_ros.Buffer(); listener = tf2_ros.TransformListener(buffer)
 reset = rospy.ServiceProxy("/gazebo/reset_simulation", Empty, persistent=True)
-first = []
-rospy.Subscriber("/odom", Odometry, lambda m: first.append(m))
+KINDS = {"/odom": Odometry, "/scan": LaserScan, "/joint_states": JointState}
+first = {topic: [] for topic in KINDS}
+for topic, kind in KINDS.items():
+    rospy.Subscriber(topic, kind, first[topic].append)
 rospy.wait_for_service("/gazebo/reset_simulation")
-rospy.wait_for_message("/odom", Odometry)
-for number in range(int(sys.argv[1])):
-    del first[:]
-    reset()
-    while not any(m.header.stamp.is_zero() for m in first):
+for topic, kind in KINDS.items():
+    rospy.wait_for_message(topic, kind)
+def at_zero(topic):
+    while True:
         assert not rospy.is_shutdown()
-    start = [m for m in first if m.header.stamp.is_zero()][0]
-    assert abs(start.pose.pose.position.x) < 1e-6, start
-    assert abs(start.twist.twist.linear.x) < 1e-6, start
+        for message in list(first[topic]):
+            if message.header.stamp.is_zero():
+                return message
+def observed():
+    odom, scan, joints = (at_zero(topic) for topic in KINDS)
+    place, speed = odom.pose.pose.position, odom.twist.twist.linear
+    return (place.x, place.y, speed.x), tuple(scan.ranges), tuple(joints.position)
+initial = None
+for number in range(int(sys.argv[1])):
+    for messages in first.values():
+        del messages[:]
+    reset()
+    now = observed()
+    initial = initial or now
+    assert max(abs(value) for value in now[0]) < 1e-6, now[0]
+    assert now == initial, (number, now, initial)
 seen = buffer.lookup_transform("odom", "wheel_left_link", rospy.Time(0), rospy.Duration(5))
 print("resets", int(sys.argv[1]), seen.child_frame_id, flush=True)
 """

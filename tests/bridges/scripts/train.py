@@ -73,6 +73,7 @@ if __name__ == "__main__":
         for _ in range(3):
             state, reward, done, _ = env.step(random.randrange(3))
             total += reward
+        rospy.rostime.wallsleep(0.1)  # ticks that are on their way
         before = rospy.get_time()
         rospy.rostime.wallsleep(0.2)
         print("reward", total, "done", done, "paused", rospy.get_time() == before)

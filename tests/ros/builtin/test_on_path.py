@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -62,3 +63,22 @@ def test_without_a_place_to_write_nothing_is_changed(tmp_path, monkeypatch):
     env = {"PATH": "/bin"}
     assert offer(env) is None
     assert env == {"PATH": "/bin"}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there is no /proc")
+def test_what_runs_can_be_ended_by_its_name(surroundings, tmp_path):
+    env = surroundings | {"ROS_MASTER_URI": "http://127.0.0.1:9"}
+    for command, name in (
+        (["rosmaster", "-p", "0"], "rosmaster"),
+        ([sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "spawn_model"], "spawn"),
+    ):
+        arguments = [] if name == "rosmaster" else ["-sdf", "-stdin", "-model", "m", "-wait", "m"]
+        process = subprocess.Popen(
+            [*command, *arguments], env=env, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL
+        )
+        seen = ""
+        while process.poll() is None and not seen.startswith(name):
+            seen = Path(f"/proc/{process.pid}/comm").read_text(encoding="utf-8")
+        process.kill()
+        process.communicate()
+        assert seen.startswith(name)
