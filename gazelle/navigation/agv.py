@@ -172,6 +172,8 @@ class Motions:
         if pose.shape != (self.count, 3):
             raise ControlError(f"poses have shape {pose.shape}, expected ({self.count}, 3)")
         dt = 0.0 if not time > self._last else time - self._last
+        if time < self._last:  # time began again: what motions took so far still counts
+            self._start += time - self._last
         self._last = time
         command = np.zeros((self.count, 2))
         rows = np.flatnonzero(self.active)

@@ -114,6 +114,17 @@ def test_a_robot_that_does_not_get_there_times_out_and_stands():
     assert not command.any()
 
 
+def test_a_motion_goes_on_when_time_begins_again():
+    motions = Motions(1)
+    motions.move_l(5.0, 0.0, timeout=3.0)
+    for time in (100.0, 101.0, 0.0, 1.0):
+        motions.update(np.zeros((1, 3)), time)
+        assert motions.active.all()
+    assert motions.taken[0] == pytest.approx(2.0)
+    motions.update(np.zeros((1, 3)), 2.0)
+    assert motions.outcome[0] == Outcome.TIMED_OUT
+
+
 def test_a_cancelled_motion_ends_and_others_go_on():
     motions = Motions(2)
     motions.move_l(5.0, 0.0)
