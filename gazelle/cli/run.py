@@ -218,6 +218,8 @@ def _serve_fleet(sim: StageSimulation, args: argparse.Namespace) -> int:
     if args.paused:
         sim.pause()
     with serve_stage(sim, rate=args.rate) as server:
+        if sim.paused:
+            sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
         return _attend(sim, server, args)
 
 

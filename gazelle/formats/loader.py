@@ -157,6 +157,8 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
         looked = reading.resolver.looked_in(text)
         names = bundled_names(reading.resolver.assets)
         hint = f"{looked}" if "://" in text or "/" in text else did_you_mean(text, names)
+        if text.startswith(("/", "~", ".")):
+            hint = _beside(Path(text).expanduser())
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
     reading.resolver.look_around(found)
     return entry_file(found)
@@ -164,6 +166,14 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
 
 def _is_other_folder(path: Path) -> bool:
     return path.is_dir() and not (path / "model.config").exists()
+
+
+def _beside(file: Path) -> str:
+    """What is where a file was looked for."""
+    folder = file.absolute().parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}"
+    return did_you_mean(file.name, (path.name for path in folder.iterdir()))
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:

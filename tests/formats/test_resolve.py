@@ -179,6 +179,14 @@ def test_an_unknown_name_is_an_error_with_a_suggestion():
     assert caught.value.hint == "did you mean 'ground_plane'?"
 
 
+def test_a_path_to_nothing_says_what_is_there(tmp_path):
+    (tmp_path / "hall.world").touch()
+    with pytest.raises(ResolveError, match=r"did you mean 'hall\.world'"):
+        formats.load(tmp_path / "hal.world")
+    with pytest.raises(ResolveError, match=r"there is no folder .*nowhere"):
+        formats.load(tmp_path / "nowhere" / "hall.world")
+
+
 def test_a_file_that_includes_itself_is_an_error(tmp_path):
     place = model(tmp_path, "thing")
     (place / "model.sdf").write_text(
