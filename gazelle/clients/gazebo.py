@@ -6,13 +6,21 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Self, Unpack
 
 from gazelle.clients.calls import Caller
 from gazelle.clients.descriptions import find_file, read_urdf
 from gazelle.clients.errors import ClientError
-from gazelle.clients.physics import PhysicsCalls, Vector, vector
-from gazelle.clients.poses import ModelState, pose_message, read_state, twist_message
+from gazelle.clients.physics import PhysicsCalls, vector
+from gazelle.clients.poses import (
+    ModelState,
+    Vector,
+    Where,
+    pose_message,
+    read_state,
+    three,
+    twist_message,
+)
 from gazelle.clients.states import LiveStates
 from gazelle.ros import Duration, Node, Time, WallClock, load_message
 
@@ -94,7 +102,7 @@ class Gazebo(PhysicsCalls):
 
     # -- models ------------------------------------------------------------------------------
 
-    def spawn_urdf(self, name: str, text: str, **where: Any) -> None:
+    def spawn_urdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
         """Put a robot there; see ``spawn_sdf`` for where.
 
         Args:
@@ -114,13 +122,13 @@ class Gazebo(PhysicsCalls):
         *,
         package: str | None = None,
         xacro_args: Mapping[str, str] | None = None,
-        **where: Any,
+        **where: Unpack[Where],
     ) -> None:
         """Put a robot of a URDF or xacro file there; see ``read_urdf`` and ``spawn_sdf``."""
         self.spawn_urdf(name, read_urdf(path, package=package, xacro_args=xacro_args), **where)
 
     def spawn_urdf_parameter(
-        self, name: str, parameter: str = "robot_description", **where: Any
+        self, name: str, parameter: str = "robot_description", **where: Unpack[Where]
     ) -> None:
         """Put a robot there whose URDF a parameter holds; see ``spawn_sdf`` for where.
 
@@ -129,7 +137,7 @@ class Gazebo(PhysicsCalls):
         """
         self.spawn_urdf(name, self._parameter(parameter), **where)
 
-    def spawn_sdf(self, name: str, text: str, **where: Any) -> None:
+    def spawn_sdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
         """Put a model or a light there.
 
         Args:
@@ -144,12 +152,12 @@ class Gazebo(PhysicsCalls):
         self._spawn("spawn_sdf_model", name, text, **where)
 
     def spawn_sdf_file(
-        self, name: str, path: str | Path, *, package: str | None = None, **where: Any
+        self, name: str, path: str | Path, *, package: str | None = None, **where: Unpack[Where]
     ) -> None:
         """Put a model of an SDF file there; see ``spawn_sdf``."""
         self.spawn_sdf(name, find_file(path, package).read_text(encoding="utf-8"), **where)
 
-    def spawn_sdf_parameter(self, name: str, parameter: str, **where: Any) -> None:
+    def spawn_sdf_parameter(self, name: str, parameter: str, **where: Unpack[Where]) -> None:
         """Put a model there whose SDF a parameter holds; see ``spawn_sdf`` for where.
 
         Raises:
@@ -266,7 +274,8 @@ class Gazebo(PhysicsCalls):
             ClientError: There is no such link or frame.
         """
         wrench: Any = load_message("geometry_msgs/Wrench")()
-        wrench.force, wrench.torque = vector(*force), vector(*torque)
+        wrench.force = vector(*three(force, "a force"))
+        wrench.torque = vector(*three(torque, "a torque"))
         self._caller.demand_once(
             "apply_body_wrench",
             "gazebo_msgs/ApplyBodyWrench",

@@ -7,9 +7,8 @@ from typing import Any
 
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
+from gazelle.clients.poses import Vector, three
 from gazelle.ros import load_message
-
-Vector = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +68,7 @@ class PhysicsCalls:
             if name not in now.ode.__slots__:
                 raise ClientError(f"ODEPhysics has no field '{name}'")
             setattr(now.ode, name, value)
-        x, y, z = gravity or now.gravity
+        x, y, z = three(gravity or now.gravity, "gravity")
         self._caller.demand(
             "set_physics_properties",
             "gazebo_msgs/SetPhysicsProperties",

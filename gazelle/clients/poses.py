@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypedDict
 
+from gazelle.clients.errors import ClientError
 from gazelle.description.pose import quaternion_from_rpy
 from gazelle.ros import load_message
 
@@ -36,6 +38,32 @@ class ModelState:
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
+class Place(TypedDict, total=False):
+    """Where a model is put: ``position`` [m] and ``rpy`` [rad] as a model or link, ``frame``, has it."""
+
+    position: Vector
+    rpy: Vector
+    frame: str
+
+
+class Where(Place, total=False):
+    """The same, and the ``namespace`` of its topics."""
+
+    namespace: str
+
+
+def three(value: Sequence[float], what: str) -> Vector:
+    """Three numbers.
+
+    Raises:
+        ClientError: They are not three.
+    """
+    if len(value) != 3:
+        raise ClientError(f"{what} is three numbers, not {len(value)}: {tuple(value)}")
+    x, y, z = value
+    return (x, y, z)
+
+
 def read_state(pose: Any, twist: Any) -> ModelState:
     """The numbers of a ``Pose`` and a ``Twist``."""
     turn = pose.orientation
@@ -50,17 +78,17 @@ def read_state(pose: Any, twist: Any) -> ModelState:
 def pose_message(position: Vector, rpy: Vector) -> Any:
     """A ``geometry_msgs/Pose`` [m, rad]; roll, pitch and yaw about fixed axes."""
     pose: Any = load_message("geometry_msgs/Pose")()
-    pose.position.x, pose.position.y, pose.position.z = position
+    pose.position.x, pose.position.y, pose.position.z = three(position, "a position")
     turn = pose.orientation
-    turn.x, turn.y, turn.z, turn.w = quaternion_from_rpy(*rpy)
+    turn.x, turn.y, turn.z, turn.w = quaternion_from_rpy(*three(rpy, "roll, pitch and yaw"))
     return pose
 
 
 def twist_message(linear: Vector, angular: Vector) -> Any:
     """A ``geometry_msgs/Twist`` [m/s, rad/s]."""
     twist: Any = load_message("geometry_msgs/Twist")()
-    twist.linear.x, twist.linear.y, twist.linear.z = linear
-    twist.angular.x, twist.angular.y, twist.angular.z = angular
+    twist.linear.x, twist.linear.y, twist.linear.z = three(linear, "a velocity")
+    twist.angular.x, twist.angular.y, twist.angular.z = three(angular, "an angular velocity")
     return twist
 
 

@@ -118,6 +118,17 @@ def test_a_table_of_states_is_kept_up_to_date(graph):
         assert "r1::wheel_left_link" in set(links)
 
 
+def test_three_numbers_are_three(graph):
+    for call, words in (
+        (lambda: graph.gazebo.spawn_sdf("b", BALL, position=(1.0, 2.0)), "a position is three"),
+        (lambda: graph.gazebo.set_model_state("r1", (0, 0, 0), rpy=(1,)), "yaw is three"),
+        (lambda: graph.gazebo.apply_wrench("r1::base", (1, 2, 3, 4)), "a force is three"),
+        (lambda: setattr(graph.gazebo, "gravity", (0.0,)), "gravity is three"),
+    ):
+        with pytest.raises(ClientError, match=words):
+            call()
+
+
 def test_who_is_not_there_is_said_clearly():
     with (
         Master(port=0, rosout=False) as master,
