@@ -154,7 +154,11 @@ def test_topics_can_be_published_less_often_than_steps(stage):
     assert [m.header.stamp.to_sec() for m in odom] == pytest.approx([0.1, 0.5, 1.0, 1.5, 2.0])
 
 
-def test_nothing_is_measured_when_nobody_listens(stage):
+def test_nothing_is_measured_when_nobody_listens(stage, monkeypatch):
     world = stage(ROBOT + WALL)
+    measured, scan = [], world.sim.scan
+    monkeypatch.setattr(world.sim, "scan", lambda *which: measured.append(which) or scan(*which))
     world.step(count=3)
-    assert world.sim._eyes == {}
+    assert not measured
+    world.step(world.listen("/base_scan", "sensor_msgs/LaserScan"))
+    assert measured
