@@ -216,6 +216,8 @@ def test_arguments_that_no_request_can_hold_fail_as_in_rospy(node, msgs, srvs):
         proxy(msgs.Bool(True))
     with pytest.raises(node.ServiceException, match=r"service \[/nowhere\] unavailable"):
         node.ServiceProxy("nowhere", srvs.SetBool)("yes")
+    with pytest.raises(node.ServiceException, match=r"^unable to connect to service: .*md5sums"):
+        node.ServiceProxy("flag", srvs.Trigger)()
 
 
 def test_services_can_be_called_before_there_is_a_node(rospy, srvs, make_node):

@@ -198,7 +198,10 @@ class ServiceProxy(_Service):
         except (ServiceError, NodeClosedError) as error:
             if process.over:
                 raise ROSInterruptException("node shutdown interrupted service call") from None
-            raise ServiceException(f"transport error completing service call: {error}") from None
+            text = str(error)
+            if not text.startswith("unable to connect to service"):
+                text = f"transport error completing service call: {text}"
+            raise ServiceException(text) from None
         except RosError as error:
             raise ServiceException(f"unable to connect to service: {error}") from None
 
