@@ -28,7 +28,7 @@ class Goals:
     def show(self) -> None:
         """Print one line a goal."""
         if self.reached:
-            print(f"\n{'goal':<46}{'here':>12}{'wanted':>14}{'':>7}")
+            print(f"\n{'goal':<46}{'here':>12}{'wanted':>14}{'met':>7}")
         for what, value, bound, good in self.reached:
             print(f"{what:<46}{value:>12}{bound:>14}{'yes' if good else 'NO':>7}")
 
