@@ -13,3 +13,4 @@ COURIER_DESCRIPTION = BuiltinPackage(
     "courier_description", folder=assets.root() / "courier_description"
 )
 COURIER_GAZEBO = BuiltinPackage("courier_gazebo", folder=assets.root() / "courier_gazebo")
+FLEET_STAGE = BuiltinPackage("fleet_stage", folder=assets.root() / "fleet_stage")

@@ -45,10 +45,7 @@ class Packages:
         Raises:
             MissingPackageError: It is neither.
         """
-        found = self.installed(package)
-        if found is None:
-            known = registry.package(package)
-            found = known.folder if known is not None else None
+        found = self._found(package)
         if found is None:
             raise self.missing(package)
         return found
@@ -87,8 +84,8 @@ class Packages:
         return f"{folder}{path}"
 
     def programs(self, package: str, kind: str) -> list[Path]:
-        """The files that may be the program of a node, the best first; of installed packages only."""
-        folder = self.installed(package)
+        """The files that may be the program of a node, the best first."""
+        folder = self._found(package)
         if folder is None:
             return []
         places = [space / "lib" / package / kind for space in self._spaces(package, folder)]
@@ -97,7 +94,7 @@ class Packages:
         return found
 
     def program(self, package: str, kind: str) -> Path | None:
-        """The program of a node of an installed package; None if there is none that can run."""
+        """The file that is the program of a node; None if there is none that can run."""
         for path in self.programs(package, kind):
             if _is_program(path) or is_python(path):
                 return path
@@ -105,7 +102,7 @@ class Packages:
 
     def program_names(self, package: str) -> list[str]:
         """What programs a package has, for hints."""
-        folder = self.installed(package)
+        folder = self._found(package)
         found: set[str] = set()
         if folder is not None:
             roots = [folder, *(s / "lib" / package for s in self._spaces(package, folder))]
@@ -125,6 +122,14 @@ class Packages:
         known = self.program_names(package)
         hint = did_you_mean(kind, known) if known else _unbuilt(kind)
         return LaunchError(f"package '{package}' has no program '{kind}'", hint=hint)
+
+    def _found(self, package: str) -> Path | None:
+        """The folder of a package, installed or built in, if it has one."""
+        found = self.installed(package)
+        if found is None:
+            known = registry.package(package)
+            found = known.folder if known is not None else None
+        return found
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
         """Install and devel spaces that may hold a package, the nearest first."""

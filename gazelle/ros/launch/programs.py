@@ -65,11 +65,13 @@ def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped
         LaunchError: There is no such package, or it has no such program.
     """
     known = registry.package(package)
-    if known is None or kind not in known.preferred:
+    built_in = known is not None and kind in known.nodes
+    theirs = known is None or kind not in known.preferred
+    if theirs and not (built_in and packages.installed(package) is None):
         path = packages.program(package, kind)
         if path is not None:
             return Program(script_command(path), path.parent)
-    if known is not None and kind in known.nodes:
+    if built_in:
         return Program((*_BUILTIN, package, kind), None)
     if known is not None and known.skipped is not None:
         return Skipped(package, known.skipped)

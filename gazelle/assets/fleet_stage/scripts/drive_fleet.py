@@ -1,12 +1,14 @@
+#!/usr/bin/env python3
 """Drive the 72 AGVs of the bundled world 'fleet' through way-points, and check that none collide.
 
-python examples/drive_fleet.py                  # starts the world in this process
-gazelle run fleet --ros --rate 5                # or it runs elsewhere, and
-python examples/drive_fleet.py --connect        # this drives it over ROS 1
+gazelle exec fleet_stage drive_fleet.py             # starts the world in this process
+gazelle run fleet --ros --rate 5                    # or it runs elsewhere, and
+gazelle exec fleet_stage drive_fleet.py --connect   # this drives it over ROS 1
 """
 
 import argparse
 import contextlib
+import sys
 import threading
 from collections.abc import Iterator
 
@@ -26,7 +28,8 @@ def main() -> None:
     parser.add_argument("--connect", action="store_true", help="to a world that runs already")
     parser.add_argument("--rounds", type=int, default=4, help="changes of places (default 4)")
     parser.add_argument("--rate", type=float, default=8.0, help="speed of time (default 8)")
-    args = parser.parse_args()
+    words = [word for word in sys.argv[1:] if ":=" not in word]  # a launch file adds remappings
+    args = parser.parse_args(words)
     with contextlib.ExitStack() as stack:
         uri = net.default_master_uri() if args.connect else stack.enter_context(world(args.rate))
         node = stack.enter_context(Node("drive_fleet", master_uri=uri, anonymous=True))
