@@ -74,9 +74,10 @@ class Import:
 
 
 def modules():
-    """Source of every module by dotted name."""
+    """Source of every module by dotted name; programs of bundled packages are data like robots."""
+    programs = set(PACKAGE.glob("assets/*/scripts/*.py"))
     found = {}
-    for path in sorted(PACKAGE.rglob("*.py")):
+    for path in sorted(set(PACKAGE.rglob("*.py")) - programs):
         parts = ("gazelle", *path.relative_to(PACKAGE).with_suffix("").parts)
         found[".".join(parts).removesuffix(".__init__")] = path
     return found
