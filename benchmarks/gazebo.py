@@ -165,7 +165,7 @@ def listeners(uri: str) -> Iterator[None]:
 def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
     """Persistent calls of ``set_model_state`` a second, from one client."""
     service = load_service("gazebo_msgs/SetModelState")
-    request = service._request_class()  # noqa: SLF001  # genpy's name
+    request = service._request_class()
     request.model_state.model_name = "burger"
     with world() as sim, serve_ros(sim, uri) as door:
         if paused:

@@ -41,7 +41,7 @@ def main(argv: list[str] | None = None) -> None:
 def show(name: str, fill: Callable[[Callable[[str], Any]], Any], options: Any) -> None:
     """Measure one case, and print a line for each direction."""
     message = fill(load_message)
-    type_ = message._type  # noqa: SLF001  # the public protocol of message classes
+    type_ = message._type
     data = dumps(message)
     made = type(message)
     writers = {"gazelle": lambda: dumps(message)}
@@ -126,7 +126,7 @@ def rosbags_store(type_: str) -> Any:
     store = get_typestore(Stores.ROS1_NOETIC)
     full = type_.replace("/", "/msg/")
     if full not in store.types:
-        text = load_message(type_)._full_text  # noqa: SLF001  # the public protocol of message classes
+        text = load_message(type_)._full_text
         store.register(get_types_from_msg(text, full))
     return store
 

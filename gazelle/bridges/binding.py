@@ -184,7 +184,7 @@ class Binding:
         def answer(request: Any) -> Any:
             asked = codec.read(request)
             given = self._simulation.requests.call(lambda: service.call(asked, self._worlds))
-            return service_class._response_class(**codec.answer(given))  # noqa: SLF001  # genpy's name
+            return service_class._response_class(**codec.answer(given))
 
         if self._is_free(service.topic):
             server = self._node.serve(service.topic, service_class, answer)

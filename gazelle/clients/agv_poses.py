@@ -106,7 +106,7 @@ class ServicePoses(PoseSource):
         super().__init__(len(spaces), name)
         service = load_service(kind)
         self._node, self._period = node, round(_SECOND / rate)
-        self._request = service._request_class()  # noqa: SLF001  # genpy's name
+        self._request = service._request_class()
         self._clients = [
             node.client(f"{space}/{name}", service, persistent=True) for space in spaces
         ]

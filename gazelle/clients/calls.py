@@ -119,7 +119,7 @@ class Caller:
             client = self.node.client(full, service, persistent=True)
             self._clients[full] = (service, client)
         service, client = self._clients[full]
-        request = service._request_class(**fields)  # noqa: SLF001  # genpy's name
+        request = service._request_class(**fields)
         return client.call(request, timeout=self.timeout)
 
     def _forget(self, full: str) -> None:

@@ -124,7 +124,7 @@ class _Spawner:
         service = load_service(f"{package}/{kind}")
         full = f"{self._gazebo}/{name}"
         self._wait_for_service(full)
-        request = service._request_class(**fields)  # noqa: SLF001  # genpy's name
+        request = service._request_class(**fields)
         return self._node.client(full, service).call(request)
 
     def _wait_for_service(self, name: str) -> None:

@@ -285,7 +285,7 @@ class Node(TopicUser, ServiceUser):
         headers.require(fields, "callerid", "md5sum")
         publication = self._publications.get(fields["topic"])
         if publication is None:
-            known = [[p.topic, p.message_class._type] for p in self.publications()]  # noqa: SLF001  # genpy's name
+            known = [[p.topic, p.message_class._type] for p in self.publications()]
             raise ProtocolError(
                 f"[{self.name}] is not a publisher of [{fields['topic']}]. Topics are {known}"
             )

@@ -143,10 +143,10 @@ class Publication:
         return {
             "callerid": self.node.name,
             "latching": str(int(self.latching)),
-            "md5sum": kind._md5sum,  # noqa: SLF001  # genpy's names
-            "message_definition": kind._full_text,  # noqa: SLF001
+            "md5sum": kind._md5sum,
+            "message_definition": kind._full_text,
             "topic": self.topic,
-            "type": kind._type,  # noqa: SLF001
+            "type": kind._type,
             **self.headers,
         }
 
@@ -156,9 +156,9 @@ class Publication:
         Raises:
             Md5MismatchError: It wants another type.
         """
-        mine, theirs = self.message_class._md5sum, fields["md5sum"]  # noqa: SLF001
+        mine, theirs = self.message_class._md5sum, fields["md5sum"]
         if headers.ANY not in {mine, theirs} and mine != theirs:
-            kind = self.message_class._type  # noqa: SLF001
+            kind = self.message_class._type
             raise Md5MismatchError(
                 f"Client [{caller}] wants topic [{self.topic}] to have datatype/md5sum "
                 f"[{fields.get('type', '?')}/{theirs}], but our version has [{kind}/{mine}]"

@@ -86,10 +86,10 @@ class Registrar:
     def _register_all(self) -> None:
         node = self._node
         for publication in node.publications():
-            kind = publication.message_class._type  # noqa: SLF001  # genpy's name
+            kind = publication.message_class._type
             self._call("registerPublisher", publication.topic, kind, node.uri)
         for subscription in node.subscriptions():
-            kind = subscription.message_class._type  # noqa: SLF001  # genpy's name
+            kind = subscription.message_class._type
             self._subscribe(subscription, kind)
         for service in node.services():
             self._call("registerService", service.name, service.uri, node.uri)

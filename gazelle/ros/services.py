@@ -81,7 +81,7 @@ class ServiceServer:
         Raises:
             Md5MismatchError: It wants another type.
         """
-        mine, theirs = self.service_class._md5sum, fields["md5sum"]  # noqa: SLF001  # genpy's name
+        mine, theirs = self.service_class._md5sum, fields["md5sum"]
         if theirs not in {headers.ANY, mine}:
             raise Md5MismatchError(
                 f"request from [{fields['callerid']}]: md5sums do not match: "
@@ -104,9 +104,9 @@ class ServiceServer:
         self._connections.add(connection)
         reply = {
             "callerid": self.node.name,
-            "md5sum": self.service_class._md5sum,  # noqa: SLF001  # genpy's name
+            "md5sum": self.service_class._md5sum,
             "service": self.name,
-            "type": self.service_class._type,  # noqa: SLF001
+            "type": self.service_class._type,
         }
         connection.start(headers.encode(reply), rest)
 
@@ -123,10 +123,10 @@ class ServiceServer:
     def answer(self, data: bytes, fields: dict[str, str]) -> bytes:
         """The answer to a request, both as they go over the wire."""
         try:
-            request = self.service_class._request_class()  # noqa: SLF001
+            request = self.service_class._request_class()
             request.deserialize(data)
             if hasattr(type(request), "_connection_header"):
-                request._connection_header = fields  # noqa: SLF001
+                request._connection_header = fields
             response = self._respond(request)
             buffer = BytesIO()
             response.serialize(buffer)
@@ -144,7 +144,7 @@ class ServiceServer:
         result = self.handler(request)
         if result is None:
             raise ServiceError("service handler returned None")
-        return as_message(result, self.service_class._response_class)  # noqa: SLF001
+        return as_message(result, self.service_class._response_class)
 
 
 def _text(error: Exception) -> str:
@@ -157,7 +157,7 @@ def as_message(value: Any, message_class: Any) -> Any:
     Raises:
         ServiceError: It does not fit the class.
     """
-    if getattr(value, "_type", None) == message_class._type:  # noqa: SLF001  # genpy's name
+    if getattr(value, "_type", None) == message_class._type:
         return value
     try:
         if isinstance(value, Mapping):
@@ -166,7 +166,7 @@ def as_message(value: Any, message_class: Any) -> Any:
             return message_class(*value)
         return message_class(value)
     except (TypeError, AttributeError) as error:
-        wanted = message_class._type  # noqa: SLF001
+        wanted = message_class._type
         raise ServiceError(
             f"handler returned invalid value: {error}; expected a {wanted}"
         ) from None
@@ -220,7 +220,7 @@ class ServiceClient:
                 body = channel.call(data, deadline)
             finally:
                 channel.close()
-        response = self.service_class._response_class()  # noqa: SLF001  # genpy's name
+        response = self.service_class._response_class()
         response.deserialize(body)
         return response
 
@@ -262,8 +262,8 @@ class ServiceClient:
         fields = {
             "callerid": self.node.name,
             "service": self.name,
-            "md5sum": self.service_class._md5sum,  # noqa: SLF001  # genpy's names
-            "type": self.service_class._type,  # noqa: SLF001
+            "md5sum": self.service_class._md5sum,
+            "type": self.service_class._type,
             **self.fields,
         }
         if self.persistent:

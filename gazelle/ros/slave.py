@@ -67,12 +67,12 @@ class SlaveApi:
 
     def get_publications(self, _caller: str) -> Triple:
         """Topics and types published."""
-        found = [[p.topic, p.message_class._type] for p in self._node.publications()]  # noqa: SLF001  # genpy's name
+        found = [[p.topic, p.message_class._type] for p in self._node.publications()]
         return 1, "publications", found
 
     def get_subscriptions(self, _caller: str) -> Triple:
         """Topics and types subscribed to."""
-        found = [[s.topic, s.message_class._type] for s in self._node.subscriptions()]  # noqa: SLF001  # genpy's name
+        found = [[s.topic, s.message_class._type] for s in self._node.subscriptions()]
         return 1, "subscriptions", found
 
     def get_bus_info(self, _caller: str) -> Triple:

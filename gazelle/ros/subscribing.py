@@ -90,10 +90,13 @@ class Subscription:
         link.open()
 
     def _attach(self, uri: str, publication: Publication) -> None:
-        mine, theirs = self.message_class._md5sum, publication.message_class._md5sum  # noqa: SLF001  # genpy's names
+        mine, theirs = (
+            self.message_class._md5sum,
+            publication.message_class._md5sum,
+        )
         if headers.ANY not in {mine, theirs} and mine != theirs:
-            kind = publication.message_class._type  # noqa: SLF001
-            wanted = self.message_class._type  # noqa: SLF001
+            kind = publication.message_class._type
+            wanted = self.message_class._type
             text = f"{self.topic} carries {kind} ({theirs}), not {wanted} ({mine})"
             report(f"subscriber of {self.topic}", Md5MismatchError(text))
             return
@@ -141,17 +144,17 @@ class Subscription:
         kind = self.message_class
         return {
             "callerid": self.node.name,
-            "md5sum": kind._md5sum,  # noqa: SLF001  # genpy's names
-            "message_definition": kind._full_text,  # noqa: SLF001
+            "md5sum": kind._md5sum,
+            "message_definition": kind._full_text,
             "tcp_nodelay": str(int(self.tcp_nodelay)),
             "topic": self.topic,
-            "type": kind._type,  # noqa: SLF001
+            "type": kind._type,
         }
 
     def check_header(self, header: dict[str, str]) -> None:
         """Judge what a publisher answered."""
         kind = self.message_class
-        headers.check_publisher(header, self.topic, kind._md5sum, kind._type)  # noqa: SLF001
+        headers.check_publisher(header, self.topic, kind._md5sum, kind._type)
 
     def connected(self, link: InboundLink) -> None:
         """Nothing to do: messages will come."""
@@ -239,7 +242,7 @@ class Subscription:
             message = self._make()
             message.deserialize(data)
         if self._marks:
-            message._connection_header = link.header  # noqa: SLF001  # genpy's name
+            message._connection_header = link.header
         if self._statistics is not None:
             self._statistics.take(self.topic, link, message, 0 if data is None else len(data))
         if link.latching:

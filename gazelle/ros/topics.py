@@ -71,7 +71,7 @@ class TopicUser(NodeBase):
             publication.headers.update(headers or {})
             self._publications[name] = publication
         if fresh:
-            self._ask("registerPublisher", name, message_class._type, self.uri)  # noqa: SLF001  # genpy's name
+            self._ask("registerPublisher", name, message_class._type, self.uri)
         return publisher
 
     def subscribe(
@@ -116,7 +116,7 @@ class TopicUser(NodeBase):
         return subscriber
 
     def _register_subscription(self, subscription: Subscription) -> None:
-        kind = subscription.message_class._type  # noqa: SLF001  # genpy's name
+        kind = subscription.message_class._type
         uris = self._ask("registerSubscriber", subscription.topic, kind, self.uri)
 
         def begin() -> None:
@@ -198,10 +198,10 @@ class TopicUser(NodeBase):
 
 
 def _check_same(known: Any, wanted: Any, topic: str) -> None:
-    mine, theirs = known._md5sum, wanted._md5sum  # noqa: SLF001  # genpy's names
+    mine, theirs = known._md5sum, wanted._md5sum
     if ANY not in {mine, theirs} and mine != theirs:
         raise Md5MismatchError(
-            f"this node uses {topic} with the type {known._type} already, not {wanted._type}"  # noqa: SLF001
+            f"this node uses {topic} with the type {known._type} already, not {wanted._type}"
         )
 
 

@@ -31,7 +31,7 @@ def _class_for(kind: str, checksum: str, text: str) -> Any:
         known = load_message(kind)
     except Error:
         known = None
-    if known is not None and checksum in {known._md5sum, "*", ""}:  # noqa: SLF001  # genpy's name
+    if known is not None and checksum in {known._md5sum, "*", ""}:
         return known
     if not text:
         raise RosError(f"the type {kind} is not known here, nor did its definition come along")
@@ -44,5 +44,5 @@ def decode(raw: RawMessage) -> Any:
     Raises:
         RosError: Its type is not known here, and its definition did not come along.
     """
-    kind = class_for(raw._connection_header)  # noqa: SLF001  # rospy's names
-    return kind().deserialize(raw._buff)  # noqa: SLF001
+    kind = class_for(raw._connection_header)  # rospy's names
+    return kind().deserialize(raw._buff)

@@ -25,4 +25,4 @@ class Context(Graph):
 
     def response(self, service: str) -> Any:
         """An empty response of one of ``gazebo_msgs``' services."""
-        return load_service(f"gazebo_msgs/{service}")._response_class()  # noqa: SLF001  # genpy's name
+        return load_service(f"gazebo_msgs/{service}")._response_class()

@@ -243,7 +243,7 @@ class GazeboDoor:
     ) -> None:
         """Serve; between two steps if ``wait``, else the handler sees to it."""
         service = load_service(f"{package}/{kind}")
-        response = service._response_class  # noqa: SLF001  # genpy's name
+        response = service._response_class
         if name in _MOVES:
             handler = refusing(kind, handler)
 

@@ -47,7 +47,7 @@ class PoseServices:
                 self._servers.append(node.serve(name, service, self._answer(service, robot)))
 
     def _answer(self, service: Any, robot: StageRobot) -> Any:
-        response_class = service._response_class  # noqa: SLF001  # genpy's names
+        response_class = service._response_class
         fields = set(response_class.__slots__)
 
         def answer(_request: Any) -> Any:
@@ -69,8 +69,8 @@ def _service(kind: str) -> Any:
     if not kind and name not in package_names(package, "srv"):
         return None
     service: Any = load_service(kind or USUAL_TYPE)
-    response = service._response_class  # noqa: SLF001  # genpy's names
-    types = dict(zip(response.__slots__, response._slot_types, strict=True))  # noqa: SLF001
+    response = service._response_class
+    types = dict(zip(response.__slots__, response._slot_types, strict=True))
     wrong = [field for field in _FIELDS if types.get(field, "float64") not in _NUMBERS]
     if wrong or not types.keys() & set(_FIELDS):
         raise InvalidDefinitionError(

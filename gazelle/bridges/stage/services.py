@@ -61,7 +61,7 @@ class Services:
 
     def _between(self, service: Any, handler: Callable[[Any], Answer]) -> Callable[[Any], Any]:
         """Answer between two steps, when it is true."""
-        response = service._response_class  # noqa: SLF001  # genpy's name
+        response = service._response_class
         call = self._simulation.requests.call
         return lambda request: response(**call(lambda: handler(request)))
 

@@ -253,7 +253,7 @@ class ActionClient:
             return list(self._machines)
 
     def _take_status(self, message: Any) -> None:
-        who = str(message._connection_header.get("callerid", "?"))  # noqa: SLF001  # genpy's name
+        who = str(message._connection_header.get("callerid", "?"))
         with self._heard:
             self._status_from = who
             self._heard.notify_all()

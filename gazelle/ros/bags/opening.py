@@ -65,9 +65,9 @@ def ensure_index(path: Path) -> None:
 def header_of(message: Any) -> dict[str, str]:
     """The header of a message's connection."""
     return {
-        "type": message._type,  # noqa: SLF001  # genpy's names
-        "md5sum": message._md5sum,  # noqa: SLF001
-        "message_definition": message._full_text,  # noqa: SLF001
+        "type": message._type,
+        "md5sum": message._md5sum,
+        "message_definition": message._full_text,
     }
 
 
@@ -83,4 +83,4 @@ def raw_header(message: Any) -> dict[str, str]:
     made = message[-1]
     if made is None:
         made = class_for({"type": kind, "md5sum": checksum})
-    return {"type": kind, "md5sum": checksum, "message_definition": made._full_text}  # noqa: SLF001
+    return {"type": kind, "md5sum": checksum, "message_definition": made._full_text}

@@ -208,7 +208,7 @@ def check(path: str) -> list[str]:
         except Error:
             problems.append(f"{kind} [{checksum}] is not known here")
             continue
-        mine = known._md5sum  # noqa: SLF001  # genpy's name
+        mine = known._md5sum
         if mine != checksum:
             problems.append(f"{kind} [{checksum}] is [{mine}] here")
     return problems

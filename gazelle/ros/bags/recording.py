@@ -195,8 +195,8 @@ class Recorder:
         now = self._node.clock.now()
         if not now:
             return  # simulated time did not begin
-        header = message._connection_header  # noqa: SLF001  # rospy's names
-        data = message._buff  # noqa: SLF001
+        header = message._connection_header  # rospy's names
+        data = message._buff
         with self._lock:
             if self._output is None or self._finished(topic):
                 return

@@ -64,7 +64,7 @@ class Delays:
         return "\n".join(lines)
 
     def _take(self, message: Any, static: bool) -> None:  # noqa: FBT001  # rospy's interface
-        sender = message._connection_header.get("callerid", "?")  # noqa: SLF001  # genpy's name
+        sender = message._connection_header.get("callerid", "?")
         node = f"{sender}(static)" if static else sender
         now = rospy.get_time()
         ages = {

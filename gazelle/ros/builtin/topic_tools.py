@@ -36,8 +36,8 @@ class Repeater:
         """Publish a message."""
         with self._lock:
             if self._publisher is None:
-                self._publisher = self._advertise(message._connection_header)  # noqa: SLF001  # rospy's name
-        self._publisher.publish(self._publisher.message_class(message._buff))  # noqa: SLF001
+                self._publisher = self._advertise(message._connection_header)  # rospy's name
+        self._publisher.publish(self._publisher.message_class(message._buff))
 
     def _advertise(self, header: dict[str, str]) -> Publisher:
         made = type(
@@ -163,7 +163,7 @@ class _ByteGate:
             self._sent.popleft()
         if sum(size for _, size in self._sent) >= self._limit:
             return False
-        self._sent.append((now, len(message._buff)))  # noqa: SLF001  # rospy's name
+        self._sent.append((now, len(message._buff)))  # rospy's name
         return True
 
 

@@ -102,7 +102,7 @@ def has_service_args(service_name: str, service_class: Any = None) -> bool:
         ROSServiceException: There is no such service.
     """
     kind = service_class or get_service_class_by_name(service_name)
-    return bool(kind._request_class.__slots__)  # noqa: SLF001  # genpy's name
+    return bool(kind._request_class.__slots__)
 
 
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
@@ -135,7 +135,7 @@ def call_service(
         ROSServiceException: The values do not fit, or the call failed.
     """
     kind = service_class or get_service_class_by_name(service_name)
-    request = kind._request_class()  # noqa: SLF001  # genpy's name
+    request = kind._request_class()
     clock = getattr(user(), "clock", None)
     now = Time(nsecs=clock.now() if clock is not None else 0)
     keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}

@@ -46,5 +46,5 @@ def _log_class() -> type[RawMessage]:
     """The raw class, with the definition that subscribers without it need."""
     from gazelle.ros.messages import load_message
 
-    LogMessage._full_text = load_message("rosgraph_msgs/Log")._full_text  # noqa: SLF001  # genpy's name
+    LogMessage._full_text = load_message("rosgraph_msgs/Log")._full_text
     return LogMessage

@@ -86,9 +86,7 @@ def _check_array(name: str, base: str, value: Any) -> None:
 def _check_message(name: str, type_: str, value: Any) -> None:
     if not isinstance(value, Message):
         raise SerializationError(f"field {name} must be of type [{type_}]")
-    if value._type != type_:  # noqa: SLF001  # the public protocol of message classes
-        raise SerializationError(
-            f"field {name} must be of type {type_} instead of {value._type}"  # noqa: SLF001
-        )
-    for each, each_type in zip(value.__slots__, value._slot_types, strict=True):  # noqa: SLF001
+    if value._type != type_:
+        raise SerializationError(f"field {name} must be of type {type_} instead of {value._type}")
+    for each, each_type in zip(value.__slots__, value._slot_types, strict=True):
         check_type(f"{name}.{each}", each_type, getattr(value, each))

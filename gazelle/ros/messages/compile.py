@@ -51,12 +51,12 @@ _shared = shared_names() | {
 def _make(owner: type[Message], method: str) -> Any:
     names = dict(_shared) | {"_slots": owner.__slots__}
     text = _source(owner, method, Code(names))
-    exec(compile(text, f"<{owner._type} {method}>", "exec"), names)  # noqa: S102, SLF001  # names are checked by the parser
+    exec(compile(text, f"<{owner._type} {method}>", "exec"), names)  # noqa: S102  # names are checked by the parser
     return names[method]
 
 
 def _source(owner: type[Message], method: str, code: Code) -> str:
-    spec, known = owner._spec, owner._known  # type: ignore[attr-defined]  # noqa: SLF001  # set by generate
+    spec, known = owner._spec, owner._known  # type: ignore[attr-defined]  # set by generate
     if method in _WRITERS:
         return _WRITERS[method](spec, code, known)
     kind, _, mode = method.rpartition("_")

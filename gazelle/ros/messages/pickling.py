@@ -8,7 +8,7 @@ from gazelle.ros.messages.errors import UnknownTypeError
 
 def recipe(message_class: type[Message]) -> tuple[str, str, str]:
     """What `blank` needs to find the class again, in another process too."""
-    return message_class._type, message_class._md5sum, message_class._full_text  # noqa: SLF001
+    return message_class._type, message_class._md5sum, message_class._full_text
 
 
 def blank(name: str, md5sum: str, text: str) -> Message:
@@ -19,6 +19,6 @@ def blank(name: str, md5sum: str, text: str) -> Message:
         found = load_message(name)
     except UnknownTypeError:
         found = None
-    if found is None or found._md5sum != md5sum:  # noqa: SLF001
+    if found is None or found._md5sum != md5sum:
         found = class_from_text(name, text)
     return found.__new__(found)

@@ -43,7 +43,7 @@ def type_md5(name: str, kind: Kind) -> str:
         ToolError: There is no such type.
     """
     try:
-        return (load_message if kind == "msg" else load_service)(name)._md5sum  # noqa: SLF001  # genpy's name
+        return (load_message if kind == "msg" else load_service)(name)._md5sum
     except UnknownTypeError as error:
         raise _unknown(name, kind, error) from None
 
@@ -73,11 +73,11 @@ def _halves(name: str, kind: Kind) -> Iterator[MessageSpec]:
             classes = [load_message(name)]
         else:
             service = load_service(name)
-            classes = [service._request_class, service._response_class]  # noqa: SLF001  # genpy's names
+            classes = [service._request_class, service._response_class]
     except UnknownTypeError as error:
         raise _unknown(name, kind, error) from None
     for each in classes:
-        yield parse_message(each._type, each._full_text.partition("\n" + "=" * 80)[0])  # noqa: SLF001  # genpy's names
+        yield parse_message(each._type, each._full_text.partition("\n" + "=" * 80)[0])
 
 
 def _lines(spec: MessageSpec, indent: str) -> Iterator[str]:

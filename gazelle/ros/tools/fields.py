@@ -81,13 +81,13 @@ def type_at(message_class: type[Message], steps: Sequence[Step]) -> str:
     Raises:
         ToolError: There is no such field.
     """
-    kind = message_class._type  # noqa: SLF001  # genpy's names
+    kind = message_class._type
     for step in steps:
-        current = message_class if kind == message_class._type else load_message(kind)  # noqa: SLF001
+        current = message_class if kind == message_class._type else load_message(kind)
         if step.name not in current.__slots__:
             hint = did_you_mean(step.name, current.__slots__)
             raise ToolError(f"{kind} has no field '{step.name}'", hint=hint)
-        kind = current._slot_types[list(current.__slots__).index(step.name)]  # noqa: SLF001
+        kind = current._slot_types[list(current.__slots__).index(step.name)]
         if step is not steps[-1] or step.index is not None:
             kind = kind.partition("[")[0]
     return kind
@@ -98,7 +98,7 @@ def texts_as_texts(message: Message, arguments: Sequence[Any]) -> list[Any]:
 
     ``2.0`` and ``max`` are both words for people; YAML makes a number of the first.
     """
-    kinds = dict(zip(message.__slots__, message._slot_types, strict=True))  # noqa: SLF001  # genpy's name
+    kinds = dict(zip(message.__slots__, message._slot_types, strict=True))
     if len(arguments) == 1 and isinstance(arguments[0], dict):
         return [{name: _text(kinds.get(name), each) for name, each in arguments[0].items()}]
     if len(arguments) != len(kinds):

@@ -32,7 +32,7 @@ def leave_out(*, strings: bool, arrays: bool) -> Transform:
         if not isinstance(value, Message):
             return value if kind is None else note(value, kind)
         kinds, values = [], []
-        for name, each in zip(value.__slots__, value._slot_types, strict=True):  # noqa: SLF001  # genpy's name
+        for name, each in zip(value.__slots__, value._slot_types, strict=True):
             old = getattr(value, name)
             new = transform(old, None) if isinstance(old, Message) else note(old, each)
             kinds.append("string" if isinstance(new, str) else each)
@@ -60,7 +60,7 @@ def as_yaml(value: Any, *, offset: Time | None = None, width: int | None = None)
 
 def shown_fields(message: Message, *, strings: bool, arrays: bool) -> Iterable[str]:
     """Names of the fields that are plotted."""
-    for name, kind in zip(message.__slots__, message._slot_types, strict=True):  # noqa: SLF001  # genpy's name
+    for name, kind in zip(message.__slots__, message._slot_types, strict=True):
         if not (arrays and "[" in kind) and not (strings and "string" in kind):
             yield name
 
@@ -93,7 +93,7 @@ class Plot:
         """Columns and their values, in order."""
         if isinstance(value, Message):
             shown = set(shown_fields(value, strings=self._strings, arrays=self._arrays))
-            for field, kind in zip(value.__slots__, value._slot_types, strict=True):  # noqa: SLF001  # genpy's name
+            for field, kind in zip(value.__slots__, value._slot_types, strict=True):
                 if field in shown:
                     inner = getattr(value, field)
                     octets = isinstance(inner, bytes) and kind.startswith("uint8[")

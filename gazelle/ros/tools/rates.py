@@ -196,7 +196,7 @@ def measure_size(
         node.subscribe(
             found[0],
             RawMessage,
-            lambda raw: meter.add(time.monotonic(), len(raw._buff)),  # noqa: SLF001  # rospy's name
+            lambda raw: meter.add(time.monotonic(), len(raw._buff)),  # rospy's name
         )
         _begin(out, found[0])
 
@@ -231,7 +231,7 @@ def measure_delay(
 
         def count(raw: RawMessage) -> None:
             message = decode(raw)
-            if not message._has_header:  # noqa: SLF001  # genpy's name
+            if not message._has_header:
                 failed.append(ToolError(f"messages of {found[0]} have no header"))
                 stop.set()
                 return

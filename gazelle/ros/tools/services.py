@@ -102,7 +102,7 @@ def service_arguments(graph: Graph, service: str) -> str:
     Raises:
         ToolError: Nobody offers it, or it does not answer.
     """
-    request = load_service(service_type(graph, service))._request_class  # noqa: SLF001  # genpy's name
+    request = load_service(service_type(graph, service))._request_class
     return get_printable_message_args(request())
 
 
@@ -141,7 +141,7 @@ class Caller:
     @property
     def takes_values(self) -> bool:
         """Whether the request has fields."""
-        return bool(self._class._request_class.__slots__)  # noqa: SLF001  # genpy's name
+        return bool(self._class._request_class.__slots__)
 
     def request(self, arguments: list[Any]) -> Any:
         """A request from values.
@@ -149,7 +149,7 @@ class Caller:
         Raises:
             ToolError: They do not fit its fields.
         """
-        made = self._class._request_class()  # noqa: SLF001  # genpy's name
+        made = self._class._request_class()
         now = Time(nsecs=self._node.clock.now())
         keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
         try:

@@ -17,7 +17,7 @@ _VECTORS = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point
 
 def _triple(message: Any, hom: bool = False) -> Array:  # noqa: FBT001, FBT002  # ros_numpy's interface
     """x, y and z; with `hom` a 1 behind a point's and a 0 behind a vector's."""
-    last = [] if not hom else [0.0 if message._type.endswith("Vector3") else 1.0]  # noqa: SLF001  # genpy's name
+    last = [] if not hom else [0.0 if message._type.endswith("Vector3") else 1.0]
     return np.array([message.x, message.y, message.z, *last])
 
 

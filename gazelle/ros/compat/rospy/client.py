@@ -192,7 +192,7 @@ def _serve_logger_levels() -> None:
     get, change = load_service("roscpp/GetLoggers"), load_service("roscpp/SetLoggerLevel")
 
     def loggers(_request: Any) -> Any:
-        response = get._response_class()  # noqa: SLF001  # genpy's name
+        response = get._response_class()
         known = ["rosout", *sorted(n for n in logging.root.manager.loggerDict if "rosout." in n)]
         response.loggers = [  # type: ignore[attr-defined]
             logger(name, logging.getLevelName(logging.getLogger(name).getEffectiveLevel()))
@@ -205,7 +205,7 @@ def _serve_logger_levels() -> None:
         if level is None:
             raise ROSException(f"no such level: {request.level}")
         logging.getLogger(request.logger).setLevel(level)
-        return change._response_class()  # noqa: SLF001
+        return change._response_class()
 
     node.serve("~get_loggers", get, loggers)
     node.serve("~set_logger_level", change, set_level)

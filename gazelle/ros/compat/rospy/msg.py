@@ -60,12 +60,12 @@ def args_kwds_to_message(data_class: Any, args: Sequence[Any], kwds: Mapping[str
     if isinstance(message, data_class):
         return message
     if isinstance(message, (Message, RawMessage)) or hasattr(message, "_md5sum"):
-        if data_class._md5sum in {message._md5sum, "*"}:  # noqa: SLF001  # genpy's names
+        if data_class._md5sum in {message._md5sum, "*"}:
             return message
-        types = data_class._slot_types  # noqa: SLF001
-        if not types or types[0] != message._type:  # noqa: SLF001
+        types = data_class._slot_types
+        if not types or types[0] != message._type:
             expected = types[0] if types else "[]"
-            raise TypeError(f"expected [{expected}] but got [{message._type}]")  # noqa: SLF001
+            raise TypeError(f"expected [{expected}] but got [{message._type}]")
     return data_class(message)
 
 

@@ -21,6 +21,6 @@ def numpy_msg(msg_type: Any) -> Any:
         "deserialize": deserialize,
     }
     # A message lists its own fields in __slots__; the subclass adds none.
-    made = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), body)  # noqa: SLF001  # genpy's name
+    made = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), body)
     made.__slots__ = msg_type.__slots__  # type: ignore[attr-defined]
     return made

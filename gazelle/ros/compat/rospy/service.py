@@ -54,8 +54,8 @@ class _Service:
     def __init__(self, name: str, service_class: Any) -> None:
         self.resolved_name = resolve_name(name)
         self.service_class = service_class
-        self.request_class: Any = service_class._request_class  # noqa: SLF001  # genpy's names
-        self.response_class: Any = service_class._response_class  # noqa: SLF001
+        self.request_class: Any = service_class._request_class
+        self.response_class: Any = service_class._response_class
         self.uri: str | None = None
 
 
@@ -176,7 +176,7 @@ class ServiceProxy(_Service):
             ROSInterruptException: The node was shut down meanwhile.
         """
         request = args_kwds_to_message(self.request_class, args, kwds)
-        if request._type != self.request_class._type:  # noqa: SLF001  # genpy's name
+        if request._type != self.request_class._type:
             raise TypeError(
                 f"request object type [{type(request)}] does not match service type "
                 f"[{self.request_class}]"

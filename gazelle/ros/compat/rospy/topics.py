@@ -62,8 +62,8 @@ class Topic:
             self.resolved_name = resolve_name(name)
         self.name = self.resolved_name
         self.data_class: Any = data_class
-        self.type: str = data_class._type  # type: ignore[attr-defined]  # noqa: SLF001  # genpy's names
-        self.md5sum: str = data_class._md5sum  # type: ignore[attr-defined]  # noqa: SLF001
+        self.type: str = data_class._type  # type: ignore[attr-defined]
+        self.md5sum: str = data_class._md5sum  # type: ignore[attr-defined]
         self.reg_type = reg_type
         self.impl: Any = None
 

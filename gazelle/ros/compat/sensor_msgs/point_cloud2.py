@@ -145,7 +145,7 @@ def _parts(
 
 def _columns(cloud: Any, names: Sequence[str] | None) -> list[NDArray[Any]]:
     """The values of the wanted fields, each (height, width); views of the message's data."""
-    if getattr(cloud, "_type", None) != PointCloud2._type:  # noqa: SLF001  # genpy's name
+    if getattr(cloud, "_type", None) != PointCloud2._type:
         raise TypeError(f"this is no sensor_msgs/PointCloud2: {type(cloud).__name__}")
     known = {field.name for field in cloud.fields}
     missing = [name for name in names or () if name not in known]

@@ -58,13 +58,13 @@ class TransformListener:
     def callback(self, data: Any) -> None:
         """Take a message of /tf."""
         self.check_for_reset()
-        who = data._connection_header.get("callerid", "default_authority")  # noqa: SLF001  # genpy's name
+        who = data._connection_header.get("callerid", "default_authority")
         for transform in data.transforms:
             self.buffer.set_transform(transform, who)
 
     def static_callback(self, data: Any) -> None:
         """Take a message of /tf_static."""
         self.check_for_reset()
-        who = data._connection_header.get("callerid", "default_authority")  # noqa: SLF001
+        who = data._connection_header.get("callerid", "default_authority")
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, who)
