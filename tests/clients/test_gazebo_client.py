@@ -70,8 +70,10 @@ def test_models_come_and_go(graph):
 
 
 @pytest.mark.filterwarnings("ignore:the service /imu_service")
-def test_robots_are_spawned_from_files_packages_and_parameters(graph):
+def test_robots_are_spawned_from_files_packages_and_parameters(graph, tmp_path):
     gazebo = graph.gazebo
+    (tmp_path / "ball.sdf").write_text(BALL)
+    gazebo.spawn_sdf_file("ball_of_a_file", tmp_path / "ball.sdf", position=(0.0, 2.0, 1.0))
     gazebo.spawn_urdf_file("r2", assets.robot("turtlebot3_burger"), position=(1.0, 0.0, 0.0))
     gazebo.spawn_urdf_file(
         "r3",
@@ -84,7 +86,7 @@ def test_robots_are_spawned_from_files_packages_and_parameters(graph):
     gazebo.node.set_param("ball_sdf", BALL)
     gazebo.spawn_sdf_parameter("ball", "ball_sdf", position=(0.0, 1.0, 1.0))
     gazebo.spawn_urdf_parameter("stone", "ball_description")
-    assert {"r2", "r3", "ball", "stone"} <= set(gazebo.models)
+    assert {"r2", "r3", "ball", "ball_of_a_file", "stone"} <= set(gazebo.models)
     assert graph.sim.robots["r3"].outputs["odom"].topic == "/r3/odom"
     with pytest.raises(ClientError, match="holds no description"):
         gazebo.spawn_urdf_parameter("r4", "nothing")
