@@ -167,6 +167,8 @@ def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
     service = load_service("gazebo_msgs/SetModelState")
     request = service._request_class()
     request.model_state.model_name = "burger"
+    place = request.model_state.pose  # between the pillars, not in one
+    place.position.x, place.position.y, place.orientation.w = -2.0, -0.5, 1.0
     with world() as sim, serve_ros(sim, uri) as door:
         if paused:
             sim.pause()

@@ -59,6 +59,9 @@ class Overlaps:
         self._rates = np.zeros(model.ngeom + model.npair)
         self._start = np.zeros(model.ngeom + model.npair)
         self._margins = np.zeros((nworld, model.ngeom + model.npair))
+        self._roots = model.body_rootid[model.geom_bodyid]
+        self._moves = model.body_weldid[model.geom_bodyid] != 0
+        self._scratch = mujoco.MjData(model)  # to make one takes longer than all that it is for
         self.any = False
 
     def begin(self, batch: Batch) -> None:
@@ -167,17 +170,18 @@ class Overlaps:
         model, margins = self._model, np.zeros_like(self._rates)
         if not model.nv:
             return margins
-        data = mujoco.MjData(model)
+        data = self._scratch
+        mujoco.mj_resetData(model, data)
         mujoco.mj_setState(model, data, state, _STATE)
         mujoco.mj_fwdPosition(model, data)
         ends: NDArray[np.int32] = data.contact.geom.reshape(-1, 2)
         for (one, two), distance in zip(ends.tolist(), data.contact.dist.tolist(), strict=True):
             if -distance <= max(self._allowed[one], self._allowed[two]):
                 continue
-            roots = [int(model.body_rootid[model.geom_bodyid[geom]]) for geom in (one, two)]
-            if placed is not None and not placed & set(roots):
+            root = int(self._roots[two])
+            if placed is not None and placed.isdisjoint((int(self._roots[one]), root)):
                 continue
-            turned = placed is not None and roots[1] not in placed
+            turned = placed is not None and root not in placed
             column = self._column(two, one) if turned else self._column(one, two)
             if column - model.ngeom in self._springs:
                 continue
@@ -190,8 +194,7 @@ class Overlaps:
         pair = self._pairs.get((min(one, two), max(one, two)))
         if pair is not None:
             return int(self._model.ngeom) + pair
-        moves = bool(self._model.body_weldid[self._model.geom_bodyid[two]] != 0)
-        return two if moves else one
+        return two if self._moves[two] else one
 
 
 def _contacts_of(compiled: Compiled) -> Iterator[tuple[int, Contact]]:
