@@ -116,5 +116,7 @@ def yaw_of(q: Floats) -> Floats:
 def from_yaw(yaw: Floats) -> Floats:
     """Quaternions of a turn about z, shape (..., 4), from angles [rad], shape (...)."""
     half = np.asarray(yaw, np.float64) / 2.0
-    zero = np.zeros_like(half)
-    return np.stack((zero, zero, np.sin(half), np.cos(half)), axis=-1)
+    q = np.zeros((*half.shape, 4))
+    np.sin(half, out=q[..., 2])
+    np.cos(half, out=q[..., 3])
+    return q
