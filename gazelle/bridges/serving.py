@@ -11,7 +11,7 @@ from typing import Self
 from gazelle.bridges.gazebo import GazeboDoor
 from gazelle.bridges.pacing import Pacer
 from gazelle.errors import RosError
-from gazelle.ros import Master, Node, net
+from gazelle.ros import Master, Node, WallClock, net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
 from gazelle.ros.master.proxy import value_of
 from gazelle.ros.tools.graph import Graph
@@ -172,12 +172,13 @@ def join_graph(
         MasterUnreachableError: There is no master, and none can be started at that address.
     """
     uri = master_uri or net.default_master_uri()
+    clock = WallClock()  # who makes the time does not wait to hear of it on /clock
     try:
-        return Node(name, master_uri=uri, host=host), None
+        return Node(name, master_uri=uri, host=host, clock=clock), None
     except MasterUnreachableError:
         master = _start_master(uri)
     try:
-        return Node(name, master_uri=master.uri, host=host), master
+        return Node(name, master_uri=master.uri, host=host, clock=clock), master
     except BaseException:
         master.close()
         raise

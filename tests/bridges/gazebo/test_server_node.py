@@ -11,7 +11,8 @@ import pytest
 from door_client import Client
 from ros.graph import until
 
-from gazelle.bridges import refuse_twin
+import gazelle
+from gazelle.bridges import refuse_twin, serve_ros
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.bridges.gazebo.server import main as serve
 from gazelle.errors import ResolveError, RosError, SimulationWarning
@@ -123,3 +124,11 @@ def test_what_is_not_supported_is_a_line_and_no_more(master, world):
     (line,) = done.stderr.strip().splitlines()
     assert line.startswith("[WARN]")
     assert "libno_such.so" in line
+
+
+def test_who_makes_the_time_does_not_listen_to_its_own_clock():
+    with Master(port=0) as master, gazelle.Simulation("empty") as sim:
+        master.api.parameters.set("/use_sim_time", True)  # as launch files do, before it starts
+        with serve_ros(sim, master.uri) as door:
+            _, subscribers, _ = door.node.master.system_state()
+            assert "/clock" not in subscribers
