@@ -39,6 +39,35 @@ class Transition:
 
 
 @dataclass(frozen=True, slots=True)
+class Finals:
+    """How episodes ended that a control step ended.
+
+    Attributes:
+        worlds: Where, shape (n,).
+        observation: The last ones, shape (n, size).
+        info: The last info, shape (nworld, ...), zero where no episode ended.
+    """
+
+    worlds: Worlds
+    observation: Float32
+    info: Info
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A control step in every world, with the next episode begun where one ended.
+
+    Attributes:
+        transition: What it brought; observation and info are those of the next episode where
+            one ended.
+        finals: How episodes ended; None if none did.
+    """
+
+    transition: Transition
+    finals: Finals | None
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
     """A transition before the step limit is applied; see `Transition`."""
 
@@ -113,6 +142,34 @@ class BatchedTask(ABC):
             verdict.observation, verdict.reward, verdict.terminated, truncated, verdict.info
         )
 
+    def step(self, actions: ArrayLike) -> Step:
+        """Make one control step in every world, and begin the next episode where one ended.
+
+        Args:
+            actions: Shape (nworld, ...).
+
+        Raises:
+            TaskError: The actions have the wrong shape or values.
+        """
+        last = self.advance(actions)
+        done = last.terminated | last.truncated
+        if not done.any():
+            return Step(last, None)
+        worlds = np.flatnonzero(done)
+        observation, info = last.observation.copy(), dict(last.info)
+        first, start = self.begin(worlds)
+        observation[worlds] = first
+        for name, values in start.items():
+            info[name] = info[name].copy()
+            info[name][worlds] = values
+        finals = Finals(
+            worlds,
+            last.observation[worlds],
+            {name: _only(values, worlds) for name, values in last.info.items()},
+        )
+        now = Transition(observation, last.reward, last.terminated, last.truncated, info)
+        return Step(now, finals)
+
     def get_state(self) -> dict[str, Any]:
         """The whole state, simulation and random numbers included: a dict of arrays and bytes."""
         return {"elapsed": self.elapsed.copy(), **self._state()}
@@ -165,3 +222,10 @@ class BatchedTask(ABC):
     @abstractmethod
     def _set_state(self, state: dict[str, Any]) -> None:
         """Put back what ``_state`` gave."""
+
+
+def _only(values: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
+    """The values of some worlds, and zeros elsewhere."""
+    kept = np.zeros_like(values)
+    kept[worlds] = values[worlds]
+    return kept

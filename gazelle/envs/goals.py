@@ -29,6 +29,12 @@ class GoalTable:
 
     Raises:
         TaskError: No points, or points that are not pairs of finite numbers.
+
+    Attributes:
+        points: Places in the world frame [m], shape (m, 2).
+        start: Index of the place of the very first goal.
+        counts: How many places may follow each place, shape (m,).
+        successors: Which ones: the first ``counts[i]`` numbers of row i, shape (m, m).
     """
 
     def __init__(
@@ -44,9 +50,8 @@ class GoalTable:
         allowed = ~np.eye(count, dtype=np.bool_) if follows is None else follows.copy()
         stuck = ~allowed.any(axis=1)
         allowed[stuck, stuck] = True
-        self._counts = allowed.sum(axis=1)
-        # The allowed places of each row come first, in their order: row i, columns < counts[i].
-        self._successors = np.argsort(~allowed, axis=1, kind="stable")
+        self.counts = allowed.sum(axis=1)
+        self.successors = np.argsort(~allowed, axis=1, kind="stable")
 
     def first(self, uniform: Float64) -> Index:
         """Any place.
@@ -69,8 +74,8 @@ class GoalTable:
         Returns:
             Indices into ``points``, shape (n,).
         """
-        choice = (uniform * self._counts[last]).astype(np.intp)
-        following: Index = self._successors[last, choice]
+        choice = (uniform * self.counts[last]).astype(np.intp)
+        following: Index = self.successors[last, choice]
         return following
 
 

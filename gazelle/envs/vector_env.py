@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Float64, Info, Worlds
+from gazelle.envs.batched_task import BatchedTask, Bool, Finals, Float32, Float64, Info, Worlds
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
@@ -89,25 +89,21 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
         Raises:
             TaskError: The actions have the wrong shape or values.
         """
-        result = self.task.advance(actions)
-        self._observation[:] = result.observation
-        info = dict(result.info)
-        extra: dict[str, Any] = {}
-        done = result.terminated | result.truncated
-        if done.any():
-            worlds = np.flatnonzero(done)
-            extra = _finals(result.observation, result.info, done)
-            first, start = self.task.begin(worlds)
-            self._observation[worlds] = first
-            info = {name: _merged(info[name], start[name], worlds) for name in info}
-        everywhere = np.ones(self.num_envs, dtype=np.bool_)
-        masks = {f"_{name}": everywhere.copy() for name in info}
+        step = self.task.step(actions)
+        result, finals = step.transition, step.finals
+        self._observation = result.observation
+        masks = np.ones((len(result.info), self.num_envs), dtype=np.bool_)
+        names = (f"_{name}" for name in result.info)
         return (
-            self._observation.copy(),
+            result.observation.copy(),
             result.reward,
             result.terminated,
             result.truncated,
-            {**info, **masks, **extra},
+            {
+                **result.info,
+                **dict(zip(names, masks, strict=True)),
+                **({} if finals is None else _spelled(finals, self.num_envs)),
+            },
         )
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
@@ -150,30 +146,21 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
         return spread
 
 
-def _finals(observation: Float32, info: Info, done: Bool) -> dict[str, Any]:
+def _spelled(finals: Finals, nworld: int) -> dict[str, Any]:
     """``final_obs`` and ``final_info`` as Gymnasium's vector environments give them."""
-    worlds = np.flatnonzero(done)
-    final_obs = np.full(len(done), None, dtype=np.object_)
-    final_obs[worlds] = np.fromiter(observation[worlds], dtype=np.object_, count=len(worlds))
-    final_info: dict[str, Any] = {}
-    for name, values in info.items():
-        kept = np.zeros(values.shape, values.dtype)
-        kept[worlds] = values[worlds]
-        final_info[name] = kept
-        final_info[f"_{name}"] = done.copy()
+    observation = np.full(nworld, None, dtype=np.object_)
+    observation[finals.worlds] = np.fromiter(
+        finals.observation, dtype=np.object_, count=len(finals.worlds)
+    )
+    masks = np.zeros((len(finals.info) + 2, nworld), dtype=np.bool_)
+    masks[:, finals.worlds] = True
+    names = (f"_{name}" for name in finals.info)
     return {
-        "final_obs": final_obs,
-        "_final_obs": done.copy(),
-        "final_info": final_info,
-        "_final_info": done.copy(),
+        "final_obs": observation,
+        "_final_obs": masks[0],
+        "final_info": {**finals.info, **dict(zip(names, masks[2:], strict=True))},
+        "_final_info": masks[1],
     }
-
-
-def _merged(values: NDArray[Any], start: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
-    """The values with those of the new episodes in their places."""
-    merged = values.copy()
-    merged[worlds] = start
-    return merged
 
 
 def _masked(mask: object, nworld: int) -> Worlds:

@@ -26,13 +26,13 @@ What differs from Python, by design:
   loop is the same memory in each round; a variable without a value is 0.
 """
 
-from gazelle.engines.native.calls import each, fused, lesser
+from gazelle.engines.native.calls import each, fetch_add, fused, lesser
 from gazelle.engines.native.decorators import Function, inner, kernel, part, whole
 from gazelle.engines.native.function import Native
 from gazelle.engines.native.memory import floats, integers, long_at
 from gazelle.engines.native.outside import c_function
 
 __all__ = [
-    "Function", "Native", "c_function", "each", "floats", "fused", "inner", "integers", "kernel",
-    "lesser", "long_at", "part", "whole",
+    "Function", "Native", "c_function", "each", "fetch_add", "floats", "fused", "inner",
+    "integers", "kernel", "lesser", "long_at", "part", "whole",
 ]  # fmt: skip

@@ -5,10 +5,12 @@ from __future__ import annotations
 import ast
 import inspect
 import math
+import threading
 from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.engines.native.code import Code, constant, rebuilt, words
 from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
@@ -37,6 +39,17 @@ def fused(a: float, b: float, c: float) -> float:
 def lesser(a: float, b: float) -> float:
     """The lesser of two numbers, both of which are numbers; many at once in a loop over ``each``."""
     return min(a, b)
+
+
+_ADDING: Final = threading.Lock()
+
+
+def fetch_add(numbers: NDArray[np.int64], amount: int) -> int:
+    """Add to the first of some numbers, which no other thread does meanwhile; what it was."""
+    with _ADDING:
+        before = int(numbers[0])
+        numbers[0] = before + amount
+    return before
 
 
 def call(code: Code, function: Any, values: list[Value]) -> Value:
@@ -182,6 +195,12 @@ def _at(code: Code, element: str, address: Value, count: Value) -> Value:
     return Value(Array(element, 1), place.text, (count.text,))
 
 
+def _fetch_add(code: Code, numbers: Value, amount: Value) -> Value:
+    if numbers.kind != Array("int64", 1) or amount.kind != WHOLE:
+        raise EngineError("fetch_add takes an array of int64 with one axis, and a whole number")
+    return code.get(WHOLE, f"atomicrmw add ptr {numbers.text}, i64 {amount.text} monotonic")
+
+
 def _sizes(shape: Value) -> list[int]:
     sizes = [part.known for part in shape.parts or (shape,)]
     if not all(isinstance(size, int) and 0 < size <= _MOST for size in sizes):
@@ -195,5 +214,5 @@ _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     abs: _absolute, min: _least, max: _most, float: Code.real, bool: Code.truth, int: _whole,
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
     len: _length, fused: _fused, lesser: _lesser, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
-    floats: _floats, integers: _integers, long_at: _long_at,
+    floats: _floats, integers: _integers, long_at: _long_at, fetch_add: _fetch_add,
 }  # fmt: skip

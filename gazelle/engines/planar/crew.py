@@ -37,18 +37,18 @@ class _Hand:
         self._work = work
         self._go.release()
 
-    def result(self) -> Any:
-        """Wait for what ``start`` began; what it returned.
-
-        Raises:
-            BaseException: What the work raised.
-        """
-        self._done.acquire()
-        value, error = self._value, self._error
+    def outcome(self) -> tuple[Any, BaseException | None]:
+        """Wait for what ``start`` began: what it returned, and what it or Ctrl-C raised."""
+        stop = None
+        while True:
+            try:
+                self._done.acquire()
+                break
+            except KeyboardInterrupt as interruption:  # nobody else could wait for the thread later
+                stop = interruption
+        value, error = self._value, stop or self._error
         self._work = self._value = self._error = None
-        if error is not None:
-            raise error
-        return value
+        return value, error
 
     def end(self) -> None:
         """End the thread."""
@@ -95,19 +95,28 @@ class Crew:
             least: No part is smaller, if there is that much.
         """
         parts = max(1, min(self.size, count // least))
-        if parts == 1:
-            return [work(0, count, 0)]
         ends = [count * part // parts for part in range(parts + 1)]
+        return self.call(lambda part: work(ends[part], ends[part + 1], part), parts)
+
+    def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
+        """Call ``work(part)`` for at most so many parts at once, at least one; what they return.
+
+        Args:
+            work: Called by several threads, each with a number of its own from 0 on.
+            parts: How many are worth it.
+        """
+        parts = min(self.size, parts)
+        if parts <= 1:
+            return [work(0)]
         with self._busy:
             hands = self._at_hand(parts - 1)
             for part, hand in enumerate(hands, 1):
-                hand.start(functools.partial(work, ends[part], ends[part + 1], part))
+                hand.start(functools.partial(work, part))
             try:
-                first = work(ends[0], ends[1], 0)
-            except BaseException:
-                _results(hands)
-                raise
-            return [first, *_results(hands)]
+                first = work(0)
+            finally:  # whoever works is waited for, also when something went wrong
+                others = [hand.outcome() for hand in hands]
+            return [first, *(_value(*outcome) for outcome in others)]
 
     def _at_hand(self, count: int) -> list[_Hand]:
         """So many threads, started if they are not there yet."""
@@ -121,17 +130,10 @@ class Crew:
             _end(self._hands)
 
 
-def _results(hands: list[_Hand]) -> list[Any]:
-    """What all return, once all have ended; the first error of theirs is raised."""
-    found, problem = [], None
-    for hand in hands:
-        try:
-            found.append(hand.result())
-        except BaseException as error:  # noqa: BLE001  the others are waited for first
-            problem = problem or error
-    if problem is not None:
-        raise problem
-    return found
+def _value(value: Any, error: BaseException | None) -> Any:
+    if error is not None:
+        raise error
+    return value
 
 
 def _end(hands: list[_Hand]) -> None:

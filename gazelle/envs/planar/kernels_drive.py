@@ -295,26 +295,32 @@ def drive(  # noqa: C901  # the cases of one loop
             relink(b, b + 1, nbody, grid, pose, head, follow, cell)
 
 
-@kernel
-def begin(
-    worlds: Worlds, initial: Floats, now: float, speeds: Floats, epochs: Floats,
-    command: Floats, velocity: Floats, stalled: Table, pose: Floats, nbody: int, grid: Floats,
-    head: Table, follow: Table, cell: Table,
+@part
+def restart(
+    w: int, initial: Floats, now: Floats, speeds: Floats, epochs: Floats, command: Floats,
+    velocity: Floats, stalled: Table, pose: Floats, nbody: int, grid: Floats, head: Table,
+    follow: Table, cell: Table,
 ) -> None:  # fmt: skip
-    """Put worlds back to how they were made."""
+    """Put a world back to how it was made; paths begin ``now[0]`` [s]."""
+    speeds[w, 0] = speeds[w, 1] = 0.0
+    for k in range(epochs.shape[0]):
+        epochs[k, w] = now[0]
+    base = w * nbody
+    for k in range(nbody):
+        b = base + k
+        for c in range(pose.shape[1]):
+            pose[b, c] = initial[k, c]
+        for axis in range(3):
+            command[b, axis] = velocity[b, axis] = 0.0
+        stalled[b] = False
+    relink(base, base + nbody, nbody, grid, pose, head, follow, cell)
+
+
+@kernel
+def begin(worlds: Worlds, starting: Table) -> None:
+    """Put worlds back to how they were made; the tuple holds what ``restart`` takes."""
     for w in worlds:
-        speeds[w, 0] = speeds[w, 1] = 0.0
-        for k in range(epochs.shape[0]):
-            epochs[k, w] = now
-        base = w * nbody
-        for k in range(nbody):
-            b = base + k
-            for c in range(pose.shape[1]):
-                pose[b, c] = initial[k, c]
-            for axis in range(3):
-                command[b, axis] = velocity[b, axis] = 0.0
-            stalled[b] = False
-        relink(base, base + nbody, nbody, grid, pose, head, follow, cell)
+        restart(w, *starting)
 
 
 @kernel

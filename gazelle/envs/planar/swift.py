@@ -61,6 +61,7 @@ class Swift:
         body: Index of the robot in it.
         angular: The yaw rates of the last step [rad/s], shape (nworld,).
         cleaned: What the lidar reports, fit for a policy [m], shape (nworld, samples).
+        starting: What ``kernels_drive.restart`` takes after the world, for a kernel of a step.
     """
 
     @classmethod
@@ -126,6 +127,8 @@ class Swift:
         self._linear, self.angular = np.zeros((2, self.nworld))
         self._intervals, self._moments = np.zeros((2, self._steps))
         self._driving = self._drive_with(drive, paths)
+        self._now, self._tickets = np.zeros(1), np.zeros(1, np.int64)
+        self.starting = self._start_with()
         self._parts: tuple[Any, ...] | None = None
         self._seen: list[tuple[tuple[Any, ...], tuple[Any, ...]]] = []
         self._ranges = np.zeros((self.nworld, scanner.fan.count))
@@ -136,29 +139,29 @@ class Swift:
 
     def step(
         self, linear: Floats, angular: Floats, act: Function, *others: tuple[Any, ...]
-    ) -> Floats:
+    ) -> None:
         """Make a control step everywhere, measure, and do what a task makes of that.
 
         Args:
             linear: Wanted speed in each world [m/s], shape (nworld,).
             angular: Wanted yaw rate [rad/s], shape (nworld,).
-            act: A kernel called by each thread for a range of worlds: it takes the first, the
-                one after the last, what ``kernels_drive.drive``, ``kernels_lidar.see`` and
-                ``kernels_lidar.report`` take after these, as tuples, and the others.
+            act: A kernel called by each thread, which takes worlds until none is left: its
+                arguments are an array that counts those taken, how many there are, what
+                ``kernels_drive.drive``, ``kernels_lidar.see`` and ``kernels_lidar.report``
+                take after a range of worlds, as tuples, and the others.
             others: What else it takes.
-
-        Returns:
-            What the lidar reports [m], shape (nworld, samples); used again by the next step.
         """
         self._linear[:], self.angular[:] = linear, angular
         self._plan()
+        self._now[0] = self._simulation.clock.now
+        self._tickets[0] = 0
         measuring = self._measuring(self._everywhere)
-        self.fleet.crew.share(
-            lambda first, last, part: act(first, last, self._driving, *measuring[part], *others),
-            self.nworld,
-            _SHARE,
+        self.fleet.crew.call(
+            lambda part: act(
+                self._tickets, self.nworld, self._driving, *measuring[part], *others
+            ),
+            self.nworld // _SHARE,
         )
-        return self.cleaned
 
     def measure(self, worlds: Worlds, look: Function, *others: tuple[Any, ...]) -> Floats:
         """What the lidar reports now [m], shape (n, samples); used again by the next call.
@@ -170,13 +173,8 @@ class Swift:
 
     def begin(self, worlds: Worlds) -> None:
         """Put worlds back to their start."""
-        fleet = self.fleet
-        grid, _, head, follow, cell = fleet.lists()
-        kernels_drive.begin(
-            worlds, self._initial, self._simulation.clock.now, self._speeds, self._epochs,
-            *self._flat_state(), fleet.rows, fleet.nbody, grid, head, follow, cell,
-        )  # fmt: skip
-        self._lidar.noise.reset(worlds)
+        self._now[0] = self._simulation.clock.now
+        kernels_drive.begin(worlds, self.starting)
 
     def _flat_state(self) -> tuple[Floats, Floats, Any]:
         """Commands, velocities and stalls of the fleet, with one row a body of all worlds."""
@@ -199,6 +197,15 @@ class Swift:
             fleet.rows, fleet.goal, stalled, fleet.kinds, fleet.pieces, fleet.corners, grid,
             head, follow, cell, fleet.scene.table.rows, statics.cells, statics.start,
             statics.items, _NOTHING, fleet.arguments(),
+        )  # fmt: skip
+
+    def _start_with(self) -> tuple[Any, ...]:
+        """What ``kernels_drive.restart`` takes after the world."""
+        fleet = self.fleet
+        grid, _, head, follow, cell = fleet.lists()
+        return (
+            self._initial, self._now, self._speeds, self._epochs, *self._flat_state(),
+            fleet.rows, fleet.nbody, grid, head, follow, cell,
         )  # fmt: skip
 
     def _measuring(self, worlds: Worlds) -> list[tuple[tuple[Any, ...], tuple[Any, ...]]]:

@@ -7,16 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import Bool, Float32, Info, Verdict, Worlds
+from gazelle.envs.batched_task import Float32, Info, Step, Verdict, Worlds
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.planar.swift import Swift
-from gazelle.envs.turtlebot3 import kernels_judge
+from gazelle.envs.turtlebot3 import kernels_judge, kernels_step
 from gazelle.envs.turtlebot3.actions import ACTIONS, ANGULAR_STEP
 from gazelle.envs.turtlebot3.observations import Sight
+from gazelle.envs.turtlebot3.outcome import Outcome
 from gazelle.envs.turtlebot3.rules import Rules
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
 
 Floats = NDArray[np.float64]
+
+_NOTHING, _NOWHERE = np.zeros((0, 0)), np.zeros(0, np.intp)
 
 
 class SwiftTurtleBot3Task(TurtleBot3Task):
@@ -32,15 +35,11 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         self._swift: Swift | None = None
         self._bound: object = None
         super().__init__(stage, nworld, continuous=continuous, settings=settings)
-        size = self.observation_space.shape[0]
         self._rules = _row_of(self.rules)
-        self._size = size
-        self._distance, self._heading = np.zeros(nworld), np.zeros(nworld)
-        self._nearest = np.zeros(nworld)
+        self._outcome = Outcome(nworld, self.observation_space.shape[0])
+        self._goals_reached = self._outcome.counts[kernels_step.REACHED]
         self._everywhere = np.arange(nworld)
-        self._seen, self._reward = np.zeros((nworld, size), np.float32), np.zeros(nworld)
-        self._crashed, self._arrived = np.zeros((2, nworld), np.bool_)
-        self._acts: tuple[Swift, tuple[Any, ...], tuple[Any, ...]] | None = None
+        self._kept: tuple[object, tuple[Any, ...], tuple[Any, ...]] = (None, (), ())
 
     @property
     def swift(self) -> Swift | None:
@@ -72,48 +71,59 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         if self._swift is None:
             return super()._look(worlds)
-        observation = np.zeros((len(worlds), self._size), np.float32)
+        observation = np.zeros((len(worlds), self._outcome.observation.shape[1]), np.float32)
         swift = self._swift
-        cleaned = swift.measure(
-            worlds, kernels_judge.look, self._observing(swift, worlds, observation)
-        )
-        seen = self._sight(cleaned, len(worlds))
+        swift.measure(worlds, kernels_judge.look, self._observing(swift, worlds, observation))
+        seen = self._sight(len(worlds))
         self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
         return observation, self._info(seen, worlds, arrived=no, crashed=no)
+
+    def step(self, actions: ArrayLike) -> Step:
+        """See `BatchedTask.step`; all of it is done in native code."""
+        swift = self._swift
+        if swift is None:
+            return super().step(actions)
+        swift.step(*self._command(actions), kernels_step.step, *self._arguments(swift)[1])
+        return self._outcome.step(timed=self.max_episode_steps is not None)
 
     def _act(self, actions: ArrayLike) -> Verdict:
         swift = self._swift
         if swift is None:
             return super()._act(actions)
-        linear, angular = self._command(actions)
-        swift.step(linear, angular, kernels_judge.act, *self._acting(swift))
-        return self._verdict(
-            self._seen.copy(), self._reward.copy(), self._crashed.copy(), self._arrived.copy()
-        )
-
-    def _acting(self, swift: Swift) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
-        """What ``kernels_judge.act`` takes besides what ``Swift.step`` hands it."""
-        if self._acts is None or self._acts[0] is not swift:
-            judging = (
-                self._distance, self._heading, self._nearest, swift.angular, ANGULAR_STEP,
-                (ACTIONS - 1) / 2, self._start_distance, self._rules, self._reward,
-                self._crashed, self._arrived,
-            )  # fmt: skip
-            observing = self._observing(swift, self._everywhere, self._seen)
-            self._acts = (swift, observing, judging)
-        return self._acts[1:]
-
-    def _verdict(
-        self, observation: Float32, reward: Floats, crashed: Bool, arrived: Bool
-    ) -> Verdict:
-        seen, everywhere = self._sight(observation, self.nworld), self._everywhere
+        swift.step(*self._command(actions), kernels_judge.act, *self._arguments(swift)[0])
+        made, everywhere = self._outcome, self._everywhere
+        crashed, arrived = made.crashed.copy(), made.arrived.copy()
         self._goals_reached += arrived
         if self.respawn and arrived.any():
             self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
-        info = self._info(seen, everywhere, arrived=arrived, crashed=crashed & ~arrived)
-        return Verdict(observation, reward, terminated, info)
+        info = self._info(
+            self._sight(self.nworld), everywhere, arrived=arrived, crashed=crashed & ~arrived
+        )
+        return Verdict(made.observation.copy(), made.reward.copy(), terminated, info)
+
+    def _arguments(self, swift: Swift) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """What ``kernels_judge.act`` and ``kernels_step.step`` take after what is measured."""
+        if self._kept[0] is not self._stream:  # which a seed makes anew
+            made, goals, fleet = self._outcome, self.goals, swift.fleet
+            acting = (
+                self._observing(swift, self._everywhere, made.observation),
+                (
+                    *made.numbers[: kernels_step.HEADING + 1], made.nearest, swift.angular,
+                    ANGULAR_STEP, (ACTIONS - 1) / 2, self._start_distance, self._rules,
+                    made.reward, made.crashed, made.arrived,
+                ),
+            )  # fmt: skip
+            stepping = (
+                *acting, swift.starting, fleet.rows, fleet.nbody, swift.body, goals.points,
+                self._goal, goals.start, self.elapsed, self.max_episode_steps or 0, self.respawn,
+                goals.counts, goals.successors, self._stream.keys, self._stream.counters,
+                self._start_distance, made.crashed, made.arrived, made.observation,
+                made.last_observation, made.flags, made.numbers, made.counts, made.points,
+            )  # fmt: skip
+            self._kept = (self._stream, acting, stepping)
+        return self._kept[1:]
 
     def _see_distance(self, worlds: Worlds) -> Floats:
         if self._swift is None:
@@ -122,21 +132,17 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
 
     def _observing(self, swift: Swift, worlds: Worlds, observation: Float32) -> tuple[Any, ...]:
         """What ``kernels_judge.observe`` takes after the range of worlds."""
+        made = self._outcome
         return (
             worlds, swift.cleaned, swift.fleet.rows, swift.fleet.nbody, swift.body,
-            self.goals.points, self._goal, self._rules, observation, self._distance,
-            self._heading, self._nearest,
+            self.goals.points, self._goal, self._rules, observation,
+            *made.numbers[: kernels_step.HEADING + 1], made.nearest,
         )  # fmt: skip
 
-    def _sight(self, ranges: NDArray[Any], count: int) -> Sight:
-        """What was seen, in arrays of its own."""
-        return Sight(
-            ranges,
-            self._nearest[:count],
-            np.zeros(0, np.intp),
-            self._distance[:count].copy(),
-            self._heading[:count].copy(),
-        )
+    def _sight(self, count: int) -> Sight:
+        """What was seen last, but for the ranges, in arrays of its own."""
+        distance, heading = self._outcome.numbers[: kernels_step.HEADING + 1, :count].copy()
+        return Sight(_NOTHING, self._outcome.nearest[:count], _NOWHERE, distance, heading)
 
     def _state(self) -> dict[str, Any]:
         if self._swift is not None:

@@ -21,6 +21,7 @@ from gazelle.engines.native import Native, kernel
 from gazelle.engines.native.interpreter import interpreted
 from gazelle.engines.planar.__main__ import compile_ahead
 from gazelle.engines.planar.crew import Crew
+from gazelle.envs.planar.__main__ import compile_ahead as compile_tasks
 
 PACKAGES = (gazelle.engines.planar, gazelle.envs.planar, gazelle.envs.turtlebot3)
 
@@ -134,7 +135,7 @@ def seen(monkeypatch):
 
 
 def test_every_kernel_does_the_same_both_ways(seen):
-    compile_ahead()
+    compile_tasks()
     env = gymnasium.make("gazelle/TurtleBot3Stage4-v0", engine="planar")
     env.reset(seed=0)
     for action in range(3):

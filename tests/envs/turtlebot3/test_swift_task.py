@@ -49,6 +49,55 @@ def test_the_swift_task_gives_what_the_slow_one_gives(stage, rays, continuous):
         task.close()
 
 
+def same(got, wanted):
+    assert list(got) == list(wanted)
+    for name, values in wanted.items():
+        assert got[name].dtype == values.dtype
+        np.testing.assert_allclose(got[name], values, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("stage", "options"),
+    [
+        (4, {"lidar_samples": 24}),
+        (4, {"lidar_samples": 24, "max_episode_steps": 35, "respawn": False}),
+        (1, {"lidar_samples": 9, "max_episode_steps": 20, "goals": [(0.6, 0.0), (0.3, 0.3)]}),
+        (2, {"max_episode_steps": 11, "goals": [(0.35, 0.0), (0.3, 0.2)], "respawn": False}),
+    ],
+)
+def test_steps_with_the_next_episodes_are_those_of_the_slow_task(stage, options):
+    slow, swift = tasks(stage, **options)
+    for task in (slow, swift):
+        task.begin(np.arange(32))
+    generator = np.random.default_rng(stage)
+    ends = dict.fromkeys(("is_success", "is_collision", "is_timeout"), 0)
+    goals = 0
+    for _ in range(90):
+        actions = generator.choice([1, 2, 2, 3], 32)
+        wanted, got = slow.step(actions), swift.step(actions)
+        for one, other in ((got.transition, wanted.transition),):
+            np.testing.assert_allclose(one.observation, other.observation, atol=1e-5)
+            np.testing.assert_allclose(one.reward, other.reward, atol=1e-9)
+            np.testing.assert_array_equal(one.terminated, other.terminated)
+            np.testing.assert_array_equal(one.truncated, other.truncated)
+            same(one.info, other.info)
+            goals += int(one.info["is_success"].sum())
+        assert (got.finals is None) == (wanted.finals is None)
+        if wanted.finals is None:
+            continue
+        np.testing.assert_array_equal(got.finals.worlds, wanted.finals.worlds)
+        np.testing.assert_allclose(got.finals.observation, wanted.finals.observation, atol=1e-5)
+        same(got.finals.info, wanted.finals.info)
+        for name in ends.keys() & wanted.finals.info.keys():
+            ends[name] += int(wanted.finals.info[name].sum())
+    assert ends["is_collision"] if stage == 4 else ends["is_timeout"]
+    assert goals or ends["is_success"] or "goals" not in options
+    for name in ("goal", "goal_draws", "goals_reached", "start_distance", "elapsed"):
+        np.testing.assert_allclose(swift.get_state()[name], slow.get_state()[name], atol=1e-9)
+    for task in (slow, swift):
+        task.close()
+
+
 def test_robots_that_drive_into_walls_stop_where_they_do_part_by_part():
     slow, swift = tasks(4)
     for task in (slow, swift):

@@ -1,0 +1,176 @@
+"""A control step of a TurtleBot3 task from commands to the first moment of the next episode."""
+
+# ruff: noqa: FBT001  # kernels take their arguments in order
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.engines.native import fetch_add, kernel, part
+from gazelle.engines.planar.columns import X, Y
+from gazelle.envs.planar.kernels_drive import restart
+from gazelle.envs.planar.kernels_lidar import report, uniforms
+from gazelle.envs.planar.kernels_lidar import see as scan
+from gazelle.envs.planar.tables import Flags, Floats, Indices, Table
+from gazelle.envs.turtlebot3.kernels_judge import BLOCK, act_in, observe, round2
+
+SHORTEST = 0.01  # what a reward is measured by that would else be measured by nothing [m]
+NO_GOAL = -1
+
+# Rows of what comes out.
+SUCCESS, COLLISION, TIMEOUT, TERMINATED, TRUNCATED = range(5)
+LAST_SUCCESS, LAST_COLLISION, LAST_TIMEOUT, DONE, FLAGS = range(5, 10)
+DISTANCE, HEADING, LAST_DISTANCE, LAST_HEADING, NUMBERS = range(5)
+REACHED, LAST_REACHED, COUNTS = range(3)
+GOAL, LAST_GOAL, PLACES = range(3)
+
+
+@part
+def drawn(w: int, keys: Table, counters: Table, count: int) -> int:
+    """The next whole number below ``count`` of a world's stream."""
+    number = np.empty(1)
+    uniforms(keys[w], counters[w], number)
+    counters[w] += np.uint64(1)
+    return int(number[0] * count)
+
+
+@part
+def next_goal(
+    w: int, goal: Table, counts: Table, successors: Table, keys: Table, counters: Table
+) -> None:
+    """A goal that may follow a world's last one."""
+    place = goal[w]
+    goal[w] = successors[place, drawn(w, keys, counters, counts[place])]
+
+
+@part
+def first_goal(
+    w: int, goal: Table, places: int, start: int, respawn: bool, keys: Table, counters: Table
+) -> None:
+    """The goal of a new episode; with ``respawn`` it stays over collisions and time-outs."""
+    if not respawn:
+        goal[w] = drawn(w, keys, counters, places)
+    elif goal[w] == NO_GOAL:
+        goal[w] = start
+
+
+@part
+def distance_to_goal(b: int, pose: Floats, goals: Floats, place: int) -> float:
+    """How far a body is from a place [m], rounded as the observation is."""
+    return float(
+        round2(math.hypot(goals[place, 0] - pose[b, X], goals[place, 1] - pose[b, Y]))
+    )
+
+
+@part
+def write_goal(points: Floats, row: int, w: int, goals: Floats, place: int) -> None:
+    """Let a place come out as a world's goal."""
+    points[row, w, 0], points[row, w, 1] = goals[place, 0], goals[place, 1]
+
+
+@part
+def keep(w: int, over: bool, flags: Flags, numbers: Floats, counts: Indices, points: Floats) -> None:
+    """Put what came out of an episode that is over where it stays; zeros if it is not."""
+    for k in range(SUCCESS, TIMEOUT + 1):
+        flags[LAST_SUCCESS + k, w] = over and flags[SUCCESS + k, w]
+    for k in range(DISTANCE, HEADING + 1):
+        numbers[LAST_DISTANCE + k, w] = numbers[k, w] if over else 0.0
+    counts[LAST_REACHED, w] = counts[REACHED, w] if over else 0
+    for axis in range(2):
+        points[LAST_GOAL, w, axis] = points[GOAL, w, axis] if over else 0.0
+
+
+@part
+def conclude(
+    w: int, b: int, pose: Floats, goals: Floats, goal: Table, elapsed: Indices, most: int,
+    respawn: bool, counts_of: Table, successors: Table, keys: Table, counters: Table,
+    start_distance: Floats, crashed: Flags, arrived: Flags, flags: Flags, numbers: Floats,
+    counts: Indices, points: Floats,
+) -> bool:  # fmt: skip
+    """Write down what a step brought, and give who has arrived a goal; whether it ends here."""
+    elapsed[w] += 1
+    late = 0 < most <= elapsed[w]
+    ended = crashed[w] or (arrived[w] and not respawn)
+    if arrived[w]:
+        counts[REACHED, w] += 1
+        if respawn:
+            next_goal(w, goal, counts_of, successors, keys, counters)
+            start_distance[w] = max(distance_to_goal(b, pose, goals, goal[w]), SHORTEST)
+    write_goal(points, GOAL, w, goals, goal[w])
+    over = ended or late
+    flags[SUCCESS, w], flags[COLLISION, w] = arrived[w], crashed[w] and not arrived[w]
+    flags[TIMEOUT, w] = late and not ended
+    flags[TERMINATED, w], flags[TRUNCATED, w], flags[DONE, w] = ended, late, over
+    keep(w, over, flags, numbers, counts, points)
+    return over
+
+
+@kernel
+def step(
+    tickets: Indices, nworld: int, driving: Table, seeing: Table, reporting: Table,
+    observing: Table, judging: Table, starting: Table, pose: Floats, nbody: int, robot: int,
+    goals: Floats, goal: Table, first: int, elapsed: Indices, most: int, respawn: bool,
+    counts_of: Table, successors: Table, keys: Table, counters: Table, start_distance: Floats,
+    crashed: Flags, arrived: Flags, observation: Table, last_observation: Table, flags: Flags,
+    numbers: Floats, counts: Indices, points: Floats,
+) -> None:  # fmt: skip
+    """Make a control step in blocks of worlds until none is left for this thread.
+
+    Args:
+        tickets: How many worlds threads have taken, shared by all of them; 0 before.
+        nworld: How many there are.
+        driving: See ``kernels_judge.act_in``.
+        seeing: See there.
+        reporting: See there.
+        observing: See there; distances and headings are the first rows of ``numbers``.
+        judging: See there.
+        starting: What ``kernels_drive.restart`` takes after the world.
+        pose: Of all bodies.
+        nbody: Bodies of a world.
+        robot: Which of them it is about.
+        goals: Places that are goals [m], shape (m, 2).
+        goal: The place of each world's goal.
+        first: The place of the very first one, with ``respawn``.
+        elapsed: Control steps of each world's episode.
+        most: Control steps that an episode has at most; 0 for any number.
+        respawn: Whether an episode goes on where a goal is reached.
+        counts_of: How many places may follow each place.
+        successors: Which ones.
+        keys: Of the stream that goals are drawn from.
+        counters: Numbers drawn from it so far.
+        start_distance: Distance to the goal when it was given [m].
+        crashed: As ``judge`` has it.
+        arrived: As ``judge`` has it.
+        observation: As ``observe`` has it; of the next episode where one ended.
+        last_observation: The last one, where an episode ended.
+        flags: Comes out, see above, shape (FLAGS, nworld).
+        numbers: Comes out, shape (NUMBERS, nworld).
+        counts: Comes out, shape (COUNTS, nworld); goals reached in the episode, before.
+        points: Comes out, shape (PLACES, nworld, 2).
+    """
+    begin = fetch_add(tickets, BLOCK)
+    while begin < nworld:
+        end = min(begin + BLOCK, nworld)
+        act_in(begin, end, driving, seeing, reporting, observing, judging)
+        for w in range(begin, end):
+            if not conclude(
+                w, w * nbody + robot, pose, goals, goal, elapsed, most, respawn, counts_of,
+                successors, keys, counters, start_distance, crashed, arrived, flags, numbers,
+                counts, points,
+            ):  # fmt: skip
+                continue
+            for k in range(observation.shape[1]):
+                last_observation[w, k] = observation[w, k]
+            restart(w, *starting)
+            elapsed[w], counts[REACHED, w] = 0, 0
+            first_goal(w, goal, goals.shape[0], first, respawn, keys, counters)
+            scan(w, w + 1, *seeing)
+            report(w, w + 1, *reporting)
+            observe(w, w + 1, *observing)
+            start_distance[w] = max(numbers[DISTANCE, w], SHORTEST)
+            write_goal(points, GOAL, w, goals, goal[w])
+            for k in range(SUCCESS, TIMEOUT + 1):
+                flags[k, w] = False
+        begin = fetch_add(tickets, BLOCK)
