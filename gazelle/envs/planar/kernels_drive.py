@@ -67,6 +67,8 @@ def turn_to(pose: Floats, b: int, yaw: float) -> None:
     """Give a body a heading [rad]."""
     if abs(yaw) > math.pi:
         yaw -= 2.0 * math.pi * math.floor(yaw / (2.0 * math.pi) + 0.5)
+    if yaw == pose[b, YAW]:
+        return
     pose[b, YAW], pose[b, COS], pose[b, SIN] = yaw, math.cos(yaw), math.sin(yaw)
 
 

@@ -157,9 +157,7 @@ class Swift:
         self._tickets[0] = 0
         measuring = self._measuring(self._everywhere)
         self.fleet.crew.call(
-            lambda part: act(
-                self._tickets, self.nworld, self._driving, *measuring[part], *others
-            ),
+            lambda part: act(self._tickets, self.nworld, self._driving, *measuring[part], *others),
             self.nworld // _SHARE,
         )
 

@@ -59,9 +59,7 @@ def first_goal(
 @part
 def distance_to_goal(b: int, pose: Floats, goals: Floats, place: int) -> float:
     """How far a body is from a place [m], rounded as the observation is."""
-    return float(
-        round2(math.hypot(goals[place, 0] - pose[b, X], goals[place, 1] - pose[b, Y]))
-    )
+    return float(round2(math.hypot(goals[place, 0] - pose[b, X], goals[place, 1] - pose[b, Y])))
 
 
 @part
@@ -71,7 +69,9 @@ def write_goal(points: Floats, row: int, w: int, goals: Floats, place: int) -> N
 
 
 @part
-def keep(w: int, over: bool, flags: Flags, numbers: Floats, counts: Indices, points: Floats) -> None:
+def keep(
+    w: int, over: bool, flags: Flags, numbers: Floats, counts: Indices, points: Floats
+) -> None:
     """Put what came out of an episode that is over where it stays; zeros if it is not."""
     for k in range(SUCCESS, TIMEOUT + 1):
         flags[LAST_SUCCESS + k, w] = over and flags[SUCCESS + k, w]

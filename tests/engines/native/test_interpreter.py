@@ -19,7 +19,6 @@ import gazelle.envs.planar
 import gazelle.envs.turtlebot3
 from gazelle.engines.native import Native, kernel
 from gazelle.engines.native.interpreter import interpreted
-from gazelle.engines.planar.__main__ import compile_ahead
 from gazelle.engines.planar.crew import Crew
 from gazelle.envs.planar.__main__ import compile_ahead as compile_tasks
 
