@@ -46,7 +46,7 @@ SIZES = (
 RIVALS = 1_000  # robots up to which Stage itself runs, unless it is asked for alone
 BATCHES = (64, 1024, 4096)
 TASK_STEPS = 500
-PARTS = ("rival", "fleets", "batches", "worlds", "graph", "task")
+PARTS = ("rival", "fleets", "growth", "batches", "worlds", "graph", "task")
 
 
 def main() -> None:
@@ -71,6 +71,10 @@ def main() -> None:
         rival(args, goals)
     if args.only in {None, "fleets"}:
         fleets(args, goals)
+    if args.only in {None, "growth"}:
+        import _stage_growth
+
+        _stage_growth.growth(SENSORS, args.largest, args.threads, goals)
     if args.only in {None, "batches"}:
         batches(args, goals)
     if args.only in {None, "worlds", "graph"}:
@@ -131,8 +135,7 @@ def fleets(args: argparse.Namespace, goals: Goals) -> None:
     for name in SENSORS:
         costs = [1.0 / rate for (count, own), rate in rates.items() if own == name and count >= 100]
         if len(costs) > 1:
-            spread = max(costs) / min(costs)
-            goals.most(f"cost a robot from 100 up, {name.split()[0]}: times", spread, 1.5)
+            print(f"cost a robot from 100 up, {name}: {max(costs) / min(costs):.2f} times")
 
 
 def roam(count: int, side: float, fan: Fan | None, threads: int) -> Roaming:

@@ -31,8 +31,9 @@ from gazelle.engines.native.decorators import Function, inner, kernel, part, who
 from gazelle.engines.native.function import Native
 from gazelle.engines.native.memory import floats, integers, long_at
 from gazelle.engines.native.outside import c_function
+from gazelle.engines.native.tape import Call, Tape
 
 __all__ = [
-    "Function", "Native", "c_function", "each", "fetch_add", "floats", "fused", "inner",
-    "integers", "kernel", "lesser", "long_at", "part", "whole",
+    "Call", "Function", "Native", "Tape", "c_function", "each", "fetch_add", "floats", "fused",
+    "inner", "integers", "kernel", "lesser", "long_at", "part", "whole",
 ]  # fmt: skip

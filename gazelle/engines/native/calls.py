@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.engines.native.code import Code, constant, rebuilt, words
 from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
-from gazelle.engines.native.memory import floats, integers, long_at
+from gazelle.engines.native.memory import call_at, floats, integers, long_at
 from gazelle.engines.native.operators import compared
 from gazelle.errors import EngineError
 
@@ -195,6 +195,14 @@ def _at(code: Code, element: str, address: Value, count: Value) -> Value:
     return Value(Array(element, 1), place.text, (count.text,))
 
 
+def _call_at(code: Code, function: Value, words: Value) -> Value:
+    if not function.kind == words.kind == WHOLE:
+        raise EngineError("addresses are whole numbers")
+    places = [code.get(WHOLE, f"inttoptr i64 {each.text} to ptr") for each in (function, words)]
+    code.do(f"call void {places[0].text}(ptr {places[1].text})")
+    return constant(0)
+
+
 def _fetch_add(code: Code, numbers: Value, amount: Value) -> Value:
     if numbers.kind != Array("int64", 1) or amount.kind != WHOLE:
         raise EngineError("fetch_add takes an array of int64 with one axis, and a whole number")
@@ -215,4 +223,5 @@ _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
     len: _length, fused: _fused, lesser: _lesser, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
     floats: _floats, integers: _integers, long_at: _long_at, fetch_add: _fetch_add,
+    call_at: _call_at,
 }  # fmt: skip

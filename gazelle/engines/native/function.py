@@ -13,9 +13,9 @@ from typing import Any
 from gazelle.engines.native.kinds import Kind
 from gazelle.engines.native.library import digest_of, load
 from gazelle.engines.native.machine import LOCK, machine
+from gazelle.engines.native.memory import ENTRY
 from gazelle.engines.native.packing import Words
 
-_ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 Entry = tuple[Callable[[int], None], Kind | None]
 
 
@@ -56,6 +56,11 @@ class Native:
         own.call(words.address)
         return None if own.result is None else words.result(own.result)
 
+    def entry(self, words: Words) -> int:
+        """Where that is, compiled if need be, which takes the address of words of these kinds."""
+        call, _ = self._entry(words.kinds)
+        return int(ctypes.cast(call, ctypes.c_void_p).value or 0)  # type: ignore[arg-type]
+
     def symbol(self, kinds: tuple[Kind, ...]) -> str:
         """Its name in machine code for arguments of some kinds."""
         digest = hashlib.sha256(f"{self._digest}{kinds!r}".encode()).hexdigest()[:20]
@@ -75,5 +80,5 @@ class Native:
         with LOCK:
             if kinds not in self._entries:
                 address, result = load(self, kinds)
-                self._entries[kinds] = (_ENTRY(address), result)
+                self._entries[kinds] = (ENTRY(address), result)
             return self._entries[kinds]

@@ -7,6 +7,9 @@ import ctypes
 import numpy as np
 from numpy.typing import NDArray
 
+ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+"""What Python calls of a kernel: it takes the address of its words."""
+
 
 def floats(address: int, count: int) -> NDArray[np.float64]:
     """So many doubles at an address."""
@@ -21,3 +24,8 @@ def integers(address: int, count: int) -> NDArray[np.int32]:
 def long_at(address: int) -> int:
     """The 64-bit integer at an address, or the address kept there."""
     return ctypes.c_int64.from_address(address).value
+
+
+def call_at(function: int, words: int) -> None:
+    """Call the entry of a kernel with words, both at an address."""
+    ENTRY(function)(words)

@@ -7,6 +7,7 @@ import numpy as np
 from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar.kernels_odometry import reckon
 from gazelle.engines.planar.kernels_wander import wander
 from gazelle.engines.planar.pictures import Lens, Painter, Scenery, View, prism
 from gazelle.engines.planar.roaming import Roaming
@@ -29,7 +30,8 @@ def compile_ahead() -> None:
     AstrayScanner(crowd, Fan.spread(1.0, 2, 2.0), [Mount(0)], np.full(1, 0.01)).scan()
     faces = prism([(1.0, 0.0), (2.0, 0.0), (1.0, 1.0)], 0.0, 1.0, (255.0, 0.0, 0.0))
     whole, one = np.zeros(1, np.int64), np.ones((1, 3))
-    wander(0, 1, np.ones(6), 0, 0, whole, whole, one, one, np.zeros((1, 2), np.int64))
+    wander(0, 1, np.ones(6), 0, whole, whole, whole, one, one, np.zeros((1, 2), np.int64))
+    reckon(0, 1, 1, 1, one, one, one, 0.1, False)
     painter = Painter(crowd, Scenery(faces, [faces]))
     painter.draw(Lens(4, 4, (1.0, 1.0)), [View(0, z=0.5)], np.zeros(1, np.intp))
 

@@ -47,6 +47,10 @@ class AstrayScanner(Scanner):
         self._there = fleet.scene.clearing(solid=False)  # they may be over what is solid
         self._going = [np.zeros(LANES) for _ in range(fleet.crew.size)]
 
+    def call(self) -> None:
+        """See ``Scanner.call``: its noise is another one in each scan."""
+        return
+
     def scan(self, worlds: NDArray[np.intp] | None = None) -> Floats:
         """See ``Scanner.scan``."""
         owners, count = self.owners, self.fleet.nworld

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engines.native import Function
+from gazelle.engines.native import Call, Function
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_noise
 from gazelle.engines.planar.fleet import Fleet
@@ -116,7 +116,7 @@ class Scanner:
         ranges: Of the last scan [m], shape (nworld, mounts, count).
         names: What each beam met, as ``columns.NAMES`` says, a row a sensor, if ``named``.
         owners: Body of each sensor, counted through all worlds, shape (nworld * mounts,).
-        tick: Number of scans so far; the noise of a scan depends on it.
+        tick: Number of scans asked for one by one so far; the noise of a scan depends on it.
 
     Raises:
         EngineError: The fan cannot be, or there is no such body.
@@ -201,13 +201,23 @@ class Scanner:
         self.tick += 1
         return self.ranges if worlds is None else self.ranges[:count]
 
+    def call(self) -> Call | None:
+        """What scans everywhere where one thread does all; None if that is not all there is."""
+        if not self._alone or self.noise is not None:
+            return None
+        return self._look, (0, len(self.owners), *self._tail_of(0))
+
+    def _tail_of(self, part: int) -> tuple[Any, ...]:
+        """The tail for the sensors there are, kept."""
+        if part not in self._tails:
+            self._tails[part] = self._tail(part, self.owners)
+        return self._tails[part]
+
     def _work(
         self, first: int, last: int, part: int, owners: NDArray[np.int64] | None = None
     ) -> None:
         """Scan with the sensors first to last, by one thread; of other ``owners`` than all."""
-        tail = self._tails.get(part) if owners is None else self._tail(part, owners)
-        if tail is None:
-            tail = self._tails[part] = self._tail(part, self.owners)
+        tail = self._tail_of(part) if owners is None else self._tail(part, owners)
         self._look(first, last, *tail)
         if self.noise is not None:
             own = self.owners if owners is None else owners

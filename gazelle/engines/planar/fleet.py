@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_step
 from gazelle.engines.planar.crew import Crew
@@ -270,8 +271,8 @@ class Fleet:
 
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` steps."""
-        if self.nworld == 1 and (self.crew.size == 1 or self.nbody < 2 * _SHARE):
-            self._advance(0, 1, count)
+        if self.alone:
+            self._advance(0, self.nworld, count)
             return
         if self.nworld > 1:
             least = max(1, -(-_SHARE // max(self.nbody, 1)))
@@ -279,6 +280,15 @@ class Fleet:
             return
         for _ in range(count):
             self._step_together()
+
+    @property
+    def alone(self) -> bool:
+        """Whether one thread does all of a step."""
+        return self.crew.size == 1 or self.nworld * self.nbody < 2 * _SHARE
+
+    def call(self) -> Call:
+        """What makes a step where one thread does all."""
+        return kernels_step.advance, (0, self.nworld * self.nbody, 1, *self.arguments())
 
     def _advance(self, first: int, last: int, count: int) -> None:
         own = self.arguments()

@@ -13,8 +13,8 @@ CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE = 0, 1, 2, 3, 4, 5
 
 @kernel
 def wander(
-    first: int, last: int, manner: Floats, seed: int, tick: int, sensors: Indices, bodies: Indices,
-    ranges: Floats, command: Floats, mood: Indices,
+    first: int, last: int, manner: Floats, seed: int, clock: Indices, sensors: Indices,
+    bodies: Indices, ranges: Floats, command: Floats, mood: Indices,
 ) -> None:  # fmt: skip
     """Choose the commands of wanderers first to last.
 
@@ -23,7 +23,7 @@ def wander(
         last: The one after the last.
         manner: As above.
         seed: Of how long they turn.
-        tick: Number of the step.
+        clock: Number of the step.
         sensors: Row of ``ranges`` of each.
         bodies: Row of ``command`` of each.
         ranges: What the sensors measured [m].
@@ -44,7 +44,7 @@ def wander(
             ahead = min(ahead, ranges[m, k])
         near = ahead < manner[FRONT]
         if near and mood[i, 0] < 1:
-            more = int(uniform(stream(seed, i, tick), 0) * manner[PATIENCE])
+            more = int(uniform(stream(seed, i, clock[0]), 0) * manner[PATIENCE])
             mood[i, 0] = int(manner[PATIENCE]) + more
             mood[i, 1] = -1 if left < right else 1
         turning = near or mood[i, 0] > 0

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from gazelle.engines.native import Tape
 from gazelle.engines.planar import kernels_roam
-from gazelle.engines.planar.fans import Fan, Scanner
+from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.kernels_clock import tally
 
-_SMALL = 128  # bodies up to which one thread does all
+_SHARE = 4096  # bodies that are worth a thread
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,46 +53,45 @@ class Roaming:
         seed: int = 0,
     ) -> None:
         manner = manner or Manner()
-        self.fleet, self.scanner, self.seed, self.tick = fleet, scanner, seed, 0
+        self.fleet, self.scanner, self.seed = fleet, scanner, seed
         steps = (manner.keep / fleet.time_step, manner.back / fleet.time_step)
         self._manner = np.array([manner.cruise, manner.turning, manner.shy, *np.round(steps)])
         total = fleet.nworld * fleet.nbody
+        self._clock = np.zeros(1, np.int64)
         self._mood = np.zeros((total, 2), np.int64)
         self._sensor = np.full(total, -1, np.int64)
-        self._eye = scanner or Scanner(fleet, Fan(0.0, 1.0, 1, 1.0), [])
-        self._sensor[self._eye.owners] = np.arange(len(self._eye.owners))
+        self._ranges = np.zeros((0, 1))
+        self._tape = Tape()
         if scanner is not None:
+            self._sensor[scanner.owners] = np.arange(len(scanner.owners))
+            self._ranges = scanner.flat_ranges
             scanner.scan()
 
     def run(self, count: int) -> None:
         """Make steps, and scan after each."""
+        look = None if self.scanner is None else self.scanner.call()
+        if self.fleet.alone and (look is not None or self.scanner is None):
+            choose = (kernels_roam.roam, (0, len(self._mood), *self._choosing()))
+            calls = [choose, (tally, (self._clock,)), self.fleet.call()]
+            self._tape.play(calls if look is None else [*calls, look], count)
+            return
+        for _ in range(count):
+            self._choose()
+            self.fleet.step()
+            if self.scanner is not None:
+                self.scanner.scan()
+
+    def _choose(self) -> None:
+        own = self._choosing()
+        self.fleet.crew.share(
+            lambda a, b, _: kernels_roam.roam(a, b, *own), len(self._mood), _SHARE
+        )
+        tally(self._clock)
+
+    def _choosing(self) -> tuple[Any, ...]:
+        """What ``roam`` takes after the range of bodies."""
         fleet = self.fleet
-        alone = fleet.crew.size == 1 or fleet.nworld * fleet.nbody <= _SMALL
-        if alone and self._eye.noise is None:
-            self._run_small(count)
-        else:
-            for now in range(count):
-                self._choose(self.tick + now)
-                fleet.step()
-                if self.scanner is not None:
-                    self.scanner.scan()
-        self.tick += count
-
-    def _choose(self, tick: int) -> None:
-        fleet, eye = self.fleet, self._eye
-        command, stalled = fleet.command.reshape(-1, 3), fleet.stalled.reshape(-1)
-        fleet.crew.share(
-            lambda a, b, _: kernels_roam.roam(
-                a, b, self._manner, self.seed, tick, self._sensor, eye.flat_ranges, command,
-                stalled, self._mood,
-            ),
-            len(command),
-            4096,
-        )  # fmt: skip
-
-    def _run_small(self, count: int) -> None:
-        head, tail = self.fleet.arguments(), self._eye.arguments(0)
-        kernels_roam.rounds(
-            count, self._manner, self.seed, self.tick, self._sensor, self._mood, *head,
-            self.fleet.looks, *tail, self._eye.flat_ranges, self._eye.names,
+        return (
+            self._manner, self.seed, self._clock, self._sensor, self._ranges,
+            fleet.command.reshape(-1, 3), fleet.stalled.reshape(-1), self._mood,
         )  # fmt: skip

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import Call
+from gazelle.engines.planar.kernels_clock import tally
 from gazelle.engines.planar.kernels_wander import wander
 from gazelle.errors import SimulationWarning
 from gazelle.simulation.stage.layout import StageRobot
@@ -37,6 +39,9 @@ class Controller(Protocol):
 
     def update(self) -> None:
         """Act on the state between two steps."""
+
+    def calls(self) -> list[Call] | None:
+        """What it does then in native code; None if that is not all."""
 
     def reset(self) -> None:
         """Start over."""
@@ -79,27 +84,39 @@ class Wander:
         self._command = fleet.command.reshape(-1, 3)
         self._ranges = self._flat = np.zeros((0, 0))
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
-        self._seed, self._tick = int(key >> np.uint64(1)), 0
+        self._seed, self._clock = int(key >> np.uint64(1)), np.zeros(1, np.int64)
 
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
         ranges = self._simulation.scan(self._scanner)
         if ranges is not self._ranges:
             self._ranges, self._flat = ranges, ranges.reshape(-1, ranges.shape[-1])
+        own = self._own(self._flat)
         self._simulation.fleet.crew.share(
-            lambda first, last, _: wander(
-                first, last, self._manner, self._seed, self._tick, self._sensors, self._bodies,
-                self._flat, self._command, self._mood,
-            ),
-            len(self._bodies),
-            _SHARE,
-        )  # fmt: skip
-        self._tick += 1
+            lambda first, last, _: wander(first, last, *own), len(self._bodies), _SHARE
+        )
+        tally(self._clock)
+
+    def calls(self) -> list[Call] | None:
+        """See `Controller.calls`."""
+        scan = self._simulation.scan_call(self._scanner)
+        if scan is None:
+            return None
+        look, ranges = scan
+        own = (0, len(self._bodies), *self._own(ranges))
+        return [look, (wander, own), (tally, (self._clock,))]
 
     def reset(self) -> None:
         """Start over."""
         self._mood[:] = 0
-        self._tick = 0
+        self._clock[:] = 0
+
+    def _own(self, ranges: Floats) -> tuple[Any, ...]:
+        """What ``wander`` takes after the range, for what is seen, a row a sensor."""
+        return (
+            self._manner, self._seed, self._clock, self._sensors, self._bodies, ranges,
+            self._command, self._mood,
+        )  # fmt: skip
 
 
 class LaserNoise:
@@ -114,6 +131,10 @@ class LaserNoise:
 
     def update(self) -> None:
         """Nothing: the noise is in the scans."""
+
+    def calls(self) -> list[Call]:
+        """None: as ``update``."""
+        return []
 
     def reset(self) -> None:
         """Nothing to start over."""

@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import Call
+from gazelle.engines.planar.kernels_odometry import reckon
 from gazelle.simulation.stage.layout import StageRobot
 from gazelle.streams import Stream
 
@@ -52,20 +54,15 @@ class Odometry:
         self.share = np.zeros_like(self.pose)
         self._draw(None)
 
-    def advance(self, velocity: Floats, dt: float) -> None:
-        """Add what a step of ``dt`` at body velocities, shape (nworld, nrobot, 3), comes to."""
-        moved = velocity * (dt * (1.0 + self.share))
-        turn = moved[..., 2]
-        if self._euler:
-            cos, sin = np.cos(self.pose[..., 2] + turn), np.sin(self.pose[..., 2] + turn)
-        else:
-            middle = self.pose[..., 2] + turn / 2.0
-            chord = np.sinc(turn / (2.0 * np.pi))  # of the arc that the robot drives
-            cos, sin = np.cos(middle) * chord, np.sin(middle) * chord
-        self.pose[..., 0] += cos * moved[..., 0] - sin * moved[..., 1]
-        self.pose[..., 1] += sin * moved[..., 0] + cos * moved[..., 1]
-        yaw = self.pose[..., 2] + turn
-        self.pose[..., 2] = np.arctan2(np.sin(yaw), np.cos(yaw))
+    def call(self, velocity: Floats, dt: float) -> Call:
+        """What adds a step of ``dt`` at body velocities, shape (nworld, n, 3).
+
+        Of the n the first are the robots; the array is contiguous.
+        """
+        nworld, count, _ = self.pose.shape
+        rows = (velocity.reshape(-1, 3), self.share.reshape(-1, 3), self.pose.reshape(-1, 3))
+        own = (0, nworld * count, count, velocity.shape[1], *rows, dt, self._euler)
+        return reckon, own
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over; robots draw again, or the same as at first if it is for all worlds."""

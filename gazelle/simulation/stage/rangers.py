@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import Call
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.layout import Layout
@@ -43,11 +44,17 @@ class Rangers:
         Raises:
             SimulationError: There is no such scanner.
         """
-        if not 0 <= scanner < len(self.fans):
-            raise SimulationError(f"there is no scanner {scanner}; there are {len(self.fans)}")
         if scanner not in self._seen:
             self._seen[scanner] = self._eye(scanner).scan()
         return self._seen[scanner]
+
+    def call(self, scanner: int) -> tuple[Call, Floats] | None:
+        """See `Eyes.call`.
+
+        Raises:
+            SimulationError: There is no such scanner.
+        """
+        return self._eye(scanner).call()
 
     def returns(self, scanner: int, place: int, world: int) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
@@ -68,6 +75,8 @@ class Rangers:
             eye.rewind()
 
     def _eye(self, scanner: int) -> Eyes:
+        if not 0 <= scanner < len(self.fans):
+            raise SimulationError(f"there is no scanner {scanner}; there are {len(self.fans)}")
         if scanner not in self._eyes:
             self._eyes[scanner] = Eyes(
                 self._fleet,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
@@ -76,6 +77,11 @@ class Eyes:
             off += noise.share[:, None] * ranges * drawn
         measured: Floats = np.where(ranges < self.fan.reach, ranges + off, ranges)
         return np.clip(measured, 0.0, self.fan.reach, out=measured)
+
+    def call(self) -> tuple[Call, Floats] | None:
+        """What scans in native code, and where it writes, a row a sensor; None if that is not all."""
+        made = None if any(self._noisy) else self._scanner.call()
+        return None if made is None else (made, self._scanner.flat_ranges)
 
     def returns(self, sensor: int, world: int = 0) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import StageWorld, World
+from gazelle.engines.native import Call, Tape
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage.building import no_garbage
@@ -30,7 +31,7 @@ Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 Listener = Callable[[], None]
 
-_PIECE = 65_536
+_PIECE = 16_384
 """Moves of robots made without a look at what other threads want."""
 
 
@@ -107,6 +108,7 @@ class StageSimulation(Senses):
         self.devices = Devices(self)
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
+        self._tape = Tape()
         self._closed = False
 
     # -- what there is -----------------------------------------------------------------
@@ -201,6 +203,14 @@ class StageSimulation(Senses):
         """
         return self._rangers.scan(scanner)
 
+    def scan_call(self, scanner: int) -> tuple[Call, Floats] | None:
+        """What scans in native code, and where it writes, a row a sensor; None if that is not all.
+
+        Raises:
+            SimulationError: There is no such scanner.
+        """
+        return self._rangers.call(scanner)
+
     def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
         """What one sensor of a robot measures now [m], shape (samples,).
 
@@ -241,9 +251,7 @@ class StageSimulation(Senses):
         with self.requests.lock:
             self.requests.drain()
             while count > 0:
-                piece = 1 if self._watched else min(count, self._piece)
-                self._advance(piece)
-                count -= piece
+                count -= self._advance(min(count, self._piece))
                 self.requests.drain()
 
     def step_on(self) -> bool:
@@ -261,27 +269,54 @@ class StageSimulation(Senses):
             self.step()
             return True
 
-    @property
-    def _watched(self) -> bool:
-        """Whether something happens after every single step."""
-        return bool(self._controllers or self._listeners or self.devices or self._odometry.needed)
-
-    def _advance(self, count: int) -> None:
+    def _advance(self, most: int) -> int:
+        """Make at most so many steps, at least one; how many."""
+        leapt = self._leap(most - 1)
         for controller in self._controllers:
             controller.update()
-        if count > 1:
-            self.fleet.step(count - 1)
         np.copyto(self._before, self._now)
         self.fleet.step()
         if self._odometry.needed:
-            self._odometry.advance(self.velocities, self.time_step)
+            velocity = self.velocities if self._steering.needed else self.fleet.velocity
+            reckon, own = self._odometry.call(velocity, self.time_step)
+            reckon(*own)
         if self.devices:
             self.devices.update(self.time_step)
-        self.clock.advance(count)
+        self.clock.advance(leapt + 1)
         self._forget()
         if self._listeners:
             for listener in tuple(self._listeners):
                 listener()
+        return leapt + 1
+
+    def _leap(self, count: int) -> int:
+        """Make so many steps without Python, or none if it has a part in each; how many."""
+        if count < 1 or self._listeners or self.devices:
+            return 0
+        if not self._controllers and not self._odometry.needed:
+            self.fleet.step(count)
+            return count
+        calls = self._calls()
+        if calls is None:
+            return 0
+        self._tape.play(calls, count)
+        self._forget()
+        return count
+
+    def _calls(self) -> list[Call] | None:
+        """What a step comes to in native code; None if that is not all."""
+        if not self.fleet.alone or (self._odometry.needed and self._steering.needed):
+            return None
+        calls: list[Call] = []
+        for controller in self._controllers:
+            its = controller.calls()
+            if its is None:
+                return None
+            calls += its
+        calls.append(self.fleet.call())
+        if self._odometry.needed:
+            calls.append(self._odometry.call(self.fleet.velocity, self.time_step))
+        return calls
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time.

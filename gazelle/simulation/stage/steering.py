@@ -24,9 +24,14 @@ class Steering:
         bounds = np.array([position.velocity_bounds for _, position in cars]).reshape(-1, 4, 2)
         self._least, self._most = bounds[:, (0, 1, 3)].transpose(2, 0, 1)
 
+    @property
+    def needed(self) -> bool:
+        """Whether there is any car."""
+        return len(self._cars) > 0
+
     def velocities(self, driven: Floats) -> Floats:
         """x, y [m/s] and yaw [rad/s] of what is driven, both of shape (nworld, nrobot, 3)."""
-        if not len(self._cars):
+        if not self.needed:
             return driven
         velocity = driven.copy()
         speed, angle = driven[:, self._cars, 0], driven[:, self._cars, 2]

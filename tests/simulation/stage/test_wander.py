@@ -1,8 +1,10 @@
 """Stage's controller ``wander``, in native code."""
 
+import numpy as np
 import pytest
 from stage_samples import write
 
+from gazelle.engines.native import Tape
 from gazelle.simulation.stage import StageSimulation
 
 SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"
@@ -70,3 +72,47 @@ def test_threads_and_other_worlds_change_nothing(start, tmp_path):
     runs[0].reset()
     runs[0].step(60)
     assert (runs[0].poses == again).all()
+
+
+@pytest.mark.parametrize(
+    ("what", "native"),
+    [
+        ('ctrl "wander"', True),
+        ('ctrl "wander" localization "odom" drive "omni"', True),
+        ('ctrl "wander" localization "odom" drive "car"', False),
+        ('ctrl [ "wander" "lasernoise 0.1" ]', False),
+    ],
+)
+def test_many_steps_at_once_are_the_same_as_one_by_one(start, monkeypatch, what, native):
+    """Without Python between them, if there is nothing for it to do."""
+    text = "".join(
+        ROBOT.format(45 if i % 3 else 31, 0.6 * (i % 5), 0.6 * (i // 5), 40 * i).replace(
+            'ctrl "wander"', what
+        )
+        for i in range(20)
+    ) + wall(3.5, 3.5)
+    played = []
+    play = Tape.play
+
+    def counted(tape, calls, count):
+        played.append(count)
+        play(tape, calls, count)
+
+    monkeypatch.setattr(Tape, "play", counted)
+    whole, single = start(text, seed=3, nworld=2), start(text, seed=3, nworld=2)
+    whole.step(200)
+    for _ in range(200):
+        single.step()
+    assert played == ([199] if native else [])
+    for name in ("poses", "commands", "odometry", "stalled", "true_velocities", "time"):
+        assert np.array_equal(getattr(whole, name), getattr(single, name)), name
+    assert np.array_equal(whole.scan(0), single.scan(0))
+    assert whole.stalled.any() or (whole.commands[..., 2] != 0.0).any()
+
+
+def test_who_listens_hears_of_every_step(start):
+    sim = start(ROBOT.format(9, 0, 0, 0))
+    times = []
+    sim.subscribe(lambda: times.append(sim.time))
+    sim.step(5)
+    assert times == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5])
