@@ -138,6 +138,15 @@ class Code:
         yield f"br label %{head}, !llvm.loop {loop}"
         self._group = outer
 
+    def rolled(self, head: str) -> str:
+        """The way back of a loop of which rounds are not put side by side unless all are known."""
+        loop, no = (f"!{next(self._numbers)}" for _ in range(2))
+        self.notes += [
+            f"{loop} = distinct !{{{loop}, {no}}}",
+            f'{no} = !{{!"llvm.loop.unroll.runtime.disable"}}',
+        ]
+        return f"br label %{head}, !llvm.loop {loop}"
+
     @property
     def mark(self) -> str:
         """What lines end with that read or write elements."""

@@ -287,7 +287,7 @@ class Statements:
         now = code.read(place, WHOLE)
         code.fork(self._goes_on(now, last, step), body, end)
         code.begin(body)
-        with code.independent(head) if free else nullcontext(f"br label %{head}") as back:
+        with code.independent(head) if free else nullcontext(code.rolled(head)) as back:
             self._give(node.target, now)
             self._loop(node.body, again, end)
             code.jump(again)

@@ -297,7 +297,7 @@ def drive(  # noqa: C901  # the cases of one loop
             relink(b, b + 1, nbody, grid, pose, head, follow, cell)
 
 
-@part
+@whole
 def restart(
     w: int, initial: Floats, now: Floats, speeds: Floats, epochs: Floats, command: Floats,
     velocity: Floats, stalled: Table, pose: Floats, nbody: int, grid: Floats, head: Table,

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from gazelle.engines.native import each, fetch_add, kernel, lesser, part
+from gazelle.engines.native import each, fetch_add, kernel, lesser, part, whole
 from gazelle.engines.planar.columns import YAW, X, Y
 from gazelle.envs.planar.kernels_drive import drive
 from gazelle.envs.planar.kernels_lidar import report, see
@@ -49,7 +49,7 @@ def turning(heading: float, index: float) -> float:
     return float(1.0 - 4.0 * abs(0.5 - turns % 1.0))
 
 
-@kernel
+@whole
 def observe(
     first: int, last: int, worlds: Worlds, cleaned: Floats, pose: Floats, nbody: int, robot: int,
     goals: Floats, goal: Table, rules: Floats, observation: Table, distances: Floats,
@@ -78,7 +78,7 @@ def observe(
             observation[i, count + 2], observation[i, count + 3] = round2(least), ray
 
 
-@kernel
+@part
 def judge(
     first: int, last: int, distances: Floats, headings: Floats, nearest: Floats,
     angular: Floats, step: float, middle: float, start_distance: Floats, rules: Floats,
