@@ -27,11 +27,20 @@ env = gymnasium.make("gazelle/TurtleBot3Stage4-v0", engine="planar")
 env.reset(seed=0)
 env.step(2)
 """
+MANY = """
+import gymnasium, gazelle.envs
+env = gymnasium.make_vec(
+    "gazelle/TurtleBot3Stage4-v0", 1024, "vector_entry_point", engine="planar", lidar_samples=24
+)
+env.reset(seed=0)
+env.step([2] * 1024)
+"""
 LAWS = "from gazelle.engines.mujoco.laws.callback import install; install()"
 CASES = {
     "a Fleet's step and scan": ["-c", FLEET],
     "gazelle run fleet": ["-m", "gazelle", "run", "fleet", "--for", "1", "--rate", "max"],
     "TurtleBot3Stage4, engine planar": ["-c", SINGLE],
+    "TurtleBot3Stage4 in 1,024 worlds": ["-c", MANY],
     "laws that MuJoCo calls": ["-c", LAWS],
 }
 

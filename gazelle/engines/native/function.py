@@ -15,6 +15,7 @@ from gazelle.engines.native.library import digest_of, load
 from gazelle.engines.native.machine import LOCK, machine
 from gazelle.engines.native.memory import ENTRY
 from gazelle.engines.native.packing import Words
+from gazelle.errors import EngineError
 
 Entry = tuple[Callable[[int], None], Kind | None]
 
@@ -67,7 +68,13 @@ class Native:
         return f"{self.name}.{digest}"
 
     def address(self, kinds: tuple[Kind, ...]) -> int:
-        """Where it is, compiled if need be, as a C function of values of some kinds."""
+        """Where it is, compiled if need be, as a C function of values of some kinds.
+
+        Raises:
+            EngineError: It is not compiled as a whole.
+        """
+        if not self.whole:
+            raise EngineError(f"only a kernel that is 'whole' has an address: {self.name}")
         self._entry(kinds)
         return machine().address(self.symbol(kinds))
 

@@ -85,13 +85,15 @@ class Module:
     def add_whole(
         self, native: Native, kinds: tuple[Kind, ...], symbol: str, entry: str
     ) -> Kind | None:
-        """Make a kernel that is called from without, and what calls it with words; its result.
+        """Make a kernel, and what calls it with words; its result.
 
         Raises:
             EngineError: Its result is none that can be handed over.
         """
         self._open.add((native, kinds))
-        made = self._define(native, kinds, symbol, "", "nounwind")
+        # Calls with hundreds of words take LLVM long: only who else may call it has one.
+        linkage, how = ("", "nounwind") if native.whole else ("internal ", "alwaysinline")
+        made = self._define(native, kinds, symbol, linkage, how)
         _check_result(native, made.result)
         lines, texts = [], []
         for place, low in enumerate(_flat(kinds)):

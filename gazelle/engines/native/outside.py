@@ -16,7 +16,7 @@ def c_function(kernel: Callable[..., None], count: int) -> Any:
     It keeps the kernel alive, and must itself live as long as it may be called.
 
     Args:
-        kernel: To call.
+        kernel: To call; compiled as a whole.
         count: How many addresses it takes.
 
     Returns:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.native import floats, integers, kernel, long_at, part
+from gazelle.engines.native import floats, integers, long_at, part, whole
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ HEAD = 3
 _ROUNDS = 8
 
 
-@kernel
+@whole
 def apply(model: int, data: int) -> None:
     """Change what MuJoCo is about to solve for; of other models, nothing.
 
