@@ -135,6 +135,11 @@ def describe(
     return f"{text}; {hint}" if hint else text
 
 
+def located(message: str, source: Source | None) -> str:
+    """A message with the file and line that it is about, where they are known."""
+    return message if source is None else describe(message, file=source.file, line=source.line)
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A hint that names the closest of the known names, else all of them (the first 20)."""
     names = sorted(known)

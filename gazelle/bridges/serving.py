@@ -13,12 +13,9 @@ from gazelle.bridges.pacing import Pacer
 from gazelle.errors import RosError
 from gazelle.ros import Master, Node, WallClock, net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
-from gazelle.ros.master.proxy import value_of
 from gazelle.ros.tools.graph import Graph
-from gazelle.ros.xmlrpc.client import BlockingClient
+from gazelle.ros.tools.nodes import process_of
 from gazelle.simulation import Simulation
-
-_PATIENCE_S = 2.0
 
 
 class RosDoor:
@@ -137,25 +134,13 @@ def refuse_twin(name: str, master_uri: str | None = None) -> None:
     """
     with Graph("gazelle", master_uri) as graph, contextlib.suppress(UnreachableError, ApiError):
         node = graph.resolve(name)
-        uri = graph.node_uri(node)
-        process = _process_at(uri) if uri is not None else None
+        process = process_of(graph, node)
         if process is None:
             return
         raise RosError(
             f"a simulator is on this graph already: {node}, process {process}",
             hint="end it, or put another port into ROS_MASTER_URI, such as http://localhost:11312",
         )
-
-
-def _process_at(uri: str) -> int | None:
-    """The process of the node at an address; None if it does not answer."""
-    client = BlockingClient(uri, timeout=_PATIENCE_S)
-    try:
-        return int(value_of("getPid", client.call("getPid", "/gazelle")))
-    except (UnreachableError, ApiError, OSError):
-        return None
-    finally:
-        client.close()
 
 
 def join_graph(

@@ -14,13 +14,9 @@ import time
 from pathlib import Path
 from typing import Any
 
+from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import (
-    add_environment_options,
-    add_file_options,
-    environment_options,
-    positive_int,
-)
+from gazelle.cli.parsing import add_environment_options, add_file_options, environment_options
 from gazelle.cli.train import report
 
 _TASK = "TurtleBot3Stage1"

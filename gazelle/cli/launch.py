@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cli.parsing import positive_float
+from gazelle.argument_types import positive_float
 
 if TYPE_CHECKING:
     from gazelle.ros.launch import LaunchPlan, Packages

@@ -11,7 +11,7 @@ import argparse
 import sys
 from typing import Any
 
-from gazelle.cli.parsing import positive_int
+from gazelle.argument_types import positive_int
 from gazelle.cli.tools import SubCommands, answer
 from gazelle.ros.signals import stopping
 

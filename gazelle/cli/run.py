@@ -24,7 +24,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from gazelle.cli.parsing import positive_float
+from gazelle.argument_types import positive_float
 from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
 

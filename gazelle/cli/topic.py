@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from gazelle.cli.parsing import positive_float, positive_int
+from gazelle.argument_types import positive_float, positive_int
 from gazelle.cli.tools import SubCommands
 from gazelle.ros.signals import stopping
 

@@ -13,13 +13,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import (
-    add_environment_options,
-    add_file_options,
-    environment_options,
-    positive_int,
-)
+from gazelle.cli.parsing import add_environment_options, add_file_options, environment_options
 
 if TYPE_CHECKING:
     from gazelle.training import TrainResult

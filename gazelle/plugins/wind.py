@@ -10,7 +10,7 @@ from __future__ import annotations
 import warnings
 
 from gazelle.description import Parameters
-from gazelle.errors import SimulationWarning, describe
+from gazelle.errors import SimulationWarning, located
 from gazelle.simulation import Simulation, WorldPlugin
 
 _WAVERING = ("horizontal", "vertical")
@@ -28,7 +28,5 @@ class Wind(WorldPlugin):
                     f"the wind blows steadily; <{tag}> of WindPlugin (rise times, gusts, noise) "
                     "is left out"
                 )
-                if node.source is not None:
-                    text = describe(text, file=node.source.file, line=node.source.line)
-                warnings.warn(SimulationWarning(text), stacklevel=2)
+                warnings.warn(SimulationWarning(located(text, node.source)), stacklevel=2)
                 return

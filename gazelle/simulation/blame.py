@@ -7,7 +7,7 @@ import traceback
 import warnings
 from pathlib import Path
 
-from gazelle.errors import Error, PluginWarning, Source, describe
+from gazelle.errors import Error, PluginWarning, Source, describe, located
 
 _LIBRARY = str(Path(__file__).parents[1])
 
@@ -31,8 +31,7 @@ def warn_of_fault(
         text = describe(said, file=place.file, line=place.line, hint=error.hint)
     else:
         text = f"{name} failed {when}: {type(error).__name__}: {error}{line}"
-        if source is not None:
-            text = describe(text, file=source.file, line=source.line)
+        text = located(text, source)
     warnings.warn(PluginWarning(text), stacklevel=6)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from gazelle import description
 from gazelle.description import Model
-from gazelle.errors import SimulationWarning, describe
+from gazelle.errors import SimulationWarning, located
 from gazelle.simulation import registry
 from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
@@ -75,8 +75,6 @@ def _fits(found: type[Plugin], kind: type[Plugin], name: str, plugin: descriptio
         return True
     wanted = " or ".join(f"a <{tag}>" for of, tag in _PLACES.items() if issubclass(found, of))
     text = f"{name} ({plugin.filename}) belongs into {wanted}, not into a <{_PLACES[kind]}>"
-    place = plugin.source.file if plugin.source is not None else None
-    line = plugin.source.line if plugin.source is not None else None
-    said = describe(f"{text}, and is left out", file=place, line=line)
+    said = located(f"{text}, and is left out", plugin.source)
     warnings.warn(SimulationWarning(said), stacklevel=5)
     return False

@@ -15,7 +15,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import TypeVar, cast
 
 from gazelle import description
-from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
 from gazelle.simulation.plugin import Plugin
 
 P = TypeVar("P", bound=type[Plugin])
@@ -52,17 +52,11 @@ def find(plugin: description.Plugin) -> type[Plugin] | None:
         return _load(known[stem])
     if stem not in _missing:
         _missing.add(stem)
-        place = plugin.source.file if plugin.source is not None else None
-        line = f":{plugin.source.line}" if plugin.source is not None else ""
-        where = f"{place}{line}: " if place else ""
-        warnings.warn(
-            SimulationWarning(
-                f"{where}plugin '{plugin.name}' ({plugin.filename}) is not supported and is "
-                f"left out; {_nearest(f'lib{stem}.so')}"
-                "'gazelle plugins' lists those that are"
-            ),
-            stacklevel=3,
+        text = (
+            f"plugin '{plugin.name}' ({plugin.filename}) is not supported and is left out; "
+            f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are"
         )
+        warnings.warn(SimulationWarning(located(text, plugin.source)), stacklevel=3)
     return None
 
 

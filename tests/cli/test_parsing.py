@@ -4,7 +4,8 @@ import argparse
 
 import pytest
 
-from gazelle.cli.parsing import key_value, positive_float, positive_int
+from gazelle.argument_types import positive_float, positive_int
+from gazelle.cli.parsing import key_value
 
 
 @pytest.mark.parametrize(("text", "number"), [("1", 1), ("2_000", 2000), ("1e6", 1_000_000)])

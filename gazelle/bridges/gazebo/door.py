@@ -197,7 +197,7 @@ class GazeboDoor:
 
     def _offer_empty(self, world: WorldServices) -> None:
         for name, handler in {
-            "pause_physics": self._then_flush(world.pause),
+            "pause_physics": self._then(world.pause, self._flush),
             "unpause_physics": world.unpause,
             "reset_simulation": world.reset_simulation,
             "reset_world": world.reset_world,
@@ -206,28 +206,20 @@ class GazeboDoor:
 
     def _offer_own(self, world: WorldServices) -> None:
         for name, kind, handler in (
-            ("step", "Step", self._then_publish(world.step)),
+            ("step", "Step", self._then(world.step, self._publish)),
             ("seed", "Seed", world.seed),
             ("snapshot", "Snapshot", world.snapshot),
-            ("restore", "Restore", self._then_publish(world.restore)),
+            ("restore", "Restore", self._then(world.restore, self._publish)),
             ("set_real_time_factor", "SetRealTimeFactor", world.set_real_time_factor),
         ):
             self._offer(f"/gazelle/{name}", kind, handler, package="gazelle_msgs")
 
-    def _then_publish(self, handler: Handler) -> Handler:
-        def work(request: Any) -> Any:
-            answer = handler(request)
-            self._publish()
-            return answer
-
-        return work
-
-    def _then_flush(self, handler: Handler) -> Handler:
-        """The same; the last ticks of the clock leave before the answer does."""
+    def _then(self, handler: Handler, after: Callable[[], None]) -> Handler:
+        """A handler after which something is done before the answer leaves."""
 
         def work(request: Any) -> Any:
             answer = handler(request)
-            self._flush()
+            after()
             return answer
 
         return work

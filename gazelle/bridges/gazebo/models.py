@@ -172,9 +172,8 @@ class ModelServices:
         if len(names) != len(positions):
             return no("SetModelConfiguration: joint name and position list have different lengths")
         for name, position in zip(names, positions, strict=True):
-            # Gazebo passes over names that it does not know.
-            found = robot.joints.get(name) or robot.joints.get(name.removeprefix(f"{robot.name}::"))
-            if found is not None:
+            found = robot.joints.get(name)
+            if found is not None:  # Gazebo passes over names that it does not know
                 self._turn(found.name, position)
         return yes("SetModelConfiguration: success")
 

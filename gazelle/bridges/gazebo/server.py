@@ -7,8 +7,8 @@ import os
 import threading
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from gazelle import assets
 from gazelle.bridges.serving import RosDoor, refuse_twin
@@ -86,10 +86,11 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(flag, action="append", dest="passed_over")
     parser.add_argument("-e", "--physics", default="ode")
     for flag, notice in _NOT_HERE.items():
-        how: dict[str, Any] = {} if flag in _WITHOUT_VALUE else {"type": _noticed(notice)}
-        action = "append_const" if flag in _WITHOUT_VALUE else "append"
-        how |= {"const": notice} if flag in _WITHOUT_VALUE else {}
-        parser.add_argument(flag, action=action, dest="notices", default=[], **how)
+        to = partial(parser.add_argument, flag, dest="notices", default=[])
+        if flag in _WITHOUT_VALUE:
+            to(action="append_const", const=notice)
+        else:
+            to(action="append", type=_noticed(notice))
     options = parser.parse_args(list(arguments))
     if options.physics not in _ENGINES:
         options.notices.append(f"there is no physics '{options.physics}': MuJoCo computes it")

@@ -15,7 +15,7 @@ import numpy as np
 
 from gazelle.description import Joint, Mimic
 from gazelle.engines.mujoco.tree import Body, Closure, lost_in_loop
-from gazelle.errors import EngineError, EngineWarning, did_you_mean
+from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
 _STEPS, _DAMPING_RATIO = 3.0, 1.0
@@ -101,10 +101,8 @@ def _warn_of_loss(closure: Closure) -> None:
         lost = f"without effect there: {', '.join(terms)}"
     else:
         return
-    place = f"{joint.source.file}:{joint.source.line}: " if joint.source else ""
-    warnings.warn(
-        EngineWarning(f"{place}joint '{closure.name}' closes a loop; {lost}"), stacklevel=2
-    )
+    text = f"joint '{closure.name}' closes a loop; {lost}"
+    warnings.warn(EngineWarning(located(text, joint.source)), stacklevel=2)
 
 
 def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:

@@ -28,7 +28,7 @@ from gazelle.description import (
     Sphere,
     Vector3,
 )
-from gazelle.errors import EngineWarning
+from gazelle.errors import EngineWarning, located
 
 _SIDES = 24
 _ELEVATION_FILES = {".asc", ".dem", ".hgt"}
@@ -212,8 +212,7 @@ def _nothing(_: ShapeBuilder, __: Empty, ___: Pose, ____: Source | None) -> list
 
 
 def _left_out(reason: str, source: Source | None) -> list[dict[str, Any]]:
-    place = f"{source.file}:{source.line}: " if source is not None else ""
-    warnings.warn(EngineWarning(f"{place}{reason}; it is left out"), stacklevel=2)
+    warnings.warn(EngineWarning(located(f"{reason}; it is left out", source)), stacklevel=2)
     return []
 
 

@@ -13,13 +13,13 @@ CRUISE, TURNING, SHY, KEEP, BACK = 0, 1, 2, 3, 4
 
 @part
 def sides(ranges: Floats, m: int) -> tuple[float, float]:
-    """The shortest range on the right half and on the left half of a fan."""
+    """The shortest range on the right half and on the left half of a fan; the middle is left."""
     count = ranges.shape[1]
     right, left = ranges[m, 0], ranges[m, count - 1]
     for k in range(count // 2):
         right = min(right, ranges[m, k])
         left = min(left, ranges[m, count - 1 - k])
-    return right, left
+    return right, min(left, ranges[m, count // 2])
 
 
 @kernel

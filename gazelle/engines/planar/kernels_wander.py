@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gazelle.engines.native import kernel
 from gazelle.engines.planar.kernels_noise import stream, uniform
+from gazelle.engines.planar.kernels_roam import sides
 from gazelle.engines.planar.tables import Floats, Indices
 
 # Columns of a manner: speed ahead [m/s], while it turns [m/s], of turning [rad/s], distance
@@ -31,14 +32,10 @@ def wander(
         mood: Steps for which each still turns, and 1 or -1 for the way.
     """
     count = ranges.shape[1]
-    third, half = count // 3, count // 2
+    third = count // 3
     for i in range(first, last):
         m, b = sensors[i], bodies[i]
-        right, left = ranges[m, 0], ranges[m, count - 1]
-        for k in range(half):
-            right, left = min(right, ranges[m, k]), min(left, ranges[m, count - 1 - k])
-        if 2 * half < count:
-            left = min(left, ranges[m, half])
+        right, left = sides(ranges, m)
         ahead = ranges[m, third]
         for k in range(third, max(count - third, third + 1)):
             ahead = min(ahead, ranges[m, k])

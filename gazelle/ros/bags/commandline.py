@@ -10,28 +10,9 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from gazelle.argument_types import positive_float, positive_int
 from gazelle.ros import names
 from gazelle.ros.signals import stopping
-
-
-def _positive(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not 0.0 < number < float("inf"):
-        raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")
-    return number
-
-
-def _count(text: str) -> int:
-    try:
-        number = int(text)
-    except ValueError:
-        number = 0
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"expected a whole number above 0, not '{text}'")
-    return number
 
 
 def configure_record(parser: argparse.ArgumentParser) -> None:
@@ -49,13 +30,13 @@ def configure_record(parser: argparse.ArgumentParser) -> None:
     where.add_argument("-O", "--output-name", default="", metavar="NAME", dest="name")
     where.add_argument("--split", action="store_true", help="a new file at the limits")
     where.add_argument("--max-splits", type=int, default=0, metavar="N", help="keep N files")
-    where.add_argument("--size", type=_count, metavar="MB", help="at most, of a file")
+    where.add_argument("--size", type=positive_int, metavar="MB", help="at most, of a file")
     where.add_argument("--duration", metavar="TIME", help="at most, of a file: 30, 5m, 2h")
     where.add_argument("--repeat-latched", action="store_true", help="in each split file")
     add_compression(where)
     more = parser.add_argument_group("more")
     more.add_argument("-b", "--buffsize", metavar="MB", help="no effect: nothing is held back")
-    more.add_argument("--chunksize", type=_count, default=768, metavar="KB")
+    more.add_argument("--chunksize", type=positive_int, default=768, metavar="KB")
     more.add_argument("--tcpnodelay", action="store_true", help="ask for it")
     more.add_argument("--udp", action="store_true", help=argparse.SUPPRESS)
     more.add_argument("-q", "--quiet", action="store_true", help="say nothing")
@@ -109,14 +90,14 @@ def configure_play(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of playing."""
     parser.add_argument("bags", nargs="*", metavar="BAG")
     when = parser.add_argument_group("when")
-    when.add_argument("-r", "--rate", type=_positive, default=1.0, metavar="X", help="faster")
+    when.add_argument("-r", "--rate", type=positive_float, default=1.0, metavar="X", help="faster")
     when.add_argument("-s", "--start", type=float, default=0.0, metavar="S", help="seconds into it")
-    when.add_argument("-u", "--duration", type=_positive, metavar="S", help="seconds of it")
+    when.add_argument("-u", "--duration", type=positive_float, metavar="S", help="seconds of it")
     when.add_argument("-l", "--loop", action="store_true", help="again and again")
     when.add_argument("-i", "--immediate", action="store_true", help="as fast as possible")
     when.add_argument("--pause", action="store_true", help="begin paused")
     when.add_argument("-d", "--delay", type=float, default=0.2, metavar="S", help="before it")
-    when.add_argument("--skip-empty", type=_positive, metavar="S", help="jump over gaps")
+    when.add_argument("--skip-empty", type=positive_float, metavar="S", help="jump over gaps")
     when.add_argument("--wait-for-subscribers", action="store_true", help="of every topic")
     when.add_argument("-k", "--keep-alive", action="store_true", help="stay after the end")
     what = parser.add_argument_group("what")
@@ -125,8 +106,8 @@ def configure_play(parser: argparse.ArgumentParser) -> None:
     what.add_argument("--bags", nargs="+", default=[], dest="more_bags", metavar="BAG")
     what.add_argument("-p", "--prefix", default="", help="before the names of topics")
     what.add_argument("--clock", action="store_true", help="publish /clock")
-    what.add_argument("--hz", type=_positive, default=100.0, help="of /clock")
-    what.add_argument("--queue", type=_count, default=100, metavar="N")
+    what.add_argument("--hz", type=positive_float, default=100.0, help="of /clock")
+    what.add_argument("--queue", type=positive_int, default=100, metavar="N")
     what.add_argument("-q", "--quiet", action="store_true", help="say nothing")
     what.add_argument("--try-future-version", action="store_true", help=argparse.SUPPRESS)
     parser.set_defaults(parser=parser)

@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 
 from gazelle.errors import did_you_mean
-from gazelle.ros.builtin import registry
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages
 
@@ -44,10 +43,7 @@ def require_name(package: str, packages: Packages) -> None:
     Raises:
         LaunchError: There is such a package: one of its launch files must be named, too.
     """
-    folder = packages.installed(package)
-    if folder is None:
-        known = registry.package(package)
-        folder = known.folder if known is not None else None
+    folder = packages.find(package)
     if folder is None:
         return
     files = ", ".join(sorted(_files(folder))) or "none"

@@ -39,13 +39,21 @@ class Packages:
         """The folder of a package on ROS_PACKAGE_PATH; None if it is not there."""
         return search.find_packages(self.path).get(package)
 
+    def find(self, package: str) -> Path | None:
+        """The folder of a package, installed or built in, if it has one."""
+        found = self.installed(package)
+        if found is None:
+            known = registry.package(package)
+            found = known.folder if known is not None else None
+        return found
+
     def folder(self, package: str) -> Path:
         """The folder of a package, installed or built in.
 
         Raises:
             MissingPackageError: It is neither.
         """
-        found = self._found(package)
+        found = self.find(package)
         if found is None:
             raise self.missing(package)
         return found
@@ -85,7 +93,7 @@ class Packages:
 
     def programs(self, package: str, kind: str) -> list[Path]:
         """The files that may be the program of a node, the best first."""
-        folder = self._found(package)
+        folder = self.find(package)
         if folder is None:
             return []
         places = [space / "lib" / package / kind for space in self._spaces(package, folder)]
@@ -102,7 +110,7 @@ class Packages:
 
     def program_names(self, package: str) -> list[str]:
         """What programs a package has, for hints."""
-        folder = self._found(package)
+        folder = self.find(package)
         found: set[str] = set()
         if folder is not None:
             roots = [folder, *(s / "lib" / package for s in self._spaces(package, folder))]
@@ -122,14 +130,6 @@ class Packages:
         known = self.program_names(package)
         hint = did_you_mean(kind, known) if known else _unbuilt(kind)
         return LaunchError(f"package '{package}' has no program '{kind}'", hint=hint)
-
-    def _found(self, package: str) -> Path | None:
-        """The folder of a package, installed or built in, if it has one."""
-        found = self.installed(package)
-        if found is None:
-            known = registry.package(package)
-            found = known.folder if known is not None else None
-        return found
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
         """Install and devel spaces that may hold a package, the nearest first."""

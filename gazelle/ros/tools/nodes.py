@@ -221,19 +221,23 @@ def ping(
     return True
 
 
-def alive(graph: Graph, node: str) -> bool:
-    """Whether a node answers."""
+def process_of(graph: Graph, node: str) -> int | None:
+    """The number of a node's process; None if it does not answer."""
     uri = graph.node_uri(node, fresh=True)
     if uri is None:
-        return False
+        return None
     client = BlockingClient(uri, timeout=_PATIENCE_S)
     try:
-        client.call("getPid", graph.caller)
+        return int(value_of("getPid", client.call("getPid", graph.caller)))
     except (RosError, OSError):
-        return False
+        return None
     finally:
         client.close()
-    return True
+
+
+def alive(graph: Graph, node: str) -> bool:
+    """Whether a node answers."""
+    return process_of(graph, node) is not None
 
 
 def dead_nodes(graph: Graph) -> list[str]:

@@ -28,12 +28,13 @@ def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
         return
     width, depth = bitmap.cell_size
     x, y = bitmap.low
+    low_z, high_z = _heights(frame, bitmap.z)
     for left, low, right, high in rectangles(bitmap.cells).tolist():
         x0, x1, y0, y1 = x + left * width, x + right * width, y + low * depth, y + high * depth
         yield Part(
             _turned(frame, ((x0, y0), (x1, y0), (x1, y1), (x0, y1))),
-            low=frame.z + bitmap.z[0] - _TOUCH,
-            high=frame.z + bitmap.z[1] + _TOUCH,
+            low=low_z,
+            high=high_z,
             glow=returns.ranger,
             solid=returns.obstacle,
         )
@@ -43,13 +44,19 @@ def blocks_of(placed: PlacedStageModel) -> Iterator[Part]:
     """The blocks of one model."""
     frame, returns = placed.body_pose, placed.model.returns
     for block in placed.model.blocks:
+        low_z, high_z = _heights(frame, block.z)
         yield Part(
             _turned(frame, block.points),
-            low=frame.z + block.z[0] - _TOUCH,
-            high=frame.z + block.z[1] + _TOUCH,
+            low=low_z,
+            high=high_z,
             glow=returns.ranger,
             solid=returns.obstacle,
         )
+
+
+def _heights(frame: StagePose, z: tuple[float, float]) -> tuple[float, float]:
+    """From where to where a body reaches in the world [m], a touch farther than it says."""
+    return frame.z + z[0] - _TOUCH, frame.z + z[1] + _TOUCH
 
 
 def table_of(models: Iterable[PlacedStageModel]) -> Table:
@@ -73,9 +80,10 @@ def table_of(models: Iterable[PlacedStageModel]) -> Table:
 
 def _raster_of(placed: PlacedStageModel, bitmap: StageBitmap, first: int, last: int) -> Raster:
     frame = placed.body_pose
-    z = (frame.z + bitmap.z[0] - _TOUCH, frame.z + bitmap.z[1] + _TOUCH)
     pose = (frame.x, frame.y, frame.yaw)
-    return Raster(bitmap.cells, bitmap.low, bitmap.cell_size, pose, z, first, last)
+    return Raster(
+        bitmap.cells, bitmap.low, bitmap.cell_size, pose, _heights(frame, bitmap.z), first, last
+    )
 
 
 def outline(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -118,8 +126,7 @@ def _outline_rows(placed: PlacedStageModel, bitmap: StageBitmap) -> Floats:
     lines = bitmap_lines(bitmap, frame)
     rows = np.zeros((len(lines), c.PRIMITIVE))
     rows[:, c.X0 : c.Y1 + 1] = lines
-    rows[:, c.LOW] = frame.z + bitmap.z[0] - _TOUCH
-    rows[:, c.HIGH] = frame.z + bitmap.z[1] + _TOUCH
+    rows[:, c.LOW], rows[:, c.HIGH] = _heights(frame, bitmap.z)
     rows[:, c.GLOW] = returns.ranger
     rows[:, c.KIND] = c.SEGMENT if returns.obstacle else c.SEGMENT + c.GHOST
     return rows
