@@ -90,10 +90,7 @@ class Subscription:
         link.open()
 
     def _attach(self, uri: str, publication: Publication) -> None:
-        mine, theirs = (
-            self.message_class._md5sum,
-            publication.message_class._md5sum,
-        )
+        mine, theirs = self.message_class._md5sum, publication.message_class._md5sum
         if headers.ANY not in {mine, theirs} and mine != theirs:
             kind = publication.message_class._type
             wanted = self.message_class._type

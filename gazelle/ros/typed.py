@@ -44,5 +44,5 @@ def decode(raw: RawMessage) -> Any:
     Raises:
         RosError: Its type is not known here, and its definition did not come along.
     """
-    kind = class_for(raw._connection_header)  # rospy's names
+    kind = class_for(raw._connection_header)
     return kind().deserialize(raw._buff)

@@ -7,8 +7,6 @@ within the angles that a primitive covers are tested. Distances are exact; angle
 which beams are certainly missed.
 """
 
-# kernels take their arguments in order
-
 from __future__ import annotations
 
 import math

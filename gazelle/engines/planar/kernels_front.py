@@ -4,8 +4,6 @@ Beams go through the grid of clear space side by side, at first in bundles as on
 what can be seen, not with what is within the beams' reach.
 """
 
-# kernels take their arguments in order
-
 from __future__ import annotations
 
 import math

@@ -6,8 +6,6 @@ grows with what is in view, not with the number of beams times the way they go, 
 number of bodies in the world.
 """
 
-# kernels take their arguments in order
-
 # ruff: noqa: FBT001  # kernels take their arguments in order
 
 from __future__ import annotations

@@ -5,8 +5,6 @@ to the planar engine, update by update. Where nothing can be met within the cont
 way between two updates is made as one arc, which is exact, and nothing is tested.
 """
 
-# kernels take their arguments in order
-
 from __future__ import annotations
 
 import math

@@ -5,8 +5,6 @@ than beams begin, it may begin inside something; that scan is made anew by the e
 kernel, which knows. Both give the same ranges.
 """
 
-# kernels take their arguments in order
-
 from __future__ import annotations
 
 import math

@@ -195,7 +195,7 @@ class Recorder:
         now = self._node.clock.now()
         if not now:
             return  # simulated time did not begin
-        header = message._connection_header  # rospy's names
+        header = message._connection_header
         data = message._buff
         with self._lock:
             if self._output is None or self._finished(topic):

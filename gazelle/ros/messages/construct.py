@@ -81,7 +81,7 @@ def _assign_default(field: Field, target: str, code: Code, known: dict[str, type
         code.line(f"{variable} = {target} = _new(_{field.base.capitalize()})")
         code.line(f"{variable}.secs = {variable}.nsecs = 0")
         return
-    spec = known[field.base]._spec if field.is_message else None  # our own class
+    spec = known[field.base]._spec if field.is_message else None
     if spec is None or any(each.is_message or each.is_array for each in spec.fields):
         code.line(f"{target} = {default(field, code, known)}")
         return

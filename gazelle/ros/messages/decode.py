@@ -100,7 +100,7 @@ class Decoder:
             local = self._code.variable()
             cls = self._code.message_class(field.base, self._known)
             self._code.line(f"{local} = {target} = _new({cls})")
-            self.message(self._known[field.base]._spec, local)  # our own class
+            self.message(self._known[field.base]._spec, local)
         else:
             self._number(_read_code(field.base), target)
 
@@ -219,7 +219,7 @@ class Decoder:
     def _element_codes(self, field: Field) -> str | None:
         if field.base in _TIME_CODES:
             return _TIME_CODES[field.base] * 2
-        spec = self._known[field.base]._spec  # our own class
+        spec = self._known[field.base]._spec
         if _has_octets(spec, self._known):
             return None
         codes = fixed_codes(spec, self._known)
@@ -233,7 +233,7 @@ class Decoder:
             return
         cls = self._code.message_class(field.base, self._known)
         self._code.line(f"{local} = _new({cls})")
-        for each in self._known[field.base]._spec.fields:  # our own class
+        for each in self._known[field.base]._spec.fields:
             if each.is_message or each.base in _TIME_CODES:
                 inner = self._code.variable("m")
                 self._make_element(each, inner, targets)
@@ -304,7 +304,7 @@ def _read_codes(spec: MessageSpec, known: dict[str, type[Message]]) -> str:
         if field.base in _TIME_CODES:
             codes += _TIME_CODES[field.base] * 2
         elif field.is_message:
-            codes += _read_codes(known[field.base]._spec, known)  # our own class
+            codes += _read_codes(known[field.base]._spec, known)
         else:
             codes += _read_code(field.base)
     return codes
@@ -312,8 +312,7 @@ def _read_codes(spec: MessageSpec, known: dict[str, type[Message]]) -> str:
 
 def _has_octets(spec: MessageSpec, known: dict[str, type[Message]]) -> bool:
     return any(
-        field.is_array
-        or (field.is_message and _has_octets(known[field.base]._spec, known))  # our own class
+        field.is_array or (field.is_message and _has_octets(known[field.base]._spec, known))
         for field in spec.fields
     )
 

@@ -82,7 +82,7 @@ def fixed_codes(spec: MessageSpec, known: dict[str, type[Message]]) -> str | Non
         elif field.base == "string":
             return None
         elif field.is_message:
-            inner = fixed_codes(known[field.base]._spec, known)  # our own class
+            inner = fixed_codes(known[field.base]._spec, known)
             if inner is None:
                 return None
             codes += inner

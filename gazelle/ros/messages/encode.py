@@ -71,7 +71,7 @@ class Encoder:
             local = self._local(value)
             self._number(_TIME_CODES[field.base] * 2, f"{local}.secs", f"{local}.nsecs")
         elif field.is_message:
-            self.message(self._known[field.base]._spec, self._local(value))  # our own class
+            self.message(self._known[field.base]._spec, self._local(value))
         else:
             self._number(STRUCT_CODES[field.base], value)
 
@@ -148,7 +148,7 @@ class Encoder:
     def _fixed_element(self, field: Field) -> tuple[str | None, list[str]]:
         if field.base in _TIME_CODES:
             return _TIME_CODES[field.base] * 2, ["m.secs", "m.nsecs"]
-        spec = self._known[field.base]._spec  # our own class
+        spec = self._known[field.base]._spec
         values: list[str] = []
         if not _paths(spec, "m", self._known, values):
             return None, []
@@ -216,7 +216,7 @@ def _paths(
         if field.base in _TIME_CODES:
             values += [f"{path}.secs", f"{path}.nsecs"]
         elif field.is_message:
-            if not _paths(known[field.base]._spec, path, known, values):  # our own class
+            if not _paths(known[field.base]._spec, path, known, values):
                 return False
         else:
             values.append(path)

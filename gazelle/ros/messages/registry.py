@@ -79,7 +79,7 @@ class Registry:
                     del self._messages[each]
                     stale.add(each)
             for each, service in list(self._services.items()):
-                halves = service._request_class, service._response_class  # our own class
+                halves = service._request_class, service._response_class
                 if each in stale or any(self._messages.get(h._type) is not h for h in halves):
                     del self._services[each]
 
@@ -126,7 +126,7 @@ class Registry:
         made = self._messages[spec.full_name] = message_class(
             spec,
             md5sum=message_md5(spec, self._md5_of),
-            full_text=full_text(spec, lambda name: known[name]._spec),  # our own class
+            full_text=full_text(spec, lambda name: known[name]._spec),
             known=known,
             module=module,
         )
@@ -140,7 +140,7 @@ class Registry:
             raise UnknownTypeError(error.message, file=place, hint=error.hint) from None
 
     def _md5_of(self, name: str) -> str:
-        return self.message(name)._md5sum  # our own class
+        return self.message(name)._md5sum
 
     def _definition(self, name: str, kind: str) -> Definition | None:
         package, _, short = name.partition("/")

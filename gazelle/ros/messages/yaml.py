@@ -191,7 +191,7 @@ class _Writer:
         names = val.__slots__
         shown = names if self.field_filter is None else list(self.field_filter(val))
         lines = []
-        for name, type_ in zip(names, val._slot_types, strict=True):  # public protocol
+        for name, type_ in zip(names, val._slot_types, strict=True):
             if name in shown:
                 value = getattr(val, name)
                 if isinstance(value, bytes) and type_.partition("[")[0] in OCTETS:
@@ -255,7 +255,7 @@ def _fill_array(msg: Message, name: str, value: Any, keys: Mapping[str, Any], pr
     if not isinstance(value, (list, tuple)):
         kind = type(value).__name__
         raise MessageException(f"Field [{prefix}{name}] must be a list or tuple instead of: {kind}")
-    field = Field(msg._slot_types[msg.__slots__.index(name)], name)  # public protocol
+    field = Field(msg._slot_types[msg.__slots__.index(name)], name)
     if field.length is not None and len(value) != field.length:
         raise MessageException(
             f"Field [{prefix}{name}] has incorrect number of elements: "
