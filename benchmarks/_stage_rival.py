@@ -14,9 +14,10 @@ import numpy as np
 from _stage_goals import Goals, shown
 from _stage_itself import Spent, Stage
 
+from gazelle.engines.native import Call
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation.stage import Controller, StageSimulation, register_controller
 from gazelle.simulation.stage.layout import layout_of
 from gazelle.simulation.stage.opening import stage_of
 
@@ -50,14 +51,14 @@ class Run:
 def rival(stage: Stage, largest: int, threads: int, goals: Goals) -> None:
     """Print how all do, on files that differ in nothing but ``quit_time``."""
     print("\nthe same files in turns in Stage itself and here, each on one processor;")
-    print("times real time of Stage, of StageSimulation with the same controllers (without a")
-    print("sensor told from Python in each step), and of a Fleet that roams by itself")
+    print("times real time of Stage, of StageSimulation with the same controllers, and of")
+    print("a Fleet that roams by itself")
     print(
         f"{'robots':>7}  {'sensor':<7}{'Stage':>8}{'load s':>7}{'MB':>7}"
         f"{'StageSim':>10}{'load s':>7}{'times':>7}{'Fleet':>10}{'times':>7}"
     )
     alone: list[float] = []
-    own: dict[str, list[float]] = {"with wander": [], "told from Python": []}
+    own: list[float] = []
     with tempfile.TemporaryDirectory() as home:
         for count, side, blind, seeing in SIZES:
             for name, sensor in SENSORS if count <= largest else ():
@@ -69,19 +70,16 @@ def rival(stage: Stage, largest: int, threads: int, goals: Goals) -> None:
                 fleet = of_fleet(file, threads)
                 goals.stage[count, name] = theirs.factor * count / INTERVAL_S
                 alone.append(fleet / theirs.factor)
-                times = ours / theirs.factor
-                own["with wander" if sensor else "told from Python"].append(times)
+                own.append(ours / theirs.factor)
                 print(
                     f"{count:>7,}  {name:<7}{shown(theirs.factor):>8}"
                     f"{theirs.loaded.seconds:>7.2f}{theirs.loaded.megabytes:>7,.0f}"
-                    f"{shown(ours):>10}{loaded:>7.2f}{times:>7.1f}"
+                    f"{shown(ours):>10}{loaded:>7.2f}{own[-1]:>7.1f}"
                     f"{shown(fleet):>10}{alone[-1]:>7.1f}",
                     flush=True,
                 )
     goals.least("times Stage on its files, Fleet: the least", min(alone), 10.0)
-    for how, ratios in own.items():
-        if ratios:
-            goals.least(f"times Stage, StageSimulation {how}", min(ratios), 10.0)
+    goals.least("times Stage on its files, StageSimulation", min(own), 10.0)
     if stage.plugins is not None:
         theirs_off, ours_off = box_errors(stage)
         print(f"rays in a 10 m box: Stage {theirs_off:.3g} mm off, Gazelle {ours_off:.1g} mm")
@@ -151,18 +149,29 @@ def until(file: Path, seconds: float) -> Path:
     return ending
 
 
+class Roam(Controller):
+    """What ``stage_probe roam`` does, in native code here as there."""
+
+    def __init__(self, sim: StageSimulation) -> None:
+        self._roaming = Roaming(sim.fleet)
+
+    def update(self) -> None:
+        """Choose the commands of all robots."""
+        self._roaming.choose()
+
+    def calls(self) -> list[Call]:
+        """The same, as native code does it."""
+        return self._roaming.calls()
+
+
 def of_simulation(file: Path, threads: int) -> tuple[float, float]:
     """Of StageSimulation, with the controllers of the file: times real time, and load [s]."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of stage_probe, a library of Stage's
-        began = time.process_time()
-        sim = StageSimulation(file, threads=threads, euler=True)
+    register_controller("stage_probe", lambda sim, _: [Roam(sim)])
+    began = time.process_time()
+    with StageSimulation(file, threads=threads, euler=True) as sim:
         loaded = time.process_time() - began
-    with sim:
-        if sim.scanners:  # driven by wander, who looks every step
-            sim.step(5)
-            return sim.time_step / seconds_each(sim.step), loaded
-        return sim.time_step / worlds.seconds_a_step(sim, []), loaded
+        sim.step(5)
+        return sim.time_step / seconds_each(sim.step), loaded
 
 
 def of_fleet(file: Path, threads: int) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.engines.native import Tape
+from gazelle.engines.native import Call, Tape
 from gazelle.engines.planar import kernels_roam
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
@@ -71,17 +71,24 @@ class Roaming:
         """Make steps, and scan after each."""
         look = None if self.scanner is None else self.scanner.call()
         if self.fleet.alone and (look is not None or self.scanner is None):
-            choose = (kernels_roam.roam, (0, len(self._mood), *self._choosing()))
-            calls = [choose, (tally, (self._clock,)), self.fleet.call()]
+            calls = [*self.calls(), self.fleet.call()]
             self._tape.play(calls if look is None else [*calls, look], count)
             return
         for _ in range(count):
-            self._choose()
+            self.choose()
             self.fleet.step()
             if self.scanner is not None:
                 self.scanner.scan()
 
-    def _choose(self) -> None:
+    def calls(self) -> list[Call]:
+        """What ``choose`` does where one thread does all."""
+        return [
+            (kernels_roam.roam, (0, len(self._mood), *self._choosing())),
+            (tally, (self._clock,)),
+        ]
+
+    def choose(self) -> None:
+        """Choose the commands of all bodies."""
         own = self._choosing()
         self.fleet.crew.share(
             lambda a, b, _: kernels_roam.roam(a, b, *own), len(self._mood), _SHARE

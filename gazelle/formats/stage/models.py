@@ -23,7 +23,8 @@ from gazelle.formats.stage.entity import Entity, Property
 from gazelle.formats.stage.properties import Properties
 from gazelle.formats.stage.reader import Context
 
-CONTROLLERS = ("lasernoise", "wander")
+known_controllers = {"lasernoise", "wander"}
+"""Those that are started here; others may join (``simulation.stage.register_controller``)."""
 """Controllers that come with Gazelle."""
 
 _GONE = {
@@ -197,11 +198,11 @@ def _controllers(given: Properties) -> tuple[StageController, ...]:
 
 
 def _note_foreign(name: str, written: Property, given: Properties) -> None:
-    if name not in CONTROLLERS:
+    if name not in known_controllers:
         given.reading.remark(
             f"the controller '{name}' is a program for Stage itself, and not started",
             written.source,
-            f"there are: {', '.join(CONTROLLERS)}; others drive it from Python or ROS",
+            f"there are: {', '.join(sorted(known_controllers))}; others drive it from Python or ROS",
         )
 
 

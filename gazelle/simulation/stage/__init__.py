@@ -3,6 +3,7 @@
 from gazelle.engines.planar.pictures import Pictures
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import Camera, cameras_of
+from gazelle.simulation.stage.controllers import Controller, register_controller
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
 from gazelle.simulation.stage.layout import Ranger, StageRobot
@@ -13,6 +14,7 @@ __all__ = [
     "Actuator",
     "Blob",
     "Camera",
+    "Controller",
     "Fiducial",
     "Gripper",
     "GripperState",
@@ -21,4 +23,5 @@ __all__ = [
     "StageRobot",
     "StageSimulation",
     "cameras_of",
+    "register_controller",
 ]

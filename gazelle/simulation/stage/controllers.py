@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from gazelle.engines.native import Call
 from gazelle.engines.planar.kernels_clock import tally
 from gazelle.engines.planar.kernels_wander import wander
-from gazelle.errors import SimulationWarning
+from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.formats.stage.models import known_controllers
 from gazelle.simulation.stage.layout import StageRobot
 from gazelle.streams import Stream
 
@@ -38,25 +39,49 @@ class Controller(Protocol):
     """Drives robots, or changes what they see."""
 
     def update(self) -> None:
-        """Act on the state between two steps."""
+        """Act on the state between two steps: read scans, write commands."""
 
     def calls(self) -> list[Call] | None:
-        """What it does then in native code; None if that is not all."""
+        """What ``update`` does in native code; None if it does more."""
+        return None
 
     def reset(self) -> None:
         """Start over."""
 
 
+Wanted = list[tuple[StageRobot, str]]
+"""The robots whose ``ctrl`` names a controller, each with what comes after the name."""
+
+Maker = Callable[["StageSimulation", Wanted], list[Controller]]
+
+
+def register_controller(name: str, make: Maker) -> None:
+    """Have robots driven from Python whose file names a controller, in simulations made later.
+
+    Args:
+        name: What ``ctrl "NAME ..."`` says; one of that name is replaced.
+        make: Called once a simulation, with it and all those robots; the controllers it returns
+            are asked before every step.
+
+    Raises:
+        SimulationError: The name is none.
+    """
+    if len(name.split()) != 1:
+        raise SimulationError(f"a controller's name is one word, not '{name}'")
+    _makers[name] = make
+    known_controllers.add(name)
+
+
 def make_controllers(simulation: StageSimulation) -> list[Controller]:
     """Those that the world's robots name; others have been warned of when it was loaded."""
-    named: dict[str, list[tuple[StageRobot, str]]] = {}
+    named: dict[str, Wanted] = {}
     for robot in simulation.robots:
         models = [robot.model, *(ranger.model for ranger in robot.rangers)]
         for controller in (each for model in models for each in model.controllers):
             named.setdefault(controller.name, []).append((robot, controller.arguments))
     made: list[Controller] = []
     for name, wanted in named.items():
-        maker = _MAKERS.get(name)
+        maker = _makers.get(name)
         if maker is not None:
             made += maker(simulation, wanted)
     return made
@@ -122,7 +147,7 @@ class Wander:
 class LaserNoise:
     """Adds white noise to what the rangers of some robots measure; it acts in the scan itself."""
 
-    def __init__(self, simulation: StageSimulation, robots: list[tuple[StageRobot, str]]) -> None:
+    def __init__(self, simulation: StageSimulation, robots: Wanted) -> None:
         for robot, arguments in robots:
             deviation = _number(arguments, DEVIATION)
             for ranger in robot.rangers:
@@ -147,9 +172,7 @@ def _number(text: str, default: float) -> float:
         return default
 
 
-def _make_wander(
-    simulation: StageSimulation, wanted: list[tuple[StageRobot, str]]
-) -> list[Controller]:
+def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:
     groups: dict[int, list[StageRobot]] = {}
     blind = []
     for robot, _ in wanted:
@@ -166,13 +189,8 @@ def _make_wander(
     return [Wander(simulation, robots, scanner) for scanner, robots in groups.items()]
 
 
-def _make_noise(
-    simulation: StageSimulation, wanted: list[tuple[StageRobot, str]]
-) -> list[Controller]:
+def _make_noise(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:
     return [LaserNoise(simulation, wanted)]
 
 
-_MAKERS: dict[str, Callable[[StageSimulation, list[tuple[StageRobot, str]]], list[Controller]]] = {
-    "wander": _make_wander,
-    "lasernoise": _make_noise,
-}
+_makers: dict[str, Maker] = {"wander": _make_wander, "lasernoise": _make_noise}
