@@ -23,6 +23,7 @@ _OWN: Final[dict[Any, str]] = {
     math.ceil: "ceil", np.rint: "rint",
 }  # fmt: skip
 _MOST: Final = 4096  # elements of an array that a kernel makes
+_ADDING: Final = threading.Lock()
 _OTHERS: Final[dict[Any, str]] = {math.atan2: "atan2", math.hypot: "hypot"}
 
 
@@ -39,9 +40,6 @@ def fused(a: float, b: float, c: float) -> float:
 def lesser(a: float, b: float) -> float:
     """The lesser of two numbers, both of which are numbers; many at once in a loop over ``each``."""
     return min(a, b)
-
-
-_ADDING: Final = threading.Lock()
 
 
 def fetch_add(numbers: NDArray[np.int64], amount: int) -> int:
