@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -111,6 +113,39 @@ def yaw_of(q: Floats) -> Floats:
     """Heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
     x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def seen_on_ground(q: Floats, v: Floats) -> Floats:
+    """The horizontal parts of vectors v, shape (n, 3), along and across the headings of q.
+
+    What looks straight up or down is as if it had not turned.
+
+    Args:
+        q: Unit quaternions (x, y, z, w), shape (n, 4).
+        v: In the frame that q is in.
+    """
+    if len(q) == 1:
+        return _seen_by_one(q, v)
+    x, y, z, w = q.T
+    ahead, aside = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
+    length = np.sqrt(ahead * ahead + aside * aside)
+    upright = length == 0.0
+    ahead, length = np.where(upright, 1.0, ahead), np.where(upright, 1.0, length)
+    seen = np.zeros(v.shape)
+    seen[:, 0] = (ahead * v[:, 0] + aside * v[:, 1]) / length
+    seen[:, 1] = (ahead * v[:, 1] - aside * v[:, 0]) / length
+    return seen
+
+
+def _seen_by_one(q: Floats, v: Floats) -> Floats:
+    """The same for one, to the bit, without the overhead of arrays."""
+    x, y, z, w = q.ravel().tolist()
+    a, b, _ = v.ravel().tolist()
+    ahead, aside = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
+    length = math.sqrt(ahead * ahead + aside * aside)
+    if length == 0.0:
+        ahead = length = 1.0
+    return np.array([[(ahead * a + aside * b) / length, (ahead * b - aside * a) / length, 0.0]])
 
 
 def from_yaw(yaw: Floats) -> Floats:

@@ -1,11 +1,23 @@
 """Quaternions by the batch."""
 
+import math
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from gazelle.rotations import cross, multiply, rotate, turns
+from gazelle.rotations import (
+    conjugate,
+    cross,
+    from_yaw,
+    multiply,
+    rotate,
+    seen_on_ground,
+    turns,
+    yaw_of,
+)
 
 numbers = st.floats(-10.0, 10.0)
 quaternions = arrays(np.float64, 4, elements=numbers).filter(lambda q: np.linalg.norm(q) > 0.1)
@@ -55,3 +67,22 @@ def test_many_vectors_turn_alike_in_a_world_alone_and_among_others():
         np.testing.assert_allclose(together, rotate(q[:, None], v[None]), atol=1e-12)
         for world in (0, 100, 299):
             assert np.array_equal((v @ turns(q[world : world + 1]))[0], together[world])
+
+
+@given(quaternions, arrays(np.float64, 3, elements=numbers))
+def test_what_is_seen_on_the_ground_is_turned_back_by_the_heading(q, v):
+    q = q / np.linalg.norm(q)
+    seen = seen_on_ground(q[None], v[None])
+    among = seen_on_ground(np.array([q, q]), np.array([v, v]))
+    assert (among == seen).all()
+    assert seen[0, 2] == 0.0
+    assert np.hypot(*seen[0, :2]) == pytest.approx(np.hypot(*v[:2]), abs=1e-9)
+    ahead, aside = 1 - 2 * (q[1] ** 2 + q[2] ** 2), 2 * (q[3] * q[2] + q[0] * q[1])
+    if math.hypot(ahead, aside) > 1e-6:  # else the heading is anything
+        back = conjugate(from_yaw(yaw_of(q[None])))
+        assert seen == pytest.approx(rotate(back, v[None] * (1.0, 1.0, 0.0)), abs=1e-6)
+
+
+def test_who_looks_straight_up_sees_the_ground_as_it_is():
+    up = np.array([[-0.5, 0.5, 0.5, 0.5]])
+    assert seen_on_ground(up, np.array([[1.0, 2.0, 3.0]]))[0] == pytest.approx([1.0, 2.0, 0.0])

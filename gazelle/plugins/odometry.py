@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from gazelle.plugins.frames import frames_output
-from gazelle.rotations import conjugate, from_yaw, rotate, yaw_of
+from gazelle.rotations import seen_on_ground
 from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
 from gazelle.simulation.values import SixNumbers
 
 POSE_VARIANCE: SixNumbers = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
 """Of planar bases that are sure of x, y and yaw."""
+
+_ABOUT_Z = np.array([0.0, 0.0, 1.0])
 
 
 def true_odometry(
@@ -22,15 +26,14 @@ def true_odometry(
 ) -> Odometry:
     """The model's pose in the world, and its velocity on the ground as seen from its heading."""
     place, motion = robot.placement(), robot.motion()
-    back = conjugate(from_yaw(yaw_of(place.quaternion)))
     return Odometry(
         robot.simulation.clock.now_ns,
         frame,
         child_frame,
         place.position,
         place.quaternion,
-        rotate(back, motion.linear * (1.0, 1.0, 0.0)),
-        motion.angular * (0.0, 0.0, 1.0),
+        seen_on_ground(place.quaternion, motion.linear),
+        motion.angular * _ABOUT_Z,
         pose_variance,
         twist_variance,
     )
