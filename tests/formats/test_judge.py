@@ -106,6 +106,10 @@ def other(name="b"):
             ["limits-crossed"],
         ),
         (Joint("j", "revolute", "l", "b", axes=(JointAxis(effort=0.0),)), ["no-effort"]),
+        (
+            Joint("j", "revolute", "l", "b", axes=(JointAxis(damping=-0.1, friction=-1.0),)),
+            ["negative-damping", "negative-damping"],
+        ),
         (Joint("j", "ball", "l", "b", physics=JointPhysics(fudge_factor=0.1)), ["ode-terms"]),
         (Joint("j", "ball", "l", "b", physics=JointPhysics(stop_cfm=0.1)), []),
         (Joint("j", "revolute", "l", "b", axes=(JointAxis(velocity=0.0),)), ["no-velocity"]),

@@ -82,6 +82,15 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
             "give it <limit> with <lower> and <upper>",
             joint.source,
         )
+    for term, value in (("damping", axis.damping), ("friction", axis.friction)):
+        if value < 0.0:
+            yield Finding(
+                "negative-damping",
+                f"joint '{name}' has a {term} of {value:g}",
+                "below zero it drives the joint, or does nothing, instead of braking it",
+                f"give a {term} of zero or more",
+                joint.source,
+            )
     if axis.effort == 0.0:
         yield Finding(
             "no-effort",
