@@ -137,9 +137,7 @@ class Swift:
 
     # -- stepping ----------------------------------------------------------------------
 
-    def step(
-        self, linear: Floats, angular: Floats, act: Function, *others: tuple[Any, ...]
-    ) -> None:
+    def step(self, linear: Floats, angular: Floats, act: Function, *others: Any) -> None:
         """Make a control step everywhere, measure, and do what a task makes of that.
 
         Args:
@@ -274,11 +272,6 @@ class Swift:
         self._drive.plugin.restore(state)
         for row, plugin in zip(self._epochs, self._paths.plugins, strict=True):
             plugin.restore({"epoch": row})
-
-    def poses(self, worlds: Worlds) -> tuple[Floats, Floats]:
-        """Where the robots are [m], shape (n, 2), and their headings [rad], shape (n,)."""
-        rows = self.fleet.rows[worlds * self.fleet.nbody + self.body]
-        return rows[:, :2], rows[:, 2]
 
 
 def _due(schedule: Schedule | None, clock: Clock, steps: int) -> list[int]:

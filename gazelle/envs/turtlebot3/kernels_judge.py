@@ -9,14 +9,12 @@ import math
 
 import numpy as np
 
-from gazelle.engines.native import each, fetch_add, kernel, lesser, part, whole
+from gazelle.engines.native import each, kernel, lesser, part, whole
 from gazelle.engines.planar.columns import YAW, X, Y
-from gazelle.envs.planar.kernels_drive import drive
 from gazelle.envs.planar.kernels_lidar import report, see
-from gazelle.envs.planar.tables import Flags, Floats, Indices, Table, Worlds
+from gazelle.envs.planar.tables import Flags, Floats, Table, Worlds
 
 _SPLIT = 2.0**27 + 1.0
-BLOCK = 32  # worlds whose ranges stay near the processor until they are judged
 
 # Columns of the rules.
 COLLISION_RANGE = 0
@@ -96,51 +94,15 @@ def judge(
         crashed[w], arrived[w] = hit, there
 
 
-@part
-def act_in(
-    begin: int, end: int, driving: Table, seeing: Table, reporting: Table, observing: Table,
-    judging: Table,
-) -> None:  # fmt: skip
-    """A control step in the worlds begin to end, few enough to stay near the processor.
-
-    Each tuple holds what a kernel takes after the range of worlds: ``drive``, ``see``,
-    ``report``, ``observe`` and ``judge``.
-    """
-    drive(begin, end, *driving)
-    see(begin, end, *seeing)
-    report(begin, end, *reporting)
-    observe(begin, end, *observing)
-    judge(begin, end, *judging)
-
-
-@kernel
-def act(
-    tickets: Indices, nworld: int, driving: Table, seeing: Table, reporting: Table,
-    observing: Table, judging: Table,
-) -> None:  # fmt: skip
-    """Make control steps in blocks of worlds, as ``act_in``, until none is left for this thread.
-
-    Args:
-        tickets: How many worlds threads have taken, shared by all of them; 0 before.
-        nworld: How many there are.
-        driving: As ``act_in`` has it.
-        seeing: See there.
-        reporting: See there.
-        observing: See there.
-        judging: See there.
-    """
-    begin = fetch_add(tickets, BLOCK)
-    while begin < nworld:
-        end = min(begin + BLOCK, nworld)
-        act_in(begin, end, driving, seeing, reporting, observing, judging)
-        begin = fetch_add(tickets, BLOCK)
-
-
 @kernel
 def look(
     first: int, last: int, seeing: Table, reporting: Table, observing: Table,
 ) -> None:  # fmt: skip
-    """The observation of worlds[first] to worlds[last - 1], without a step; as ``act_in``."""
+    """The observation of worlds[first] to worlds[last - 1], without a step.
+
+    Each tuple holds what a kernel takes after the range of worlds: ``see``, ``report`` and
+    ``observe``.
+    """
     see(first, last, *seeing)
     report(first, last, *reporting)
     observe(first, last, *observing)

@@ -10,21 +10,19 @@ import numpy as np
 
 from gazelle.engines.native import fetch_add, kernel, part
 from gazelle.engines.planar.columns import X, Y
-from gazelle.envs.planar.kernels_drive import restart
-from gazelle.envs.planar.kernels_lidar import report, uniforms
-from gazelle.envs.planar.kernels_lidar import see as scan
+from gazelle.envs.planar.kernels_drive import drive, restart
+from gazelle.envs.planar.kernels_lidar import report, see, uniforms
 from gazelle.envs.planar.tables import Flags, Floats, Indices, Table
-from gazelle.envs.turtlebot3.kernels_judge import BLOCK, act_in, observe, round2
+from gazelle.envs.turtlebot3.kernels_judge import judge, observe, round2
+from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST
 
-SHORTEST = 0.01  # what a reward is measured by that would else be measured by nothing [m]
-NO_GOAL = -1
+_BLOCK = 32  # worlds whose ranges stay near the processor until they are judged
 
-# Rows of what comes out.
-SUCCESS, COLLISION, TIMEOUT, TERMINATED, TRUNCATED = range(5)
-LAST_SUCCESS, LAST_COLLISION, LAST_TIMEOUT, DONE, FLAGS = range(5, 10)
-DISTANCE, HEADING, LAST_DISTANCE, LAST_HEADING, NUMBERS = range(5)
-REACHED, LAST_REACHED, COUNTS = range(3)
-GOAL, LAST_GOAL, PLACES = range(3)
+# What comes out is there twice: of now, and of the episode that ended, if one did.
+NOW, LAST = 0, 1
+SUCCESS, COLLISION, TIMEOUT, HOW = range(4)
+TERMINATED, TRUNCATED, DONE, ENDS = range(4)
+DISTANCE, HEADING, NUMBERS = range(3)
 
 
 @part
@@ -63,47 +61,45 @@ def distance_to_goal(b: int, pose: Floats, goals: Floats, place: int) -> float:
 
 
 @part
-def write_goal(points: Floats, row: int, w: int, goals: Floats, place: int) -> None:
+def write_goal(points: Floats, w: int, goals: Floats, place: int) -> None:
     """Let a place come out as a world's goal."""
-    points[row, w, 0], points[row, w, 1] = goals[place, 0], goals[place, 1]
+    points[NOW, w, 0], points[NOW, w, 1] = goals[place, 0], goals[place, 1]
 
 
 @part
-def keep(
-    w: int, over: bool, flags: Flags, numbers: Floats, counts: Indices, points: Floats
-) -> None:
+def keep(w: int, over: bool, how: Flags, numbers: Floats, counts: Indices, points: Floats) -> None:
     """Put what came out of an episode that is over where it stays; zeros if it is not."""
-    for k in range(SUCCESS, TIMEOUT + 1):
-        flags[LAST_SUCCESS + k, w] = over and flags[SUCCESS + k, w]
-    for k in range(DISTANCE, HEADING + 1):
-        numbers[LAST_DISTANCE + k, w] = numbers[k, w] if over else 0.0
-    counts[LAST_REACHED, w] = counts[REACHED, w] if over else 0
+    for k in range(HOW):
+        how[LAST, k, w] = over and how[NOW, k, w]
+    for k in range(NUMBERS):
+        numbers[LAST, k, w] = numbers[NOW, k, w] if over else 0.0
+    counts[LAST, w] = counts[NOW, w] if over else 0
     for axis in range(2):
-        points[LAST_GOAL, w, axis] = points[GOAL, w, axis] if over else 0.0
+        points[LAST, w, axis] = points[NOW, w, axis] if over else 0.0
 
 
 @part
 def conclude(
     w: int, b: int, pose: Floats, goals: Floats, goal: Table, elapsed: Indices, most: int,
     respawn: bool, counts_of: Table, successors: Table, keys: Table, counters: Table,
-    start_distance: Floats, crashed: Flags, arrived: Flags, flags: Flags, numbers: Floats,
-    counts: Indices, points: Floats,
+    start_distance: Floats, crashed: Flags, arrived: Flags, ends: Flags, how: Flags,
+    numbers: Floats, counts: Indices, points: Floats,
 ) -> bool:  # fmt: skip
     """Write down what a step brought, and give who has arrived a goal; whether it ends here."""
     elapsed[w] += 1
     late = 0 < most <= elapsed[w]
     ended = crashed[w] or (arrived[w] and not respawn)
     if arrived[w]:
-        counts[REACHED, w] += 1
+        counts[NOW, w] += 1
         if respawn:
             next_goal(w, goal, counts_of, successors, keys, counters)
             start_distance[w] = max(distance_to_goal(b, pose, goals, goal[w]), SHORTEST)
-    write_goal(points, GOAL, w, goals, goal[w])
+    write_goal(points, w, goals, goal[w])
     over = ended or late
-    flags[SUCCESS, w], flags[COLLISION, w] = arrived[w], crashed[w] and not arrived[w]
-    flags[TIMEOUT, w] = late and not ended
-    flags[TERMINATED, w], flags[TRUNCATED, w], flags[DONE, w] = ended, late, over
-    keep(w, over, flags, numbers, counts, points)
+    how[NOW, SUCCESS, w], how[NOW, COLLISION, w] = arrived[w], crashed[w] and not arrived[w]
+    how[NOW, TIMEOUT, w] = late and not ended
+    ends[TERMINATED, w], ends[TRUNCATED, w], ends[DONE, w] = ended, late, over
+    keep(w, over, how, numbers, counts, points)
     return over
 
 
@@ -113,19 +109,19 @@ def step(
     observing: Table, judging: Table, starting: Table, pose: Floats, nbody: int, robot: int,
     goals: Floats, goal: Table, first: int, elapsed: Indices, most: int, respawn: bool,
     counts_of: Table, successors: Table, keys: Table, counters: Table, start_distance: Floats,
-    crashed: Flags, arrived: Flags, observation: Table, last_observation: Table, flags: Flags,
-    numbers: Floats, counts: Indices, points: Floats,
+    crashed: Flags, arrived: Flags, observation: Table, last_observation: Table, ends: Flags,
+    how: Flags, numbers: Floats, counts: Indices, points: Floats, goes_on: bool,
 ) -> None:  # fmt: skip
     """Make a control step in blocks of worlds until none is left for this thread.
 
     Args:
         tickets: How many worlds threads have taken, shared by all of them; 0 before.
         nworld: How many there are.
-        driving: See ``kernels_judge.act_in``.
-        seeing: See there.
-        reporting: See there.
-        observing: See there; distances and headings are the first rows of ``numbers``.
-        judging: See there.
+        driving: What ``drive`` takes after the range of worlds.
+        seeing: What ``see`` takes after it.
+        reporting: What ``report`` takes after it.
+        observing: What ``observe`` takes after it; distances and headings are ``numbers[NOW]``.
+        judging: What ``judge`` takes after it.
         starting: What ``kernels_drive.restart`` takes after the world.
         pose: Of all bodies.
         nbody: Bodies of a world.
@@ -143,34 +139,41 @@ def step(
         start_distance: Distance to the goal when it was given [m].
         crashed: As ``judge`` has it.
         arrived: As ``judge`` has it.
-        observation: As ``observe`` has it; of the next episode where one ended.
+        observation: As ``observe`` has it; of the next episode where one began.
         last_observation: The last one, where an episode ended.
-        flags: Comes out, see above, shape (FLAGS, nworld).
-        numbers: Comes out, shape (NUMBERS, nworld).
-        counts: Comes out, shape (COUNTS, nworld); goals reached in the episode, before.
-        points: Comes out, shape (PLACES, nworld, 2).
+        ends: Comes out, shape (ENDS, nworld).
+        how: Comes out, shape (2, HOW, nworld).
+        numbers: Comes out, shape (2, NUMBERS, nworld).
+        counts: Comes out, goals reached in the episode, shape (2, nworld).
+        points: Comes out, goals [m], shape (2, nworld, 2).
+        goes_on: Whether the next episode begins where one ended.
     """
-    begin = fetch_add(tickets, BLOCK)
+    begin = fetch_add(tickets, _BLOCK)
     while begin < nworld:
-        end = min(begin + BLOCK, nworld)
-        act_in(begin, end, driving, seeing, reporting, observing, judging)
+        end = min(begin + _BLOCK, nworld)
+        drive(begin, end, *driving)
+        see(begin, end, *seeing)
+        report(begin, end, *reporting)
+        observe(begin, end, *observing)
+        judge(begin, end, *judging)
         for w in range(begin, end):
-            if not conclude(
+            over = conclude(
                 w, w * nbody + robot, pose, goals, goal, elapsed, most, respawn, counts_of,
-                successors, keys, counters, start_distance, crashed, arrived, flags, numbers,
+                successors, keys, counters, start_distance, crashed, arrived, ends, how, numbers,
                 counts, points,
-            ):  # fmt: skip
+            )  # fmt: skip
+            if not (over and goes_on):
                 continue
             for k in range(observation.shape[1]):
                 last_observation[w, k] = observation[w, k]
             restart(w, *starting)
-            elapsed[w], counts[REACHED, w] = 0, 0
+            elapsed[w], counts[NOW, w] = 0, 0
             first_goal(w, goal, goals.shape[0], first, respawn, keys, counters)
-            scan(w, w + 1, *seeing)
+            see(w, w + 1, *seeing)
             report(w, w + 1, *reporting)
             observe(w, w + 1, *observing)
-            start_distance[w] = max(numbers[DISTANCE, w], SHORTEST)
-            write_goal(points, GOAL, w, goals, goal[w])
-            for k in range(SUCCESS, TIMEOUT + 1):
-                flags[k, w] = False
-        begin = fetch_add(tickets, BLOCK)
+            start_distance[w] = max(numbers[NOW, DISTANCE, w], SHORTEST)
+            write_goal(points, w, goals, goal[w])
+            for k in range(HOW):
+                how[NOW, k, w] = False
+        begin = fetch_add(tickets, _BLOCK)

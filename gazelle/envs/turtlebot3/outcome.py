@@ -23,7 +23,8 @@ class Outcome:
         nearest: Shortest ranges [m], shape (nworld,).
         crashed: Who is too near to something, shape (nworld,).
         arrived: Who is at the goal, shape (nworld,).
-        flags: See ``kernels_step``, as the next ones.
+        ends: See ``kernels_step``, as the next ones.
+        how: What ended episodes: success, collision, time-out.
         numbers: Distances to the goal [m] and headings of it [rad].
         counts: Goals reached in the episode.
         points: Goals [m].
@@ -33,52 +34,40 @@ class Outcome:
         self.observation, self.last_observation = np.zeros((2, nworld, size), np.float32)
         self.reward, self.nearest = np.zeros((2, nworld))
         self.crashed, self.arrived = np.zeros((2, nworld), np.bool_)
-        self.flags = np.zeros((k.FLAGS, nworld), np.bool_)
-        self.numbers = np.zeros((k.NUMBERS, nworld))
-        self.counts = np.zeros((k.COUNTS, nworld), np.int64)
-        self.points = np.zeros((k.PLACES, nworld, 2))
+        self.ends = np.zeros((k.ENDS, nworld), np.bool_)
+        self.how = np.zeros((2, k.HOW, nworld), np.bool_)
+        self.numbers = np.zeros((2, k.NUMBERS, nworld))
+        self.counts = np.zeros((2, nworld), np.int64)
+        self.points = np.zeros((2, nworld, 2))
 
     def step(self, *, timed: bool) -> Step:
         """What the last step brought; ``timed``: episodes have a step limit."""
-        flags, numbers = self.flags.copy(), self.numbers.copy()
-        counts, points = self.counts.copy(), self.points.copy()
-        now = _info(
-            flags[k.SUCCESS : k.TIMEOUT + 1],
-            numbers[k.DISTANCE : k.HEADING + 1],
-            points[k.GOAL],
-            counts[k.REACHED],
-            timed=timed,
-        )
+        ends = self.ends.copy()
+        rows = (self.how.copy(), self.numbers.copy(), self.points.copy(), self.counts.copy())
+        now, last = (_info(*row, timed=timed) for row in zip(*rows, strict=True))
         transition = Transition(
             self.observation.copy(),
             self.reward.copy(),
-            flags[k.TERMINATED],
-            flags[k.TRUNCATED],
+            ends[k.TERMINATED],
+            ends[k.TRUNCATED],
             now,
         )
-        worlds = np.flatnonzero(flags[k.DONE])
+        worlds = np.flatnonzero(ends[k.DONE])
         if not len(worlds):
             return Step(transition, None)
-        last = _info(
-            flags[k.LAST_SUCCESS : k.LAST_TIMEOUT + 1],
-            numbers[k.LAST_DISTANCE : k.LAST_HEADING + 1],
-            points[k.LAST_GOAL],
-            counts[k.LAST_REACHED],
-            timed=timed,
-        )
         return Step(transition, Finals(worlds, self.last_observation[worlds], last))
 
 
 def _info(
-    flags: Bool, numbers: Float64, goal: Float64, reached: NDArray[np.int64], *, timed: bool
+    how: Bool, numbers: Float64, goal: Float64, reached: NDArray[np.int64], *, timed: bool
 ) -> Info:
-    """As ``TurtleBot3Task`` spells it; rows are in the order of ``kernels_step``."""
+    """As ``TurtleBot3Task`` spells it."""
     info: Info = {
-        "is_success": flags[0],
-        "is_collision": flags[1],
-        "distance": numbers[0],
-        "heading": numbers[1],
+        "is_success": how[k.SUCCESS],
+        "is_collision": how[k.COLLISION],
+        "distance": numbers[k.DISTANCE],
+        "heading": numbers[k.HEADING],
         "goal": goal,
         "goals_reached": reached,
     }
-    return {**info, "is_timeout": flags[2]} if timed else info
+    return {**info, "is_timeout": how[k.TIMEOUT]} if timed else info

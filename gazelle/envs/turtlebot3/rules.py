@@ -11,6 +11,9 @@ from dataclasses import dataclass
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
 
+SHORTEST = 0.01  # a shorter distance to a new goal counts as this in the reward [m]
+NO_GOAL = -1  # index of the goal of a world that had none yet
+
 
 @dataclass(frozen=True, slots=True)
 class Rules:

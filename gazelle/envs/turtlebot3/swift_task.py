@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import Float32, Info, Step, Verdict, Worlds
+from gazelle.envs.batched_task import Float32, Info, Step, Transition, Worlds
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.planar.swift import Swift
 from gazelle.envs.turtlebot3 import kernels_judge, kernels_step
@@ -37,9 +37,9 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         super().__init__(stage, nworld, continuous=continuous, settings=settings)
         self._rules = _row_of(self.rules)
         self._outcome = Outcome(nworld, self.observation_space.shape[0])
-        self._goals_reached = self._outcome.counts[kernels_step.REACHED]
+        self._goals_reached = self._outcome.counts[kernels_step.NOW]
         self._everywhere = np.arange(nworld)
-        self._kept: tuple[object, tuple[Any, ...], tuple[Any, ...]] = (None, (), ())
+        self._kept: tuple[object, tuple[Any, ...]] = (None, ())
 
     @property
     def swift(self) -> Swift | None:
@@ -79,56 +79,43 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         no = np.zeros(len(worlds), dtype=np.bool_)
         return observation, self._info(seen, worlds, arrived=no, crashed=no)
 
+    def advance(self, actions: ArrayLike) -> Transition:
+        """See `BatchedTask.advance`."""
+        if self._swift is None:
+            return super().advance(actions)
+        return self._run(self._swift, actions, goes_on=False).transition
+
     def step(self, actions: ArrayLike) -> Step:
-        """See `BatchedTask.step`; all of it is done in native code."""
-        swift = self._swift
-        if swift is None:
+        """See `BatchedTask.step`."""
+        if self._swift is None:
             return super().step(actions)
-        swift.step(*self._command(actions), kernels_step.step, *self._arguments(swift)[1])
+        return self._run(self._swift, actions, goes_on=True)
+
+    def _run(self, swift: Swift, actions: ArrayLike, *, goes_on: bool) -> Step:
+        """A control step in native code, with the next episodes where it goes on."""
+        swift.step(*self._command(actions), kernels_step.step, *self._arguments(swift), goes_on)
         return self._outcome.step(timed=self.max_episode_steps is not None)
 
-    def _act(self, actions: ArrayLike) -> Verdict:
-        swift = self._swift
-        if swift is None:
-            return super()._act(actions)
-        swift.step(*self._command(actions), kernels_judge.act, *self._arguments(swift)[0])
-        made, everywhere = self._outcome, self._everywhere
-        crashed, arrived = made.crashed.copy(), made.arrived.copy()
-        self._goals_reached += arrived
-        if self.respawn and arrived.any():
-            self._next_goals(np.flatnonzero(arrived))
-        terminated = crashed if self.respawn else crashed | arrived
-        info = self._info(
-            self._sight(self.nworld), everywhere, arrived=arrived, crashed=crashed & ~arrived
-        )
-        return Verdict(made.observation.copy(), made.reward.copy(), terminated, info)
-
-    def _arguments(self, swift: Swift) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
-        """What ``kernels_judge.act`` and ``kernels_step.step`` take after what is measured."""
+    def _arguments(self, swift: Swift) -> tuple[Any, ...]:
+        """What ``kernels_step.step`` takes after what is measured, but for the last."""
         if self._kept[0] is not self._stream:  # which a seed makes anew
             made, goals, fleet = self._outcome, self.goals, swift.fleet
-            acting = (
-                self._observing(swift, self._everywhere, made.observation),
-                (
-                    *made.numbers[: kernels_step.HEADING + 1], made.nearest, swift.angular,
-                    ANGULAR_STEP, (ACTIONS - 1) / 2, self._start_distance, self._rules,
-                    made.reward, made.crashed, made.arrived,
-                ),
+            judging = (
+                *made.numbers[kernels_step.NOW], made.nearest, swift.angular, ANGULAR_STEP,
+                (ACTIONS - 1) / 2, self._start_distance, self._rules, made.reward, made.crashed,
+                made.arrived,
             )  # fmt: skip
             stepping = (
-                *acting, swift.starting, fleet.rows, fleet.nbody, swift.body, goals.points,
+                self._observing(swift, self._everywhere, made.observation), judging,
+                swift.starting, fleet.rows, fleet.nbody, swift.body, goals.points,
                 self._goal, goals.start, self.elapsed, self.max_episode_steps or 0, self.respawn,
                 goals.counts, goals.successors, self._stream.keys, self._stream.counters,
                 self._start_distance, made.crashed, made.arrived, made.observation,
-                made.last_observation, made.flags, made.numbers, made.counts, made.points,
+                made.last_observation, made.ends, made.how, made.numbers, made.counts,
+                made.points,
             )  # fmt: skip
-            self._kept = (self._stream, acting, stepping)
-        return self._kept[1:]
-
-    def _see_distance(self, worlds: Worlds) -> Floats:
-        if self._swift is None:
-            return super()._see_distance(worlds)
-        return self._distance_at(self._swift.poses(worlds)[0], worlds)
+            self._kept = (self._stream, stepping)
+        return self._kept[1]
 
     def _observing(self, swift: Swift, worlds: Worlds, observation: Float32) -> tuple[Any, ...]:
         """What ``kernels_judge.observe`` takes after the range of worlds."""
@@ -136,12 +123,12 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         return (
             worlds, swift.cleaned, swift.fleet.rows, swift.fleet.nbody, swift.body,
             self.goals.points, self._goal, self._rules, observation,
-            *made.numbers[: kernels_step.HEADING + 1], made.nearest,
+            *made.numbers[kernels_step.NOW], made.nearest,
         )  # fmt: skip
 
     def _sight(self, count: int) -> Sight:
         """What was seen last, but for the ranges, in arrays of its own."""
-        distance, heading = self._outcome.numbers[: kernels_step.HEADING + 1, :count].copy()
+        distance, heading = self._outcome.numbers[kernels_step.NOW, :, :count].copy()
         return Sight(_NOTHING, self._outcome.nearest[:count], _NOWHERE, distance, heading)
 
     def _state(self) -> dict[str, Any]:

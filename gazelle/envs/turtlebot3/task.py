@@ -22,15 +22,13 @@ from gazelle.envs.turtlebot3.actions import (
 )
 from gazelle.envs.turtlebot3.observations import Sight, observation, observation_space, sight
 from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
-from gazelle.envs.turtlebot3.rules import STAGES, Rules, stage_goals
+from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules, stage_goals
 from gazelle.envs.turtlebot3.scene import COMMAND, Scene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.rotations import yaw_of
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 
-_NOT_YET = -1
-_SHORTEST = 0.01
 _GOAL_BOX = 0.5
 
 
@@ -66,7 +64,7 @@ class TurtleBot3Task(BatchedTask):
             distance_max=_distance_max(self.rules, settings, self.goals),
         )
         self.action_space = _action_space(continuous=continuous)
-        self._goal = np.full(nworld, _NOT_YET, dtype=np.intp)
+        self._goal = np.full(nworld, NO_GOAL, dtype=np.intp)
         self._start_distance = np.ones(nworld)
         self._goals_reached = np.zeros(nworld, dtype=np.int64)
         self._seed(self.scene.simulation.seed)
@@ -87,7 +85,7 @@ class TurtleBot3Task(BatchedTask):
     def _seed(self, seed: int) -> None:
         self.scene.restart(seed)
         self._stream = Stream(seed, "turtlebot3/goals", self.nworld)
-        self._goal[:] = _NOT_YET
+        self._goal[:] = NO_GOAL
 
     def _begin(self, worlds: Worlds) -> None:
         self.scene.simulation.reset(worlds)
@@ -97,7 +95,7 @@ class TurtleBot3Task(BatchedTask):
         self._goals_reached[worlds] = 0
         if self.respawn:
             # As published: a goal stays until it is reached, over collisions and time-outs.
-            fresh = worlds[self._goal[worlds] == _NOT_YET]
+            fresh = worlds[self._goal[worlds] == NO_GOAL]
             self._goal[fresh] = self.goals.start
         else:
             self._goal[worlds] = self.goals.first(self._draw(worlds))
@@ -152,16 +150,11 @@ class TurtleBot3Task(BatchedTask):
 
     def _next_goals(self, worlds: Worlds) -> None:
         self._goal[worlds] = self.goals.after(self._goal[worlds], self._draw(worlds))
-        self._set_start(worlds, self._see_distance(worlds))
+        position, goal = self.scene.robot.placement(worlds).position, self._goal[worlds]
+        self._set_start(worlds, round2(distance_to(position, self.goals.points[goal])))
 
     def _set_start(self, worlds: Worlds, distance: NDArray[np.float64]) -> None:
-        self._start_distance[worlds] = np.maximum(distance, _SHORTEST)
-
-    def _see_distance(self, worlds: Worlds) -> NDArray[np.float64]:
-        return self._distance_at(self.scene.robot.placement(worlds).position, worlds)
-
-    def _distance_at(self, position: NDArray[np.float64], worlds: Worlds) -> NDArray[np.float64]:
-        return round2(distance_to(position, self.goals.points[self._goal[worlds]]))
+        self._start_distance[worlds] = np.maximum(distance, SHORTEST)
 
     def _draw(self, worlds: Worlds) -> NDArray[np.float64]:
         """One number a goal: goal k of a world depends on the seed, the world and k alone."""
