@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from _stage_goals import Goals, shown
+from _stage_office import places
 from PIL import Image
 
 from gazelle import assets, formats
@@ -102,16 +103,17 @@ def write_office(home: Path, count: int, side: float, sensor: str) -> Path:
             plan[at - 2 : at + 2, middle - 16 : middle + 16] = 255
     Image.fromarray(plan).save(home / f"{side:g}.png")
     across = math.ceil(math.sqrt(count))
-    pitch, rng = side / across, np.random.default_rng(1)
+    rng = np.random.default_rng(1)
     mounted = f"ranger ( pose [0 0 -.1 0] sensor ( {sensor} ) )" if sensor else ""
     lines = [
         "interval_sim 100 resolution 0.02",
         f'model ( bitmap "{side:g}.png" size [{side} {side} 1] )',
         f'define robot position ( size [.2552 .2552 .4] drive "diff" {mounted} )',
     ]
-    for i in range(count):
-        x, y = pitch * (i % across + 0.5) - side / 2, pitch * (i // across + 0.45) - side / 2
-        lines.append(f'robot ( name "r{i}" pose [{x:.3f} {y:.3f} 0 {rng.uniform(-180, 180):.1f}] )')
+    for i, (x, y) in enumerate(places(count, across, side / across)):
+        lines.append(
+            f'robot ( name "r{i}" pose [{x - side / 2:.3f} {y - side / 2:.3f} 0 {rng.uniform(-180, 180):.1f}] )'
+        )
     file = home / f"{count}{len(sensor)}.world"
     file.write_text("\n".join(lines))
     return file

@@ -26,7 +26,6 @@ from gazelle.engines.planar.roaming import Roaming
 if TYPE_CHECKING:
     from _stage_goals import Goals
 
-ROOM = 8.0
 SENSORS = {
     "none": None,
     "kinect 640 x 58°": Fan.spread(math.radians(58.0), 640, 6.5),
@@ -140,40 +139,10 @@ def fleets(args: argparse.Namespace, goals: Goals) -> None:
 
 def roam(count: int, side: float, fan: Fan | None, threads: int) -> Roaming:
     """Robots spread over an office, roaming about."""
-    rng = np.random.default_rng(1)
+    from _stage_office import office, places, roamers
+
     across = math.ceil(math.sqrt(count))
-    pitch = side / across
-    shape, drive = (Part.box(0.2552, 0.2552),), Drive()
-    bodies = [
-        Body(
-            shape,
-            (pitch * (i % across + 0.5), pitch * (i // across + 0.45), rng.uniform(-3.0, 3.0)),
-            drive=drive,
-        )
-        for i in range(count)
-    ]
-    fleet = Fleet(bodies, office(side), euler=True, threads=threads)
-    scanner = None if fan is None else Scanner(fleet, fan, [Mount(i) for i in range(count)])
-    roaming = Roaming(fleet, scanner)
-    roaming.run(5)
-    return roaming
-
-
-def office(side: float) -> list[Part]:
-    """Walls 0.1 m thick around rooms of 8 m, each with a door of 1.2 m to the next one."""
-    parts = []
-    rooms = max(1, round(side / ROOM))
-    for i in range(rooms + 1):
-        for j in range(rooms):
-            at, low, high = i * ROOM, j * ROOM, (j + 1) * ROOM
-            door = (low + high) / 2.0
-            runs = [(low, high)]
-            if 0 < i < rooms:
-                runs = [(low, door - 0.6), (door + 0.6, high)]
-            for a, b in runs:
-                parts.append(Part.box(0.1, b - a, at, (a + b) / 2.0))
-                parts.append(Part.box(b - a, 0.1, (a + b) / 2.0, at))
-    return parts
+    return roamers(places(count, across, side / across), office(side), fan, threads, seed=1)
 
 
 def memory(fleet: Fleet) -> int:
