@@ -5,7 +5,9 @@ PYTHON ?= python3
 EXTRAS ?= test,lint
 VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
+# One stamp for each set of extras: another set is another installation.
 STAMP := $(VENV)/.installed
+ALL := $(STAMP)-$(EXTRAS)
 
 .PHONY: help setup demo test test-slow ros-suites lint bench clean
 
@@ -23,35 +25,35 @@ $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Gazelle needs Python 3.11 or newer; set PYTHON=python3.11 or so")'
 	$(PYTHON) -m venv $(VENV)
 
-$(STAMP).demo: $(VENV)/bin/python pyproject.toml constraints.txt
+$(STAMP)-demo: $(VENV)/bin/python pyproject.toml constraints.txt
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[train]'
 	@touch $@
 
-$(STAMP).all: $(VENV)/bin/python pyproject.toml constraints.txt
+$(ALL): $(VENV)/bin/python pyproject.toml constraints.txt
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[$(EXTRAS)]'
 	@touch $@
 
-setup: $(STAMP).all
+setup: $(ALL)
 
-demo: $(STAMP).demo
+demo: $(STAMP)-demo
 	$(VENV)/bin/gazelle demo
 
-test: $(STAMP).all
+test: $(ALL)
 	$(VENV)/bin/python -m pytest -q -m "not slow"
 
-test-slow: $(STAMP).all
+test-slow: $(ALL)
 	$(VENV)/bin/python -m pytest -q
 
 # ROS_SOURCES names a folder with checkouts; without it, Debian's source packages are fetched.
-ros-suites: $(STAMP).all
+ros-suites: $(ALL)
 	$(VENV)/bin/python tools/ros_suites.py $(if $(ROS_SOURCES),--sources $(ROS_SOURCES),--fetch)
 
-lint: $(STAMP).all
+lint: $(ALL)
 	$(VENV)/bin/ruff check
 	$(VENV)/bin/ruff format --check
 	$(VENV)/bin/mypy
 
-bench: $(STAMP).all
+bench: $(ALL)
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
 	$(VENV)/bin/gazelle bench env
 

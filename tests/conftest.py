@@ -2,7 +2,8 @@
 
 What a test compares with may be missing: the corpus of public robot files, a Debian program.
 Then the test is skipped with one line that says so; in CI, where ``.ci/run`` has installed
-everything, it fails instead (``tests/missing.py``).
+everything, it fails instead (``tests/missing.py``). What was skipped is kept in pytest's cache, so
+that `.ci/run` can run just that once the rest is installed.
 """
 
 import os
@@ -20,6 +21,28 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 # A machine busy with other things must not fail a test by its speed.
 settings.register_profile("gazelle", deadline=None)
 settings.load_profile("gazelle")
+
+
+_skipped: list[str] = []
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Note which tests were skipped."""
+    if report.skipped and not hasattr(report, "wasxfail"):
+        _skipped.append(report.nodeid)
+
+
+def pytest_collectreport(report: pytest.CollectReport) -> None:
+    """Note which whole files were skipped."""
+    if report.skipped:
+        _skipped.append(report.nodeid)
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Keep what was skipped in pytest's cache."""
+    cache = getattr(session.config, "cache", None)  # with -p no:cacheprovider there is none
+    if cache is not None:
+        cache.set("gazelle/skipped", _skipped)
 
 
 @pytest.fixture(scope="session")
