@@ -48,7 +48,7 @@ STRANGERS = {
 }
 """Rooms that are lower in the order, and yet unknown to a room."""
 
-HEAVY = {"gymnasium", "lxml", "mujoco", "stable_baselines3", "torch", "trimesh"}
+HEAVY = {"gymnasium", "mujoco", "stable_baselines3", "torch", "trimesh"}
 OWNERS = {
     "gymnasium": ("gazelle.envs", "gazelle.training"),
     "llvmlite": ("gazelle.engines.native",),

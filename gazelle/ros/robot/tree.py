@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lxml import etree
-
-from gazelle.errors import RosError
+from gazelle.description import Parameters
+from gazelle.errors import FormatError, RosError
+from gazelle.formats import xml
 from gazelle.ros.tf.rotations import IDENTITY, ORIGIN, Quaternion, Vector, add, multiply, rotate
 
 _TURNING = frozenset({"revolute", "continuous"})
@@ -78,14 +78,13 @@ def read_joints(text: str) -> JointTree:
         RosError: It is not XML, not a robot, or a joint is malformed.
     """
     try:
-        parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=False)
-        root = etree.fromstring(text.encode(), parser)
-    except etree.XMLSyntaxError as error:
+        root = xml.parse(text, name="robot_description")
+    except FormatError as error:
         raise RosError(f"the robot description is not XML: {error}") from None
     if root.tag != "robot":
         raise RosError(f"the robot description is a <{root.tag}>, not a <robot>")
     joints: JointTree = {}
-    for element in root.findall("joint"):
+    for element in root.find_all("joint"):
         joint = _joint(element)
         if joint.name in joints:
             raise RosError(f"two joints are called '{joint.name}'", line=_line(element))
@@ -94,8 +93,8 @@ def read_joints(text: str) -> JointTree:
     return joints
 
 
-def _joint(element: etree._Element) -> Joint:
-    name, kind = element.get("name", ""), element.get("type", "")
+def _joint(element: Parameters) -> Joint:
+    name, kind = element.attributes.get("name", ""), element.attributes.get("type", "")
     parent, child = element.find("parent"), element.find("child")
     if not name or kind not in _KINDS or parent is None or child is None:
         raise RosError(
@@ -112,8 +111,8 @@ def _joint(element: etree._Element) -> Joint:
     return Joint(
         name,
         kind,
-        parent.get("link", ""),
-        child.get("link", ""),
+        parent.attributes.get("link", ""),
+        child.attributes.get("link", ""),
         xyz,
         _from_angles(rpy),
         _unit(_three(axis, "xyz", (1.0, 0.0, 0.0))) if axis is not None else (1.0, 0.0, 0.0),
@@ -123,11 +122,11 @@ def _joint(element: etree._Element) -> Joint:
     )
 
 
-def _mimic(element: etree._Element | None) -> Mimic | None:
+def _mimic(element: Parameters | None) -> Mimic | None:
     if element is None:
         return None
     return Mimic(
-        element.get("joint", ""),
+        element.attributes.get("joint", ""),
         _number(element, "multiplier", 1.0),
         _number(element, "offset", 0.0),
     )
@@ -146,13 +145,12 @@ def _check_mimics(joints: JointTree) -> None:
             seen.add(each.name)
 
 
-def _line(element: etree._Element | None) -> int | None:
-    line = None if element is None else element.sourceline
-    return line if isinstance(line, int) else None
+def _line(element: Parameters | None) -> int | None:
+    return None if element is None or element.source is None else element.source.line
 
 
-def _number(element: etree._Element | None, key: str, default: float) -> float:
-    text = None if element is None else element.get(key)
+def _number(element: Parameters | None, key: str, default: float) -> float:
+    text = None if element is None else element.attributes.get(key)
     if text is None:
         return default
     try:
@@ -161,8 +159,8 @@ def _number(element: etree._Element | None, key: str, default: float) -> float:
         raise RosError(f"{key} is '{text}', not a number", line=_line(element)) from None
 
 
-def _three(element: etree._Element, key: str, default: Vector) -> Vector:
-    text = element.get(key)
+def _three(element: Parameters, key: str, default: Vector) -> Vector:
+    text = element.attributes.get(key)
     if text is None:
         return default
     try:

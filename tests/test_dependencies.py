@@ -1,0 +1,101 @@
+"""What the package imports is declared, and what tests import comes with the extra `test`."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+import tomllib
+from importlib.metadata import packages_distributions
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+DEVELOPERS = {"test", "lint", "oracle", "bench"}
+"""Extras that no user installs."""
+
+NOT_OURS = {"cv2": "cv_bridge hands images to the user's OpenCV, and says so where there is none"}
+"""Libraries that nobody can declare, and why."""
+
+
+def distributions(lines):
+    """The names of packages in requirements, with those of Gazelle's own extras that they name."""
+    found = set()
+    for line in lines:
+        name = re.split(r"[^A-Za-z0-9_.-]", line)[0]
+        if name == "gazelle":
+            for extra in re.search(r"\[(.*)\]", line)[1].split(","):
+                found |= distributions(PROJECT["optional-dependencies"][extra.strip()])
+        else:
+            found.add(plain(name))
+    return found
+
+
+def plain(name):
+    """A package's name as PyPI compares it (PEP 503)."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def imported(path):
+    """Libraries that a file imports anywhere, and those that it does on import, with lines."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            names = [node.module]
+        else:
+            continue
+        for name in names:
+            yield name.split(".")[0], node in tree.body
+
+
+def strangers(paths, allowed, *, own=()):
+    """Imports of what is neither Python's, nor in the project, nor of an allowed package."""
+    owners = packages_distributions()
+    found = {}
+    for path in paths:
+        for name, at_once in imported(path):
+            if name in sys.stdlib_module_names or name in own:
+                continue
+            if not {plain(each) for each in owners.get(name, [name])} & allowed:
+                found.setdefault(name, []).append((str(path.relative_to(ROOT)), at_once))
+    return found
+
+
+def sources():
+    programs = set((ROOT / "gazelle").glob("assets/*/scripts/*.py"))
+    return sorted(set((ROOT / "gazelle").rglob("*.py")) - programs)
+
+
+def test_what_users_import_is_declared_for_users():
+    extras = set(PROJECT["optional-dependencies"]) - DEVELOPERS
+    allowed = distributions(PROJECT["dependencies"])
+    for extra in extras:
+        allowed |= distributions(PROJECT["optional-dependencies"][extra])
+    assert strangers(sources(), allowed, own={"gazelle", *NOT_OURS}) == {}
+
+
+def test_what_tests_import_at_once_comes_with_the_extra_test():
+    """`make test` installs just that; a test that needs more asks for it when it runs."""
+    allowed = distributions(PROJECT["dependencies"])
+    allowed |= distributions(PROJECT["optional-dependencies"]["test"])
+    folders = [ROOT / name for name in ("tests", "tools", "benchmarks")]
+    own = {"gazelle", "tests", *(each.stem for folder in folders for each in folder.rglob("*"))}
+    collected = [*ROOT.glob("tests/**/test_*.py"), *ROOT.glob("tests/**/conftest.py")]
+    assert len(collected) > 300
+    found = strangers(collected, allowed, own=own)
+    at_once = {
+        name: places for name, uses in found.items() if (places := [p for p, now in uses if now])
+    }
+    assert at_once == {}
+
+
+@pytest.mark.parametrize("line", ["import lxml", "def f():\n    from lxml import etree"])
+def test_an_import_that_nobody_declared_is_caught(line, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "ROOT", tmp_path)
+    path = tmp_path / "made.py"
+    path.write_text(line)
+    assert list(strangers([path], distributions(PROJECT["dependencies"]))) == ["lxml"]
