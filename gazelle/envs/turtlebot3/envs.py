@@ -28,7 +28,7 @@ class TurtleBot3Env(TaskEnv):
     ======  ==========================  =====================================================
     1       square of 3.7 m             none
     2       square of 3.7 m             four pillars, radius 0.15 m, at (±0.6, ±0.6) m
-    3       square of 3.7 m             the same four, turning about the origin at 0.5 rad/s
+    3       square of 3.7 m             the same four, turning about the origin at 0.13 rad/s
     4       square of 4.7 m with walls  two moving pillars, radius 0.12 m
     ======  ==========================  =====================================================
 
