@@ -14,7 +14,7 @@ from gazelle.builders.solids import ORIGIN
 from gazelle.description import Parameters, Plugin, Pose, Sensor
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
-from gazelle.formats.sdf.sensor import read_sensor
+from gazelle.formats.sdf.sensor import QUANTIZE, read_sensor
 
 
 def camera(
@@ -100,6 +100,7 @@ def lidar(
     range_min: float = 0.12,
     range_max: float = 10.0,
     resolution: float = 0.0,
+    quantized: bool = False,
     noise: float = 0.0,
     topic: str = "",
     frame: str = "",
@@ -119,6 +120,7 @@ def lidar(
         range_min: Nearest distance measured [m].
         range_max: Farthest distance measured [m].
         resolution: Step of the measured distance [m]; 0 for none.
+        quantized: Whether distances are rounded to it, which Gazebo classic does not do.
         noise: Standard deviation of the distance [m].
         topic: ROS topic on which Gazebo's laser plugin publishes; empty for no plugin.
         frame: ROS frame of the scans; empty for the sensor's name.
@@ -136,7 +138,13 @@ def lidar(
     block = group(
         "ray",
         scan=group("scan", horizontal=horizontal, vertical=vertical),
-        range=group("range", min=range_min, max=range_max, resolution=resolution or None),
+        range=group(
+            "range",
+            min=range_min,
+            max=range_max,
+            resolution=resolution or None,
+            **{QUANTIZE: True if quantized else None},
+        ),
         noise=_noise(noise) if noise else None,
     )
     plugin = _plugin(

@@ -38,8 +38,10 @@ class Lidar:
         vertical: Rows of rays about y, upwards; one row at angle 0 for a planar scanner.
         range_min: Nearest distance measured [m].
         range_max: Farthest distance measured [m].
-        range_resolution: Step of the measured distance [m]; 0 for none.
+        range_resolution: What the file says is the step of the distance [m]; 0 for none. Gazebo
+            classic reads it and does nothing with it.
         noise: On the distance [m].
+        quantized: Whether distances are rounded to ``range_resolution``.
     """
 
     horizontal: Scan = field(default_factory=Scan)
@@ -48,6 +50,12 @@ class Lidar:
     range_max: float = math.inf
     range_resolution: float = 0.0
     noise: Noise = field(default_factory=Noise)
+    quantized: bool = False
+
+    @property
+    def quantum(self) -> float:
+        """What distances are rounded to multiples of [m]; 0 for none."""
+        return self.range_resolution if self.quantized else 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,7 +43,9 @@ class LaserScan:
 class LidarModel:
     """Measures one lidar in every world.
 
-    Rays start at ``range_min``, as Gazebo's do, so the scanner's own housing is not seen.
+    Rays start at ``range_min``, as Gazebo's do, so the scanner's own housing is not seen. Ranges
+    are not rounded to the file's ``<resolution>``, as they are not in Gazebo classic, unless the
+    description is ``quantized``.
 
     Args:
         lidar: What the file says.
@@ -84,10 +86,10 @@ class LidarModel:
         lidar = self.lidar
         distance = hits.distance + lidar.range_min
         measured = self._noise.apply(distance, interval, worlds)
-        if lidar.range_resolution > 0.0:
-            measured = measured / lidar.range_resolution
+        if lidar.quantum > 0.0:
+            measured = measured / lidar.quantum
             np.rint(measured, out=measured)
-            measured *= lidar.range_resolution
+            measured *= lidar.quantum
         measured = np.maximum(measured, lidar.range_min)
         np.minimum(measured, lidar.range_max, out=measured)
         measured[distance >= lidar.range_max] = np.inf

@@ -30,7 +30,7 @@ EVERY = [
     camera(noise=0.01, topic="eye", pose=Pose(0.1, 0.2, 0.3, 0.4, 0.5, 0.6)),
     depth_camera(topic="depth"),
     lidar(noise=0.01, topic="scan", frame="scan_link", rows=16, min_elevation=-0.3,
-          max_elevation=0.3, resolution=0.01),
+          max_elevation=0.3, resolution=0.01, quantized=True),
     imu(rate_noise=0.001, accel_noise=0.01, rate_bias=0.002, accel_bias=0.02, topic="imu"),
     gps(horizontal_noise=1.5, vertical_noise=3.0, velocity_noise=0.1),
     contact_sensor("base_collision"),

@@ -1,11 +1,14 @@
 """The lidar against geometry."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scenes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gazelle import formats
 from gazelle.description import Lidar, Noise, Pose, Scan
 from gazelle.engines import make_engine
 from gazelle.sensors import LidarModel
@@ -52,12 +55,45 @@ def test_the_housing_around_the_scanner_is_not_seen():
     assert model_of(engine, lidar, Pose()).measure().min() > 1.8
 
 
-def test_resolution_rounds_and_gaussian_noise_has_its_deviation():
+@pytest.mark.parametrize("step", [0.0, 0.001, 0.015, 0.05, 1.0])
+def test_a_resolution_rounds_nothing_unless_it_is_asked_to(step):
+    engine = room(scenes.box(pose=Pose(z=0.1)))
+    for rows in (1, 5):  # in the plane, and in three dimensions
+        tilt = Scan(rows, min_angle=-0.1, max_angle=0.1)
+        exact = Lidar(Scan(90, max_angle=6.0), tilt, range_min=0.1, range_max=5.0)
+        truth = model_of(engine, exact).measure()
+        stepped = replace(exact, range_resolution=step)
+        np.testing.assert_array_equal(model_of(engine, stepped).measure(), truth)
+        rounded = model_of(engine, replace(stepped, quantized=True)).measure()
+        whole = np.round(truth / step) * step if step else truth
+        wanted = np.where(np.isinf(truth), truth, np.clip(whole, 0.1, 5.0))
+        np.testing.assert_allclose(rounded, wanted, atol=1e-12)
+
+
+def test_a_file_may_ask_for_rounded_ranges(tmp_path):
+    block = (
+        "<ray><scan><horizontal><samples>3</samples></horizontal></scan><range><min>.1</min>"
+        "<max>5</max><resolution>.25</resolution>{}</range></ray>"
+    )
+    text = (
+        "<sdf version='1.6' xmlns:gazelle='urn:gazelle'><model name='m'><link name='l'>"
+        f"<sensor name='lidar' type='ray'>{block}</sensor></link></model></sdf>"
+    )
+    ask = "<gazelle:quantize>true</gazelle:quantize>"
+    for tag, quantum in (("", 0.0), (ask, 0.25), (ask.replace("true", "0"), 0.0)):
+        file = tmp_path / "model.sdf"
+        file.write_text(text.format(tag))
+        model = formats.load_model(file)
+        lidar = model.links[0].sensors[0].lidar
+        assert (lidar.range_resolution, lidar.quantum) == (0.25, quantum)
+        formats.save(model, tmp_path / "again.sdf")
+        assert formats.load_model(tmp_path / "again.sdf").links[0].sensors[0].lidar == lidar
+
+
+def test_gaussian_noise_has_its_deviation():
     engine = room(scenes.box(pose=Pose(z=0.1)), nworld=400)
     exact = Lidar(Scan(10, max_angle=6.0), range_min=0.1, range_max=5.0)
     truth = model_of(engine, exact).measure()[0]
-    rounded = Lidar(exact.horizontal, range_min=0.1, range_max=5.0, range_resolution=0.05)
-    assert np.abs(np.mod(model_of(engine, rounded).measure() / 0.05 + 0.5, 1.0) - 0.5).max() < 1e-9
     noisy = Lidar(
         exact.horizontal,
         range_min=0.1,

@@ -351,7 +351,8 @@ def report(
         last: The one after the last.
         worlds: Which worlds.
         ranges: True ranges as ``see`` gives them, a row a world.
-        law: Least and greatest range [m], resolution [m], mean of the noise [m], cap [m].
+        law: Least and greatest range [m], what ranges are rounded to [m] or 0, mean of the noise
+            [m], cap [m].
         deviation: Standard deviation of the noise in each world [m].
         keys: Of the noise's stream.
         counters: Numbers drawn so far.
@@ -362,7 +363,7 @@ def report(
     """
     count = ranges.shape[1]
     pairs = (count + 1) // 2
-    least, most, resolution, mean, cap = law[0], law[1], law[2], law[3], law[4]
+    least, most, quantum, mean, cap = law[0], law[1], law[2], law[3], law[4]
     for i in range(first, last):
         w = worlds[i]
         noisy = deviation[w] != 0.0
@@ -373,8 +374,8 @@ def report(
         for k in each(0, count):
             true = ranges[w, k]
             measured = true + mean + spread * values[k] if noisy else true + mean
-            if resolution > 0.0:
-                measured = np.rint(measured / resolution) * resolution
+            if quantum > 0.0:
+                measured = np.rint(measured / quantum) * quantum
             measured = min(max(measured, least), most)
             measured = cap if true >= most else measured
             measured = least if true == -np.inf else measured

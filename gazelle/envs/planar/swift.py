@@ -92,7 +92,7 @@ class Swift:
         self._steps = simulation.clock.steps_in(period)
         lidar = model.lidar
         self._law = np.array(
-            [lidar.range_min, lidar.range_max, lidar.range_resolution, lidar.noise.mean, cap]
+            [lidar.range_min, lidar.range_max, lidar.quantum, lidar.noise.mean, cap]
         )
         self._everywhere = np.arange(self.nworld)
         self._bind(*parts)

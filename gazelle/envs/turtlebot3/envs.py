@@ -48,8 +48,8 @@ class TurtleBot3Env(TaskEnv):
     =======  ==========================================  =====  =====  ======
 
     The longest distance is 6.65 m in stage 4, and not bounded in a world of your own. Heading,
-    distance and shortest range are rounded to two decimals; ranges are not. A range of +inf
-    becomes 3.5, NaN becomes 0. A later revision of the published stage 1 pads its 26 numbers
+    distance and shortest range are rounded to two decimals; ranges are not, nor to the lidar's
+    resolution, which Gazebo does not use either. A range of +inf becomes 3.5, NaN becomes 0. A later revision of the published stage 1 pads its 26 numbers
     with two zeros to 28; this task does not.
 
     The robot's file describes 360 rays, and ROBOTIS asks to edit ``<samples>`` to 24. Here that
@@ -84,6 +84,7 @@ class TurtleBot3Env(TaskEnv):
     collision                              -200     -150         -500
     goal                                   200      200          1000
     obstacle term, shortest range < 0.5 m  0        0            -5
+    (as observed: rounded)
     =====================================  =======  ===========  =======
 
     ## Starting state
@@ -103,7 +104,8 @@ class TurtleBot3Env(TaskEnv):
       episode has one fresh goal, and reaching it terminates the episode: success, collision
       and time-out are then the three outcomes, which is what training and evaluation by
       success rate want.
-    * Truncated: after 500 steps, by Gymnasium's ``TimeLimit`` (``max_episode_steps``).
+    * Truncated: after 501 steps, as in the published loop, by Gymnasium's ``TimeLimit``
+      (``max_episode_steps``).
 
     ## Info
 
@@ -120,7 +122,7 @@ class TurtleBot3Env(TaskEnv):
     ``stage``              set by id    1 to 4
     ``engine``             "mujoco"     physics engine
     ``seed``               None         for a first ``reset`` without one; None draws one
-    ``max_episode_steps``  500          see above
+    ``max_episode_steps``  501          see above
     ``render_mode``        None         "rgb_array": pictures of 480 by 400, the goal in red
     ``lidar_samples``      24           rays in the observation, 2 or more
     ``world``              the stage's  world file or bundled name
@@ -201,7 +203,7 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
     Args:
         num_envs: Number of worlds.
         stage: 1 to 4.
-        options: As there; ``max_episode_steps`` is None unless given, and the ids give 500.
+        options: As there; ``max_episode_steps`` is None unless given, and the ids give 501.
 
     Raises:
         TaskError: An option or the robot does not fit the task.

@@ -59,8 +59,8 @@ def observe(
         b = worlds[i] * nbody + robot
         least = np.inf
         for k in each(0, count):
-            value = cleaned[i, k]
-            observation[i, k] = value
+            observation[i, k] = cleaned[i, k]
+            value = observation[i, k]  # in single precision, as ``observations.sight`` has it
             least = lesser(least, value)
         gx, gy = goals[goal[worlds[i]], 0], goals[goal[worlds[i]], 1]
         dx, dy = gx - pose[b, X], gy - pose[b, Y]
@@ -71,7 +71,7 @@ def observe(
         observation[i, count], observation[i, count + 1] = headings[i], distances[i]
         if rules[SEES_OBSTACLE] != 0.0:
             ray = 0
-            while ray + 1 < count and cleaned[i, ray] != least:
+            while ray + 1 < count and observation[i, ray] != least:
                 ray += 1
             observation[i, count + 2], observation[i, count + 3] = round2(least), ray
 
@@ -88,7 +88,7 @@ def judge(
         there = distances[w] < rules[GOAL_DISTANCE]
         pay = round2(turning(headings[w], middle - angular[w] / step) * 5.0)
         pay *= 2.0 ** (distances[w] / start_distance[w])
-        pay += rules[OBSTACLE_REWARD] if nearest[w] < rules[OBSTACLE_RANGE] else 0.0
+        pay += rules[OBSTACLE_REWARD] if round2(nearest[w]) < rules[OBSTACLE_RANGE] else 0.0
         pay = rules[COLLISION_REWARD] if hit else pay
         reward[w] = rules[GOAL_REWARD] if there else pay
         crashed[w], arrived[w] = hit, there

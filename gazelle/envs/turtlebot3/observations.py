@@ -23,7 +23,7 @@ class Sight:
     """What n worlds look like to their robots at one moment.
 
     Attributes:
-        ranges: Cleaned ranges [m], shape (n, samples).
+        ranges: Cleaned ranges [m], shape (n, samples), numbers of single precision.
         nearest: Shortest of them [m], shape (n,).
         ray: Its index, shape (n,).
         distance: To the goal, rounded to 0.01 m, shape (n,).
@@ -57,6 +57,9 @@ def sight(
         goal: In the world frame [m], shape (n, 2).
     """
     cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
+    # Single precision, as in a LaserScan message and in the observation: what is worked out of
+    # ranges here comes out the same from those.
+    cleaned = cleaned.astype(np.float32).astype(np.float64)
     nearest, ray = nearest_obstacle(cleaned)
     return Sight(
         ranges=cleaned,

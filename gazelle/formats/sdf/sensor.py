@@ -12,6 +12,9 @@ from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.formats.sdf.plugin import read_plugins
 
+QUANTIZE = "gazelle:quantize"
+"""An element of ``<range>``: whether distances are rounded to ``<resolution>``."""
+
 Placer = Callable[[Parameters], Pose]
 
 
@@ -77,6 +80,7 @@ def read_lidar(node: Parameters) -> Lidar:
         range_min=nearest,
         range_max=farthest,
         range_resolution=values.real(node, "range/resolution", 0.0),
+        quantized=values.flag(node, f"range/{QUANTIZE}", default=False),
         noise=read_noise(node.find("noise"), "gaussian"),
     )
 
@@ -172,7 +176,7 @@ _COMMON: Pattern = dict.fromkeys(
 _SCAN: Pattern = dict.fromkeys(("samples", "resolution", "min_angle", "max_angle"))
 _LIDAR: Pattern = {
     "scan": {"horizontal": _SCAN, "vertical": _SCAN},
-    "range": dict.fromkeys(("min", "max", "resolution")),
+    "range": dict.fromkeys(("min", "max", "resolution", QUANTIZE)),
     "noise": None,
 }
 _NOISES: Pattern = {axis: {"noise": None} for axis in "xyz"}

@@ -1,11 +1,15 @@
 """The native path of the planar engine gives what its parts give one by one."""
 
+from dataclasses import replace
+
 import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
 import gazelle.envs  # noqa: F401  registers the environments
+from gazelle import formats
+from gazelle.description import Noise
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.turtlebot3.swift_task import SwiftTurtleBot3Task
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
@@ -47,6 +51,29 @@ def test_the_swift_task_gives_what_the_slow_one_gives(stage, rays, continuous):
     assert ends >= 32
     for task in (slow, swift):
         task.close()
+
+
+def burger(**changes):
+    """A burger whose lidar is changed."""
+    model = formats.load_model("turtlebot3_burger")
+    (sensor,) = (s for link in model.links for s in link.sensors if s.lidar is not None)
+    changed = replace(sensor, lidar=replace(sensor.lidar, **changes))
+    links = [
+        replace(link, sensors=tuple(changed if s is sensor else s for s in link.sensors))
+        for link in model.links
+    ]
+    return replace(model, links=tuple(links))
+
+
+@pytest.mark.parametrize(("quantized", "steps"), [(False, False), (True, True)])
+def test_ranges_are_rounded_where_the_robot_asks_for_it_in_both_ways(quantized, steps):
+    robot = burger(range_resolution=0.25, quantized=quantized, noise=Noise(), range_min=0.25)
+    slow, swift = tasks(4, robot=robot, lidar_samples=360)
+    assert swift.swift is not None
+    seen = [task.begin(np.arange(32))[0] for task in (slow, swift)]
+    np.testing.assert_allclose(seen[1], seen[0], atol=1e-6)
+    whole = np.mod(seen[0][:, :360] / 0.25, 1.0) == 0.0
+    assert whole.all() == steps
 
 
 def same(got, wanted):

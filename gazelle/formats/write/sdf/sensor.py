@@ -15,6 +15,7 @@ from gazelle.description import (
     Scan,
     Sensor,
 )
+from gazelle.formats.sdf.sensor import QUANTIZE
 from gazelle.formats.write.element import (
     element,
     group,
@@ -94,6 +95,7 @@ def write_lidar(lidar: Lidar, tag: str) -> Parameters:
             leaf("min", lidar.range_min),
             limit("max", lidar.range_max),
             leaf("resolution", lidar.range_resolution, 0.0),
+            leaf(QUANTIZE, lidar.quantized, False),
         ),
         _plain_noise(lidar.noise),
     )
