@@ -32,7 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
         "what",
-        nargs="+",
+        nargs="*",
         metavar="[PKG] FILE | arg:=value",
         help="a launch file, '-' for standard input, or a package and a file in it",
     )
@@ -47,6 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument("--screen", action="store_true", help="all nodes write to the screen")
     runs.add_argument("--log", action="store_true", help="all nodes write to log files")
     runs.add_argument("--required", action="store_true", help="end when any node ends")
+    runs.add_argument("--core", action="store_true", help="start master and rosout, as roscore")
     runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
     runs.add_argument("-p", "--port", type=int, help="port of the master")
     runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
@@ -113,12 +114,14 @@ def _test(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int
 
 
 def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
-    from gazelle.ros.launch import load_launch, load_launch_text
+    from gazelle.ros.launch import LaunchPlan, load_launch, load_launch_text
     from gazelle.ros.names import split_arguments
 
     words, given = split_arguments(args.what)
     if args.ros_args:
         return _arguments_only(words, given, packages, args.parser)
+    if args.core and not words:
+        return LaunchPlan()
     if words == ["-"]:
         text = sys.stdin.buffer.read()
         return load_launch_text(text, given, name="stdin", packages=packages)
@@ -177,6 +180,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     from gazelle.ros.launch.runner import Launch, Options
 
     options = Options(
+        core=args.core,
+        core_survives=True,
         wait=args.wait,
         screen=args.screen,
         log=args.log,

@@ -14,6 +14,8 @@ from gazelle import __version__
 from gazelle.cli.commands import COMMANDS, Command
 from gazelle.cli.parsing import Parser
 from gazelle.errors import Error, GazelleWarning, describe, did_you_mean
+from gazelle.ros.process_name import call_process
+from gazelle.ros.tool_names import process_name, translated
 
 DONE, FAILED, WRONG_USAGE, INTERRUPTED = 0, 1, 2, 130
 
@@ -27,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C.
     """
-    arguments = list(sys.argv[1:] if argv is None else argv)
+    arguments = translated(sys.argv[1:] if argv is None else argv)
     arguments, debug = _without_debug(arguments)
     if not arguments or arguments[0] in {"-h", "--help", "help"}:
         sys.stdout.write(overview())
@@ -39,6 +41,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if command is None:
         _complain(f"there is no command '{arguments[0]}'", did_you_mean(arguments[0], COMMANDS))
         return WRONG_USAGE
+    if argv is None:
+        call_process(process_name(arguments))
     with _one_line_warnings(show_all=debug):
         return _run(command, arguments[1:], debug=debug)
 

@@ -6,7 +6,12 @@ import contextlib
 from pathlib import Path
 
 
-def call_process(name: str) -> None:
-    """Let ``ps`` and ``killall`` know this process by a name (Linux: its first 15 letters)."""
+def call_process(name: str | None) -> None:
+    """Let ``ps`` and ``killall`` know this process by a name (Linux: its first 15 letters).
+
+    Elsewhere they know it by its command line only, in which the name is, too.
+    """
+    if name is None:
+        return
     with contextlib.suppress(OSError):
         Path("/proc/self/comm").write_text(name, encoding="utf-8")

@@ -19,4 +19,6 @@ GAZEBO_ROS = BuiltinPackage(
         "spawn_model": "gazelle.clients.spawn_model:main",
     },
     folder=assets.root() / "gazebo_ros",
+    # Scripts end the simulator by "killall gzserver", however it was started.
+    process_names=dict.fromkeys(("gazebo", "debug", "perf"), "gzserver"),
 )

@@ -14,28 +14,8 @@ import tempfile
 from collections.abc import Mapping, MutableMapping
 from pathlib import Path
 
-_COMMANDS = {
-    "rosbag": ("bag",),
-    "roscore": ("master",),
-    "roslaunch": ("launch",),
-    "rosmaster": ("master", "--no-rosout"),
-    "rosmsg": ("msg",),
-    "rosnode": ("node",),
-    "rosparam": ("param",),
-    "rosrun": ("exec",),
-    "rosservice": ("service",),
-    "rossrv": ("srv",),
-    "rostest": ("launch", "--test"),
-    "rostopic": ("topic",),
-}
-_NODES = {
-    "gazebo": ("gazebo_ros", "gazebo"),
-    "gz": ("gazebo_ros", "gz"),
-    "gzclient": ("gazebo_ros", "gzclient"),
-    "gzserver": ("gazebo_ros", "gzserver"),
-    "rospack": ("rospack", "rospack"),
-    "xacro": ("xacro", "xacro"),
-}
+from gazelle.ros import tool_names
+
 _PYTHONS = ("python", "python3")
 _SITE = "site"
 
@@ -91,9 +71,9 @@ def _files() -> dict[str, str]:
     """From the name of each file to what is in it."""
     python = _quoted(sys.executable)
     files = {name: _PYTHON.format(python=python) for name in _PYTHONS}
-    for name, words in _COMMANDS.items():
+    for name, words in tool_names.COMMANDS.items():
         files[name] = _program(name, "gazelle.cli.main", words)
-    for name, words in _NODES.items():
+    for name, words in tool_names.NODES.items():
         files[name] = _program(name, "gazelle.ros.builtin.start", words)
     return files | {f"{_SITE}/sitecustomize.py": _CUSTOMIZE}
 

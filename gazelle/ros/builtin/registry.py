@@ -10,10 +10,13 @@ import functools
 import importlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gazelle.errors import RosError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "gazelle.ros.nodes"
 
@@ -34,6 +37,8 @@ class BuiltinPackage:
     """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
     preferred: frozenset[str] = frozenset()
     """Node types run from here even where the installed package has a program for them."""
+    process_names: Mapping[str, str] = field(default_factory=dict)
+    """From the type of a node to what its process is called, where that is something else."""
 
 
 _SHARE = Path(__file__).parent / "share"
@@ -65,6 +70,7 @@ _OWN = {
             for name in ("hztest", "paramtest", "publishtest", "advertisetest")
         }),
         BuiltinPackage("rostopic", {"rostopic": "gazelle.ros.builtin.commands:topic"}),
+        BuiltinPackage("rosout", {"rosout": "gazelle.ros.builtin.rosout:main"}),
         BuiltinPackage("rospack", {"rospack": "gazelle.ros.builtin.rospack:main"}),
         BuiltinPackage("rosservice", {"rosservice": "gazelle.ros.builtin.commands:service"}),
         BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),
@@ -142,6 +148,8 @@ def main_of(name: str, kind: str) -> Main:
 
 @functools.cache
 def _entry_points() -> dict[str, EntryPoint]:
+    from importlib.metadata import entry_points  # late, for it is slow
+
     return {point.name: point for point in entry_points(group=GROUP)}
 
 

@@ -8,13 +8,15 @@ from typing import TextIO
 
 from gazelle.errors import Error, GazelleWarning
 from gazelle.ros.builtin.registry import main_of
+from gazelle.ros.builtin.registry import package as built_in
 from gazelle.ros.process_name import call_process
 
 
 def main(arguments: list[str]) -> int:
     """Run the node that the first two arguments name; returns the exit code."""
     package, kind, *rest = arguments
-    call_process(kind)
+    known = built_in(package)
+    call_process(known.process_names.get(kind, kind) if known else kind)
     warnings.showwarning = _show_warning
     try:
         return main_of(package, kind)(rest)

@@ -156,24 +156,33 @@ class NodeProcess:
         self._end_group()
 
 
-def stop_all(processes: Iterable[NodeProcess], patience: Patience) -> list[NodeProcess]:
+def stop_all(
+    processes: Iterable[NodeProcess], patience: Patience, first: int = signal.SIGINT
+) -> list[NodeProcess]:
     """End processes, all at the same time: SIGINT, then SIGTERM, then SIGKILL.
 
+    Args:
+        processes: What to end.
+        patience: How long it may take.
+        first: What is sent instead of SIGINT.
+
     Returns:
-        Those that took more than SIGINT.
+        Those that took more than the first signal.
     """
     all_of_them = list(processes)
-    stubborn: list[NodeProcess] = []
-    steps = ((signal.SIGINT, patience.interrupt), (signal.SIGTERM, patience.terminate))
-    for number, seconds in steps:
-        alive = [each for each in all_of_them if each.running]
-        if number != signal.SIGINT:
-            stubborn = alive
-        for each in alive:
-            each.signal(number)
-        deadline = time.monotonic() + seconds
-        while any(each.running for each in alive) and time.monotonic() < deadline:
-            time.sleep(_POLL_S)
+    _send(all_of_them, first, patience.interrupt)
+    stubborn = _send(all_of_them, signal.SIGTERM, patience.terminate)
     for each in all_of_them:
         each.finish()
     return stubborn
+
+
+def _send(processes: list[NodeProcess], number: int, seconds: float) -> list[NodeProcess]:
+    """Send a signal to those that run, and wait for their end; returns whom it was sent to."""
+    alive = [each for each in processes if each.running]
+    for each in alive:
+        each.signal(number)
+    deadline = time.monotonic() + seconds
+    while any(each.running for each in alive) and time.monotonic() < deadline:
+        time.sleep(_POLL_S)
+    return alive

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import signal
 import threading
 import time
 import uuid
@@ -14,7 +15,7 @@ from typing import Self
 
 from gazelle.ros import net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
-from gazelle.ros.launch import folders, machines, setup
+from gazelle.ros.launch import core, folders, machines, setup
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.guard import Guard
 from gazelle.ros.launch.packages import Packages
@@ -30,7 +31,7 @@ from gazelle.ros.launch.programs import (
 )
 from gazelle.ros.launch.server import LaunchServer
 from gazelle.ros.master.proxy import MasterProxy
-from gazelle.ros.master.server import Master
+from gazelle.ros.master.server import require_free
 
 CALLER = "/roslaunch"
 _WATCH_S = 0.05
@@ -44,6 +45,8 @@ class Options:
 
     master_uri: str = field(default_factory=net.default_master_uri)
     host: str = field(default_factory=net.default_host)
+    core: bool = False
+    """Start a master; there must be none."""
     wait: bool = False
     """Wait for a master instead of starting one."""
     screen: bool = False
@@ -52,6 +55,8 @@ class Options:
     """No node writes to the screen."""
     patience: Patience = field(default_factory=Patience)
     run_id: str = ""
+    core_survives: bool = False
+    """Whether a master that the launch started outlives it if it is killed, as with roslaunch."""
 
 
 class Launch:
@@ -92,7 +97,7 @@ class Launch:
         self.run_id = self.options.run_id
         self._say = say
         self._packages = packages or Packages()
-        self._master: Master | None = None
+        self._core: list[NodeProcess] = []
         self._server: LaunchServer | None = None
         self._proxy = MasterProxy(self.master_uri, CALLER)
         self._numbers = itertools.count(1)
@@ -114,10 +119,12 @@ class Launch:
         """
         machines.check(self.plan)
         programs = self._find_programs()
+        self._guard.start()
         self._reach_master()
         self._serve()
-        self._guard.start()
         setup.prepare(self.plan, self._proxy, self._packages)
+        if self._core and core.await_rosout(self._proxy):
+            self._say("started core service [/rosout]")
         with self._lock:
             self.processes += [self._process(node, program) for node, program in programs]
             for process in self.processes:
@@ -181,30 +188,45 @@ class Launch:
         return found
 
     def _reach_master(self) -> None:
+        if self.options.core or not self._find_master():
+            self._start_master()
+        self._find_run_id()
+
+    def _find_master(self) -> bool:
+        """Whether a master answers, waited for if that is wanted."""
         said = False
         while True:
             try:
                 self._proxy.greet()
-                break
             except MasterUnreachableError:
                 if not self.options.wait:
-                    self._start_master()
-                    break
+                    return False
+            else:
+                return True
             if not said:
                 said = True
                 self._say(f"waiting for a master at {self.master_uri}")
             if self.ended.wait(0.5):
                 raise LaunchError("ended while it waited for a master")
-        self._find_run_id()
 
     def _start_master(self) -> None:
+        """Start the master and rosout, both at once, each as a process of its own."""
         host, port, _ = net.split_uri(self.master_uri)
         if not machines.is_local(host):
             raise MasterUnreachableError(
                 f"no master answers at {self.master_uri}",
                 hint="ROS_MASTER_URI names another machine; start one there, or unset it",
             )
-        self._master = Master(self.options.host, port)
+        require_free(self.options.host, port)
+        self.run_id = self.run_id or str(uuid.uuid1())
+        self._say("auto-starting new master")
+        program = core.master_program(self.options.host, port, self.run_id)
+        with self._lock:
+            self._core.append(self._process(core.MASTER, program, "master"))
+            self._core.append(self._process(core.ROSOUT, core.ROSOUT_PROGRAM))
+            for process in self._core:
+                self._start(process)
+        core.await_master(self._proxy, self._core[0])
         self._say(f"started a master at {self.master_uri}")
 
     def _find_run_id(self) -> None:
@@ -221,14 +243,16 @@ class Launch:
         self.run_id = known
 
     def _serve(self) -> None:
-        self._server = LaunchServer(lambda: list(self.processes), self.end, self.options.host)
+        self._server = LaunchServer(
+            lambda: [*self._core, *self.processes], self.end, self.options.host
+        )
         self._proxy.set_param(self._server.key, self._server.uri)
         self._say(f"started launch server {self._server.uri}")
 
-    def _process(self, node: NodePlan, program: Program) -> NodeProcess:
+    def _process(self, node: NodePlan, program: Program, name: str = "") -> NodeProcess:
         logs = folders.log_folder(self.run_id)
         home = folders.made(folders.ros_home())
-        name = f"{node.full_name.strip('/')}-{next(self._numbers)}"
+        name = name or f"{node.full_name.strip('/')}-{next(self._numbers)}"
         file = name.replace("/", "-")
         to_screen = (node.output == "screen" or self.options.screen) and not self.options.log
         arguments = prefixed_command(node, program)
@@ -246,7 +270,8 @@ class Launch:
         if process.spawned:
             self._guard.forget(process.pid)
         process.start()
-        self._guard.watch(process.pid)
+        if process not in self._core or not self.options.core_survives:
+            self._guard.watch(process.pid)
         self._reported.discard(process)
         self._say(f"process[{process.name}]: started with pid [{process.pid}]")
 
@@ -264,7 +289,7 @@ class Launch:
                 if self.processes:
                     self._say("all nodes have ended, and so does the launch")
                     break
-                if self._master is None:
+                if not self._core:
                     break
         return int(self._failed)
 
@@ -272,12 +297,13 @@ class Launch:
     def idle(self) -> bool:
         """Whether no node runs, and none will: the end of all was seen, and none is to come again."""
         with self._lock:
-            return not self._due and self._reported.issuperset(self.processes)
+            nodes = self.processes
+            return self._due.keys().isdisjoint(nodes) and self._reported.issuperset(nodes)
 
     @property
     def has_master(self) -> bool:
         """Whether it started the master."""
-        return self._master is not None
+        return bool(self._core)
 
     @property
     def failed(self) -> bool:
@@ -291,7 +317,7 @@ class Launch:
 
     def _look(self) -> None:
         now = time.monotonic()
-        for process in self.processes:
+        for process in (*self._core, *self.processes):
             code = process.poll()
             if code is None or process in self._due:
                 continue
@@ -340,20 +366,20 @@ class Launch:
         """End all nodes, then what this launch put on the master, then the master."""
         self.ended.set()
         with self._lock:
-            processes = list(self.processes)
-        for process in stop_all(processes, self.options.patience):
+            nodes, ending = list(self.processes), list(reversed(self._core))
+        for process in stop_all(nodes, self.options.patience):
             self._say(f"[{process.name}] did not end on SIGINT")
-        self._guard.close()
         if self._server is not None:
-            if self._master is None:
+            if not self._core:
                 with contextlib.suppress(RosError):
                     self._proxy.delete_param(self._server.key)
             self._server.close()
             self._server = None
+        for process in ending:  # by SIGTERM, which is quiet even while Python starts
+            stop_all([process], self.options.patience, signal.SIGTERM)
+        self._core = []
+        self._guard.close()
         self._proxy.close()
-        if self._master is not None:
-            self._master.close()
-            self._master = None
 
     def __enter__(self) -> Self:
         return self

@@ -56,7 +56,7 @@ class LaunchServer:
         if method == "get_pid":
             return [1, "", os.getpid()]
         if method == "get_node_names":
-            return [1, "node names", [each.plan.full_name for each in self._processes()]]
+            return [1, "node names", [each.name for each in self._processes()]]
         if method == "list_processes":
             known = self._processes()
             alive = [[each.name, each.spawned] for each in known if each.running]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from gazelle.ros.clock import WallClock
 from gazelle.ros.loggers import serve_loggers
-from gazelle.ros.node import Node
 from gazelle.ros.raw import RawMessage
+
+if TYPE_CHECKING:
+    from gazelle.ros.node import Node
 
 
 class LogMessage(RawMessage):
@@ -23,12 +24,12 @@ class RosoutAggregator:
     """Lets a log viewer follow one publisher instead of one for each node.
 
     Args:
-        master_uri: The master to join.
+        node: The node that does it; it goes by wall time.
     """
 
-    def __init__(self, master_uri: str, host: str) -> None:
+    def __init__(self, node: Node) -> None:
         kind = _log_class()
-        self._node = Node("rosout", master_uri=master_uri, host=host, clock=WallClock())
+        self._node = node
         self._publisher = self._node.advertise("/rosout_agg", kind, queue_size=1000)
         self._node.subscribe("/rosout", kind, self._pass_on, queue_size=1000)
         serve_loggers(self._node)

@@ -34,6 +34,7 @@ class Master:
         port: 0 for any free one.
         rosout: As roscore does, run the node ``/rosout`` that copies ``/rosout`` to
             ``/rosout_agg``, and set ``/run_id`` and its like; without, as bare rosmaster.
+        run_id: What ``/run_id`` is to be; with it, ``/run_id`` and its like are set in any case.
         limits: What peers may demand.
         ended: See the attribute.
 
@@ -52,6 +53,7 @@ class Master:
         port: int = net.DEFAULT_MASTER_PORT,
         *,
         rosout: bool = True,
+        run_id: str = "",
         limits: Limits = LIMITS,
         ended: threading.Event | None = None,
     ) -> None:
@@ -69,8 +71,9 @@ class Master:
         self.uri = self.api.uri = self._server.uri
         self.port = self._server.port
         self._rosout: Any = None
+        if rosout or run_id:
+            self._set_marks(run_id or str(uuid.uuid1()))
         if rosout:
-            self._set_marks()
             self._start_rosout()
 
     def close(self) -> None:
@@ -102,10 +105,10 @@ class Master:
     def _ask_to_end(self, _reason: str) -> None:
         self.ended.set()
 
-    def _set_marks(self) -> None:
+    def _set_marks(self, run_id: str) -> None:
         """What tools look for on a running master."""
         marks = {
-            "/run_id": str(uuid.uuid1()),
+            "/run_id": run_id,
             "/rosdistro": (os.environ.get("ROS_DISTRO") or "noetic") + "\n",
             "/rosversion": "1.16.0\n",
         }
@@ -113,13 +116,28 @@ class Master:
             self.api.parameters.set(key, value)
 
     def _start_rosout(self) -> None:
+        from gazelle.ros.clock import WallClock
         from gazelle.ros.master.rosout import RosoutAggregator
+        from gazelle.ros.node import Node
 
         try:
-            self._rosout = RosoutAggregator(self.uri, self._host)
+            node = Node("rosout", master_uri=self.uri, host=self._host, clock=WallClock())
+            self._rosout = RosoutAggregator(node)
         except BaseException:
             self.close()
             raise
+
+
+def require_free(host: str, port: int) -> None:
+    """Make sure that a master can be started there.
+
+    Raises:
+        RosError: The port is taken; it says by whom.
+    """
+    try:
+        net.listen(host, port).close()
+    except OSError as error:
+        raise _cannot_listen(error, host, port) from None
 
 
 def _cannot_listen(error: OSError, host: str, port: int) -> RosError:
@@ -145,6 +163,7 @@ def run_master(
     port: int = net.DEFAULT_MASTER_PORT,
     *,
     rosout: bool = True,
+    run_id: str = "",
     ready: Callable[[str], None] | None = None,
     end: threading.Event | None = None,
 ) -> None:
@@ -154,13 +173,14 @@ def run_master(
         host: The name nodes reach it by; anything but loopback opens it to the network.
         port: 0 for any free one.
         rosout: Run the rosout aggregator.
+        run_id: See `Master`.
         ready: Called with the master's URI when it answers.
         end: Set it to end the master; the master sets it when it is asked to end.
 
     Raises:
         RosError: The port is taken.
     """
-    with Master(host, port, rosout=rosout, ended=end) as master:
+    with Master(host, port, rosout=rosout, run_id=run_id, ended=end) as master:
         if ready is not None:
             ready(master.uri)
         with contextlib.suppress(KeyboardInterrupt):

@@ -280,7 +280,7 @@ def test_the_launch_can_be_asked(launch, script, master):
     (uri,) = proxy.get_param("/roslaunch/uris").values()
     client = BlockingClient(uri)
     assert client.call("get_pid")[2] == os.getpid()
-    assert client.call("get_node_names")[2] == ["/s"]
+    assert client.call("get_node_names")[2] == ["s-1"]
     assert client.call("list_processes")[2] == [[["s-1", 1]], []]
     assert client.call("process_info", "s-1")[2]["pid"] == running.processes[0].pid
     assert client.call("process_info", "nope")[0] == -1

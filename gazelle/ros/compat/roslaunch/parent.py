@@ -93,6 +93,7 @@ class ROSLaunchParent:
             log=force_log,
             run_id=run_id,
             patience=Patience(float(sigint_timeout), float(sigterm_timeout)),
+            core_survives=True,
         )
         if port:
             self._options.master_uri = net.uri_of(self._options.host, port)
