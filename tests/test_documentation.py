@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.cli.commands import COMMANDS
+from gazelle.ros import tool_names
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
@@ -54,7 +55,7 @@ def test_links_and_commands_of_a_page_exist(page):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), target
     for command in re.findall(r"(?:^ {4}|`)gazelle ([a-z]+)\b", text, re.MULTILINE):
-        assert command in COMMANDS, command
+        assert command in {**COMMANDS, **tool_names.COMMANDS}, command
 
 
 def test_the_readme_names_the_two_commands_first():
