@@ -30,6 +30,18 @@ def _rotate_one(q: Floats, v: Floats) -> Floats:
     return turned.reshape((1,) * (max(q.ndim, v.ndim) - 1) + (3,))
 
 
+def apply_matrix(matrix: Floats, vectors: Floats) -> Floats:
+    """A matrix, shape (m, k), times each of some vectors, shape (..., k): shape (..., m).
+
+    The bits of a row do not depend on how many rows there are, which a call of BLAS for all of
+    them does not promise.
+    """
+    total: Floats = vectors[..., 0, None] * matrix[:, 0]
+    for column in range(1, matrix.shape[1]):
+        total = total + vectors[..., column, None] * matrix[:, column]
+    return total
+
+
 def turns(q: Floats) -> Floats:
     """Matrices, shape (n, 3, 3), by which rows of vectors are multiplied to turn them.
 

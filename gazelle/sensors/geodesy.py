@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import SphericalCoordinates
+from gazelle.rotations import apply_matrix
 
 Floats = NDArray[np.float64]
 
@@ -96,10 +97,10 @@ class TangentPlane:
 
     def east_north_up(self, vectors: Floats) -> Floats:
         """Vectors of the world along east, north and up at its origin, shape (..., 3)."""
-        return np.asarray(vectors @ self._turn.T, np.float64)
+        return apply_matrix(self._turn, vectors)
 
     def geodetic(self, positions: Floats) -> tuple[Floats, Floats, Floats]:
         """Latitude [deg], longitude [deg], altitude [m] of positions in the world [m]."""
-        place = self._origin + self.east_north_up(positions) @ self._axes
+        place = self._origin + apply_matrix(self._axes.T, self.east_north_up(positions))
         latitude, longitude, altitude = to_geodetic(place)
         return np.degrees(latitude), np.degrees(longitude), altitude

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 
+_NO_WORLDS = np.zeros(0, np.intp)
+
 
 class SensorUnit:
     """One sensor of one robot.
@@ -40,6 +42,7 @@ class SensorUnit:
         self.schedule = Schedule(sensor.update_rate)
         self.schedule.done(robot.simulation.clock.now_ns)
         self._values: Floats | None = None
+        self._stale = _NO_WORLDS
         self._stamp = 0
         self._awake = False
         self._listeners: list[Callable[[SensorUnit], None]] = []
@@ -76,6 +79,10 @@ class SensorUnit:
             return self.measure()
         if self._values is None:
             return self.update(self.robot.simulation.clock.now_ns)
+        if len(self._stale):
+            self._values = self._values.copy()
+            self._values[self._stale] = self.measure(self._stale)
+            self._stale = _NO_WORLDS
         return self._values
 
     def reading(self, values: Floats) -> Any:
@@ -90,7 +97,7 @@ class SensorUnit:
     def update(self, now_ns: int) -> Floats:
         """Measure in turn; returns what ``latest`` will until the next time."""
         values = self._values = self.measure()
-        self._stamp = now_ns
+        self._stale, self._stamp = _NO_WORLDS, now_ns
         self.schedule.done(now_ns)
         for listener in tuple(self._listeners):
             listener(self)
@@ -101,16 +108,22 @@ class SensorUnit:
         self.model.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget drifts and readings."""
+        """Forget drifts and readings; of all worlds, also that somebody read it.
+
+        Readings of the other worlds stay as they are, so that they do not depend on who is reset.
+        """
         self.model.reset(worlds)
-        self._values = None
-        if worlds is None:
-            self.schedule.done(self.robot.simulation.clock.now_ns)
+        if worlds is not None:
+            self._stale = np.union1d(self._stale, worlds)
+            return
+        self._values, self._stale, self._stamp, self._awake = None, _NO_WORLDS, 0, False
+        self.schedule.done(self.robot.simulation.clock.now_ns)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
         state = dict(self.model.state())
         state["stamp"] = np.array([self._stamp, int(self._awake), self.schedule.count])
+        state["stale"] = self._stale
         if self._values is not None:
             state["values"] = self._values.copy()
         return state
@@ -120,6 +133,10 @@ class SensorUnit:
         own = dict(state)
         stamp = own.pop("stamp")
         values: Any = own.pop("values", None)
+        stale = np.asarray(own.pop("stale"), np.intp)
+        if stale.size and not 0 <= stale.min() <= stale.max() < self.robot.simulation.nworld:
+            raise IndexError("a reading belongs to a world that is not there")
+        self._stale = stale
         self.model.restore(own)
         self._stamp, self._awake = int(stamp[0]), bool(stamp[1])
         self._values = values

@@ -11,15 +11,18 @@ import numpy as np
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call, Floats, Worlds
 from gazelle.engines.laws import with_profile
+from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.access import PlanarAccess, rows_of
 from gazelle.engines.planar.build import Layout, Recipe, build
 from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.refusals import Refusals
 from gazelle.errors import EngineError, did_you_mean
+from gazelle.rotations import apply_matrix
 
-# Columns of a snapshot for each body: pose and height, command, velocity, stall.
-_BODY = 11
+# Columns of a snapshot for each body: its row, command, velocity, stall. The row holds the cosine
+# and sine of the heading too, which steps advance by themselves.
+_BODY = c.BODY + 7
 
 
 class PlanarEngine(Refusals, PlanarAccess):
@@ -113,7 +116,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         np.copyto(self._rates, self._targets, where=driven)
         command = self._fleet.command
         for each in self._layout.rollings:
-            command[:, each.body] = self._targets[:, each.columns] @ each.matrix.T
+            command[:, each.body] = apply_matrix(each.matrix, self._targets[:, each.columns])
         self._fleet.step(count)
         if self._layout.axes:
             self._angles += self._rates * (self.time_step * count)
@@ -218,9 +221,9 @@ class PlanarEngine(Refusals, PlanarAccess):
         """The whole dynamic state, shape (nworld, size)."""
         fleet = self._fleet
         rows = np.zeros((fleet.nworld, fleet.nbody, _BODY))
-        rows[:, :, :3], rows[:, :, 3] = fleet.pose, fleet.heights
-        rows[:, :, 4:7], rows[:, :, 7:10] = fleet.command, fleet.velocity
-        rows[:, :, 10] = fleet.stalled
+        rows[:, :, : c.BODY] = fleet.rows.reshape(fleet.nworld, fleet.nbody, c.BODY)
+        rows[:, :, c.BODY : -1] = np.concatenate((fleet.command, fleet.velocity), axis=2)
+        rows[:, :, -1] = fleet.stalled
         targets = np.nan_to_num(self._targets, nan=0.0)
         flat = rows.reshape(fleet.nworld, -1)
         return np.concatenate((flat, self._angles, self._rates, targets), axis=1)
@@ -240,9 +243,10 @@ class PlanarEngine(Refusals, PlanarAccess):
                 hint="restore into a simulation with the same models and number of worlds",
             )
         rows = state[:, :size].reshape(fleet.nworld, fleet.nbody, _BODY)
-        fleet.put(rows[:, :, :3], rows[:, :, 3])
-        fleet.command[:], fleet.velocity[:] = rows[:, :, 4:7], rows[:, :, 7:10]
-        fleet.stalled[:] = rows[:, :, 10] != 0.0
+        fleet.put_rows(rows[:, :, : c.BODY])
+        fleet.command[:] = rows[:, :, c.BODY : c.BODY + 3]
+        fleet.velocity[:] = rows[:, :, c.BODY + 3 : -1]
+        fleet.stalled[:] = rows[:, :, -1] != 0.0
         joints = state[:, size:].reshape(fleet.nworld, 3, axes)
         self._angles[:], self._rates[:] = joints[:, 0], joints[:, 1]
         self._targets[:] = np.where(np.isnan(self._targets), math.nan, joints[:, 2])

@@ -239,6 +239,21 @@ class Fleet:
         self.rows[rows] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
         self._relink(slice(None))
 
+    def put_rows(self, rows: ArrayLike) -> None:
+        """Put all bodies to where the ``rows`` of such a fleet had them, to the bit.
+
+        Args:
+            rows: Shape (nworld, nbody, columns.BODY).
+
+        Raises:
+            EngineError: A number is not finite.
+        """
+        wanted = np.asarray(rows, np.float64).reshape(-1, c.BODY)
+        if not np.isfinite(wanted).all():
+            raise EngineError("a pose must be finite")
+        self.rows[:] = wanted
+        self._relink(slice(None))
+
     def take_over(self, body: int, other: Fleet, its: int) -> None:
         """Give a body the state that one of another fleet with as many worlds has."""
         here, there = slice(body, None, self.nbody), slice(its, None, other.nbody)
