@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TypeVar
 
+from gazelle.description.mappings import HoldsMappings
 from gazelle.description.source import Source
 from gazelle.errors import FormatError
 
@@ -22,7 +23,7 @@ _FALSE = {"false", "0", "no", "off"}
 
 
 @dataclass(frozen=True, slots=True)
-class Parameters:
+class Parameters(HoldsMappings):
     """One XML element: its tag, attributes, text and children.
 
     Attributes:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from gazelle.description.joint import Joint
+from gazelle.description.mappings import HoldsMappings
 from gazelle.description.model import Model
 from gazelle.description.pose import Vector3
 from gazelle.description.source import Source
@@ -54,7 +55,7 @@ class JointGroup:
 
 
 @dataclass(frozen=True, slots=True)
-class JointGroupState:
+class JointGroupState(HoldsMappings):
     """A named posture of a group; ``joints`` holds the values of each joint [m or rad]."""
 
     name: str
@@ -91,7 +92,7 @@ class DisabledCollision:
 
 
 @dataclass(frozen=True, slots=True)
-class Semantics:
+class Semantics(HoldsMappings):
     """All that an SRDF file says of a robot.
 
     Attributes:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.envs.autoreset import with_idle
 from gazelle.errors import TaskError
 
 Bool = NDArray[np.bool_]
@@ -81,7 +82,11 @@ class BatchedTask(ABC):
     """One task in ``nworld`` worlds.
 
     A subclass says what happens in ``_seed``, ``_begin``, ``_look``, ``_act`` and in
-    ``_state`` and ``_set_state``; this class counts steps and episodes.
+    ``_state`` and ``_set_state``; this class counts steps and episodes. A task that draws random
+    numbers in a step also says how to take that back, in ``_hold`` and ``_release``.
+
+    A task can be pickled and copied: it is made again with the arguments that it was made with,
+    and goes on from the state of ``get_state``.
 
     Args:
         nworld: Number of worlds.
@@ -97,6 +102,22 @@ class BatchedTask(ABC):
     observation_space: gym.spaces.Box
     action_space: gym.Space[Any]
     control_period: float
+
+    _made_with: tuple[tuple[Any, ...], dict[str, Any]]
+
+    def __new__(cls, *arguments: Any, **options: Any) -> Self:
+        """Remember what the task is made with, to make it again from a pickle."""
+        task = super().__new__(cls)
+        task._made_with = (arguments, options)
+        return task
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How to make the task again, and its state."""
+        return _made_again, (type(self), *self._made_with), self.get_state()
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Go on from the state of a pickle or a copy."""
+        self.set_state(state)
 
     def __init__(self, nworld: int, max_episode_steps: int | None) -> None:
         self.nworld = nworld
@@ -156,12 +177,10 @@ class BatchedTask(ABC):
         if not done.any():
             return Step(last, None)
         worlds = np.flatnonzero(done)
-        observation, info = last.observation.copy(), dict(last.info)
+        observation = last.observation.copy()
         first, start = self.begin(worlds)
         observation[worlds] = first
-        for name, values in start.items():
-            info[name] = info[name].copy()
-            info[name][worlds] = values
+        info = _put(last.info, start, worlds)
         finals = Finals(
             worlds,
             last.observation[worlds],
@@ -169,6 +188,32 @@ class BatchedTask(ABC):
         )
         now = Transition(observation, last.reward, last.terminated, last.truncated, info)
         return Step(now, finals)
+
+    def advance_or_begin(self, actions: ArrayLike, over: Worlds) -> Transition:
+        """Make one control step in some worlds, and begin the next episode in the others.
+
+        Args:
+            actions: Shape (nworld, ...); those of worlds that begin are not looked at.
+            over: Worlds whose episode is over, shape (n,).
+
+        Returns:
+            What it brought; where an episode began the first observation and info, a reward of 0,
+            and no end.
+
+        Raises:
+            TaskError: The actions have the wrong shape or values.
+        """
+        if not len(over):
+            return self.advance(actions)
+        kept = self._hold(over)
+        last = self.advance(with_idle(actions, self.action_space, over))
+        self._release(over, kept)
+        first, start = self.begin(over)
+        observation, reward = last.observation.copy(), last.reward.copy()
+        terminated, truncated = last.terminated.copy(), last.truncated.copy()
+        observation[over], reward[over] = first, 0.0
+        terminated[over] = truncated[over] = False
+        return Transition(observation, reward, terminated, truncated, _put(last.info, start, over))
 
     def get_state(self) -> dict[str, Any]:
         """The whole state, simulation and random numbers included: a dict of arrays and bytes."""
@@ -190,6 +235,18 @@ class BatchedTask(ABC):
             )
         self._set_state(state)
         self.elapsed[:] = elapsed
+
+    def _hold(self, worlds: Worlds) -> Any:
+        """What of these worlds a step must leave as it is, although they take part in it.
+
+        Their episode is over, and the next begins after that step, in which they should do as if
+        it did not happen: random numbers stay undrawn, and nothing gets in the way of others.
+        """
+        del worlds
+
+    def _release(self, worlds: Worlds, kept: Any) -> None:
+        """Put back what ``_hold`` gave."""
+        del worlds, kept
 
     @abstractmethod
     def render(self, world: int) -> NDArray[np.uint8]:
@@ -222,6 +279,22 @@ class BatchedTask(ABC):
     @abstractmethod
     def _set_state(self, state: dict[str, Any]) -> None:
         """Put back what ``_state`` gave."""
+
+
+def _put(info: Info, start: Info, worlds: Worlds) -> Info:
+    """The info with that of some worlds' new episodes in its place."""
+    merged = dict(info)
+    for name, values in start.items():
+        merged[name] = info[name].copy()
+        merged[name][worlds] = values
+    return merged
+
+
+def _made_again(
+    kind: type[BatchedTask], arguments: tuple[Any, ...], options: dict[str, Any]
+) -> BatchedTask:
+    """A task as it was made."""
+    return kind(*arguments, **options)
 
 
 def _only(values: NDArray[Any], worlds: Worlds) -> NDArray[Any]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.envs.batched_task import BatchedTask, Float32, Info
+from gazelle.envs.errors import check_open
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.envs.vector_env import TaskVectorEnv
 
@@ -16,7 +17,8 @@ from gazelle.envs.vector_env import TaskVectorEnv
 class TaskEnv(gym.Env[Any, Any]):
     """A batched task of one world as a Gymnasium environment.
 
-    It is world 0 of the vector environment: the same seed and actions give the same bits.
+    It is world 0 of the vector environment: the same seed and actions give the same bits. It can
+    be pickled and copied, and both go on with the same future.
 
     Args:
         task: A task of one world; the environment closes it.
@@ -51,6 +53,7 @@ class TaskEnv(gym.Env[Any, Any]):
 
         Raises:
             TaskError: An option that does not exist.
+            ClosedEnvError: The environment is closed.
         """
         for name in options or {}:
             check_name("reset option", name, [])
@@ -66,7 +69,10 @@ class TaskEnv(gym.Env[Any, Any]):
 
         Raises:
             TaskError: The action has the wrong shape or value.
+            ResetNeededError: Nothing was reset yet.
+            ClosedEnvError: The environment is closed.
         """
+        self._vector.check_ready("step()")
         result = self.task.advance(np.asarray(action)[None])
         return (
             result.observation[0],
@@ -77,7 +83,12 @@ class TaskEnv(gym.Env[Any, Any]):
         )
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture, shape (height, width, 3); None without render mode."""
+        """A picture, shape (height, width, 3); None without render mode.
+
+        Raises:
+            ClosedEnvError: The environment is closed.
+        """
+        check_open("render()", closed=self._vector.closed)
         return None if self.render_mode is None else self.task.render(0)
 
     def get_state(self) -> dict[str, Any]:

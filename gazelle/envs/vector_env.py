@@ -11,7 +11,18 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import BatchedTask, Bool, Finals, Float32, Float64, Info, Worlds
+from gazelle.envs.autoreset import autoreset_mode as mode_of
+from gazelle.envs.batched_task import (
+    BatchedTask,
+    Bool,
+    Finals,
+    Float32,
+    Float64,
+    Info,
+    Step,
+    Worlds,
+)
+from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
@@ -19,15 +30,25 @@ from gazelle.errors import TaskError
 class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
     """A batched task as a Gymnasium vector environment.
 
-    An episode that ends is followed by the next one in the same step
-    (``AutoresetMode.SAME_STEP``): the step returns the first observation of the new episode,
-    ``info["final_obs"]`` the last one of the old, and ``info["final_info"]`` its info, each
-    with a mask (``_final_obs``, ``_final_info``) of the worlds it holds for.
+    What happens where an episode ends is said by ``autoreset_mode``, as Gymnasium defines it:
+
+    - ``SameStep``, the default: the next one begins in the same step, which returns its first
+      observation; ``info["final_obs"]`` is the last one of the old, and ``info["final_info"]``
+      its info, each with a mask (``_final_obs``, ``_final_info``) of the worlds it holds for.
+    - ``NextStep``: the step returns the last observation. The next step begins the next episode
+      there instead of doing the action, with a reward of 0. What comes after is the same.
+    - ``Disabled``: ``reset(options={"reset_mask": mask})`` begins it, before the next step.
+
+    It can be pickled and copied, and both go on with the same future.
 
     Args:
         task: What to wrap; the environment closes it.
         seed: Of the first episodes when ``reset`` gets none.
         render_mode: ``rgb_array``, or None.
+        autoreset_mode: One of Gymnasium's, or its name.
+
+    Raises:
+        TaskError: There is no such mode.
 
     Attributes:
         control_period: Simulated time of one step [s].
@@ -39,8 +60,14 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
     }
 
     def __init__(
-        self, task: BatchedTask, *, seed: int | None = None, render_mode: str | None = None
+        self,
+        task: BatchedTask,
+        *,
+        seed: int | None = None,
+        render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
     ) -> None:
+        self.autoreset_mode = mode_of(autoreset_mode)
         self.task = task
         self.num_envs = task.nworld
         self.single_observation_space = task.observation_space
@@ -49,8 +76,14 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
         self.action_space = batch_space(task.action_space, task.nworld)
         self.control_period = task.control_period
         self.render_mode = render_mode
-        self.metadata = {**type(self).metadata, "render_fps": 1.0 / task.control_period}  # type: ignore[misc]
+        self.metadata = {  # type: ignore[misc]
+            **type(self).metadata,
+            "render_fps": 1.0 / task.control_period,
+            "autoreset_mode": self.autoreset_mode,
+        }
         self._first_seed = seed
+        self._begun = False
+        self._over = np.zeros(task.nworld, np.bool_)
         self._observation = np.zeros((task.nworld, *task.observation_space.shape), np.float32)
 
     def reset(
@@ -65,7 +98,9 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
 
         Raises:
             TaskError: An option that does not exist, or a mask of the wrong shape.
+            ClosedEnvError: The environment is closed.
         """
+        check_open("reset()", closed=self.closed)
         given = options or {}
         for name in given:
             check_name("reset option", name, ["reset_mask"])
@@ -77,6 +112,8 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
             super().reset(seed=number)
             self.task.seed(number)
         observation, info = self.task.begin(worlds)
+        self._begun = True
+        self._over[worlds] = False
         self._observation[worlds] = observation
         return self._observation.copy(), self._spread(info, worlds)
 
@@ -88,8 +125,12 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
 
         Raises:
             TaskError: The actions have the wrong shape or values.
+            ResetNeededError: Nothing was reset yet, or with ``Disabled`` a world whose episode is
+                over was not.
+            ClosedEnvError: The environment is closed.
         """
-        step = self.task.step(actions)
+        self.check_ready("step()")
+        step = self._step(actions)
         result, finals = step.transition, step.finals
         self._observation = result.observation
         masks = np.ones((len(result.info), self.num_envs), dtype=np.bool_)
@@ -106,23 +147,56 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
             },
         )
 
+    def check_ready(self, what: str) -> None:
+        """Raise an error unless episodes go on.
+
+        Raises:
+            ResetNeededError: Nothing was reset yet.
+            ClosedEnvError: The environment is closed.
+        """
+        check_ready(what, closed=self.closed, begun=self._begun)
+
+    def _step(self, actions: ArrayLike) -> Step:
+        """A control step in the environment's mode."""
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            return self.task.step(actions)
+        over = np.flatnonzero(self._over)
+        if self.autoreset_mode is AutoresetMode.DISABLED and len(over):
+            raise ResetNeededError(
+                f"the episode of world {over[0]} is over",
+                hint='with autoreset_mode="Disabled" call reset(options={"reset_mask": mask}) first',
+            )
+        result = self.task.advance_or_begin(actions, over)
+        self._over = result.terminated | result.truncated
+        return Step(result, None)
+
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of every world, each of shape (height, width, 3); None without render mode."""
+        check_open("render()", closed=self.closed)
         if self.render_mode is None:
             return None
         return tuple(self.task.render(world) for world in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
-        """The whole state, as a dict of arrays and bytes: `set_state` continues from it exactly."""
-        return self.task.get_state()
+        """The whole state, as a dict of arrays and bytes: `set_state` continues from it exactly.
+
+        Raises:
+            ClosedEnvError: The environment is closed.
+        """
+        check_open("get_state()", closed=self.closed)
+        return {**self.task.get_state(), "over": self._over.copy()}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Go on from what ``get_state`` returned, in an environment made with the same options.
 
         Raises:
             TaskError: The state is of another task or number of worlds.
+            ClosedEnvError: The environment is closed.
         """
+        check_open("set_state()", closed=self.closed)
         self.task.set_state(state)
+        self._over[:] = state.get("over", False)
+        self._begun = True
         if self._np_random is None:
             super().reset(seed=int(state["seed"]) if "seed" in state else 0)
 

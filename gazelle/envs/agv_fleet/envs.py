@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Unpack
 
+from gymnasium.vector import AutoresetMode
+
 from gazelle.envs.agv_fleet.task import AGVFleetTask, FleetOptions, FleetSettings
 from gazelle.envs.options import check_whole, read_options
 from gazelle.envs.single_env import TaskEnv
@@ -81,6 +83,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     ``render_mode``        None      "rgb_array": the hall from above, 630 by 430
     ``threads``            all       native threads; results do not depend on it
     ``engine``             "planar"  there is no other
+    ``autoreset_mode``     SameStep  see `TaskVectorEnv`
     =====================  ========  =======================================================
 
     ## Version history
@@ -91,11 +94,22 @@ class AGVFleetVectorEnv(TaskVectorEnv):
         TaskError: An option cannot be.
     """
 
-    def __init__(self, num_envs: int = 1, **options: Unpack[FleetOptions]) -> None:
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
+        **options: Unpack[FleetOptions],
+    ) -> None:
         check_whole("num_envs", num_envs, 1)
         settings = read_options(FleetSettings, options)
         task = AGVFleetTask(num_envs, settings)
-        super().__init__(task, seed=settings.seed, render_mode=settings.render_mode)
+        super().__init__(
+            task,
+            seed=settings.seed,
+            render_mode=settings.render_mode,
+            autoreset_mode=autoreset_mode,
+        )
 
 
 class AGVFleetEnv(TaskEnv):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.envs.agv_fleet.task import PERIOD, AGVFleetTask, FleetOptions, FleetSettings
 from gazelle.envs.batched_task import Float32, Info
+from gazelle.envs.errors import check_open, check_ready
 from gazelle.envs.options import read_options
 from gazelle.errors import MissingExtraError
 
@@ -49,7 +50,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         self._index = {name: number for number, name in enumerate(self.possible_agents)}
         self.agents: list[str] = []
         self._seed = settings.seed
-        self._begun = False
+        self._begun = self._closed = False
 
     def observation_space(self, agent: str) -> Any:
         """Of one agent; they are all the same."""
@@ -69,7 +70,11 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         Args:
             seed: Starts all random numbers over.
             options: There are none.
+
+        Raises:
+            ClosedEnvError: The environment is closed.
         """
+        check_open("reset()", closed=self._closed)
         del options
         if seed is None and not self._begun:
             fresh = int(np.random.SeedSequence().generate_state(1)[0])
@@ -97,7 +102,10 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
 
         Raises:
             TaskError: An action has the wrong shape or values.
+            ResetNeededError: Nothing was reset yet.
+            ClosedEnvError: The environment is closed.
         """
+        check_ready("step()", closed=self._closed, begun=self._begun)
         table = np.tile([-1.0, 0.0], (self.task.nworld, 1))
         for agent, action in actions.items():
             table[self._index[agent]] = action
@@ -119,11 +127,17 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         return answer
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The hall from above; None without render mode."""
+        """The hall from above; None without render mode.
+
+        Raises:
+            ClosedEnvError: The environment is closed.
+        """
+        check_open("render()", closed=self._closed)
         return None if self.render_mode is None else self.task.render(0)
 
     def close(self) -> None:
         """End the threads; a second call does nothing."""
+        self._closed = True
         self.task.close()
 
     def _each(self, values: Float32) -> dict[str, Float32]:

@@ -189,6 +189,13 @@ class AGVFleetTask(BatchedTask):
         self._goal[worlds] = np.where(drawn >= last, drawn + 1, drawn)
         self._distance[worlds] = _distance(self.poses[worlds], self.goals[worlds])
 
+    def _hold(self, worlds: Worlds) -> Any:
+        self.freeze(worlds)  # until it begins, in the way of the others
+        return self._stream.counters[worlds]
+
+    def _release(self, worlds: Worlds, kept: Any) -> None:
+        self._stream.counters[worlds] = kept
+
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         no = np.zeros(len(worlds), np.bool_)
         return self.observe()[worlds], self._info(worlds, no, no)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar, Unpack
 
+from gymnasium.vector import AutoresetMode
+
 from gazelle.envs.options import (
     NavigationOptions,
     NavigationSettings,
@@ -197,12 +199,13 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
 
     ``gymnasium.make_vec(id, num_envs=1024, vectorization_mode="vector_entry_point")`` makes it.
     Episodes that end are followed by the next one in the same step; ``info["final_obs"]`` and
-    ``info["final_info"]`` hold what was last. World 0 is, bit for bit, the single environment
-    with the same seed, whatever ``num_envs`` and ``threads``.
+    ``info["final_info"]`` hold what was last; `TaskVectorEnv` tells of other modes. World 0 is,
+    bit for bit, the single environment with the same seed, whatever ``num_envs`` and ``threads``.
 
     Args:
         num_envs: Number of worlds.
         stage: 1 to 4.
+        autoreset_mode: ``SameStep``, ``NextStep`` or ``Disabled``, or Gymnasium's constants.
         options: As there; ``max_episode_steps`` is None unless given, and the ids give 501.
 
     Raises:
@@ -213,12 +216,22 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
     continuous: ClassVar[bool] = False
 
     def __init__(
-        self, num_envs: int = 1, stage: int = 1, **options: Unpack[NavigationOptions]
+        self,
+        num_envs: int = 1,
+        stage: int = 1,
+        *,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
+        **options: Unpack[NavigationOptions],
     ) -> None:
         check_whole("num_envs", num_envs, 1)
         settings = read_options(NavigationSettings, options)
         task = make_task(stage, num_envs, continuous=self.continuous, settings=settings)
-        super().__init__(task, seed=settings.seed, render_mode=settings.render_mode)
+        super().__init__(
+            task,
+            seed=settings.seed,
+            render_mode=settings.render_mode,
+            autoreset_mode=autoreset_mode,
+        )
 
 
 class TurtleBot3ContinuousVectorEnv(TurtleBot3VectorEnv):

@@ -26,7 +26,7 @@ from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules, stag
 from gazelle.envs.turtlebot3.scene import COMMAND, Scene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.rotations import yaw_of
-from gazelle.sensors import View, look_at
+from gazelle.sensors import SensorModel, View, look_at
 from gazelle.streams import Stream
 
 _GOAL_BOX = 0.5
@@ -100,6 +100,17 @@ class TurtleBot3Task(BatchedTask):
         else:
             self._goal[worlds] = self.goals.first(self._draw(worlds))
 
+    def _hold(self, worlds: Worlds) -> Any:
+        noise = self._lidar_model.state()
+        return self._stream.counters[worlds], {name: noise[name][worlds] for name in noise}
+
+    def _release(self, worlds: Worlds, kept: Any) -> None:
+        self._stream.counters[worlds], noise = kept
+        state = self._lidar_model.state()
+        for name, rows in noise.items():
+            state[name][worlds] = rows
+        self._lidar_model.restore(state)
+
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         seen = self._see(worlds)
         self._set_start(worlds, seen.distance)
@@ -129,6 +140,10 @@ class TurtleBot3Task(BatchedTask):
         everywhere = np.arange(self.nworld)
         info = self._info(seen, everywhere, arrived=arrived, crashed=crashed & ~arrived)
         return Verdict(observation(self.rules, seen), reward, terminated, info)
+
+    @property
+    def _lidar_model(self) -> SensorModel:
+        return self.scene.robot.sensors[self.scene.lidar.sensor].model
 
     def _command(self, actions: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         if self.continuous:
