@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno as _errno
 import sys
 import traceback
 from pathlib import Path
@@ -15,10 +16,12 @@ __all__ = [
     "MarshalError",
     "MasterUnreachableError",
     "Md5MismatchError",
+    "NoListeningMasterError",
     "NoMasterError",
     "NodeClosedError",
     "ParameterNotFoundError",
     "ProtocolError",
+    "RefusedConnectionError",
     "RosError",
     "RosTimeoutError",
     "ServiceError",
@@ -63,12 +66,26 @@ class UnreachableError(RosError):
     """A peer does not answer: no connection, or it broke before the answer."""
 
 
+class RefusedConnectionError(UnreachableError, ConnectionRefusedError):
+    """Nobody listens where a peer was."""
+
+    errno = _errno.ECONNREFUSED
+
+
 class SilentPeerError(UnreachableError):
     """A peer takes the call, and says nothing for too long."""
 
 
-class MasterUnreachableError(UnreachableError):
-    """The ROS master does not answer."""
+class MasterUnreachableError(UnreachableError, ConnectionError):
+    """The ROS master does not answer.
+
+    It is a `ConnectionError`, and so an `OSError` and a ``socket.error``, for programs for ROS
+    catch these.
+    """
+
+
+class NoListeningMasterError(MasterUnreachableError, RefusedConnectionError):
+    """Nobody listens where the ROS master ought to be: a `ConnectionRefusedError`."""
 
 
 class NoMasterError(MasterUnreachableError):

@@ -128,7 +128,7 @@ class Node(TopicUser, ServiceUser):
             for close in opened:
                 close()
             loops.release(self.loop)
-            if isinstance(error, OSError):
+            if isinstance(error, OSError) and not isinstance(error, RosError):
                 raise RosError(f"cannot listen on {self.host}: {error}") from None
             raise
         _neighbours[self.uri] = self

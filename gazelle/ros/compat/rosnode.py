@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from gazelle.ros.compat import commands
-from gazelle.ros.errors import RosError
+from gazelle.ros.compat.tool_errors import raising
+from gazelle.ros.errors import MasterUnreachableError
 from gazelle.ros.tools import nodes
 from gazelle.ros.tools.graph import Graph
 
@@ -28,29 +29,30 @@ def _graph() -> Graph:
     return Graph("rosnode")
 
 
+@raising(ROSNodeIOException)
 def get_node_names(namespace: str | None = None) -> list[str]:
     """Names of the nodes in a namespace.
 
     Raises:
         ROSNodeIOException: The master does not answer.
     """
-    try:
-        return _graph().nodes(namespace)
-    except RosError as error:
-        raise ROSNodeIOException(str(error)) from None
+    return _graph().nodes(namespace)
 
 
+@raising(ROSNodeIOException)
 def get_api_uri(master: Any, caller_id: str, skip_cache: bool = False) -> str | None:  # noqa: FBT001, FBT002  # rosnode's interface
     """The address of a node; None if there is none."""
     del master
     return _graph().node_uri(caller_id, fresh=skip_cache)
 
 
+@raising(ROSNodeIOException)
 def get_machines_by_nodes() -> list[str]:
     """Names of the machines with nodes."""
     return nodes.machines(_graph())
 
 
+@raising(ROSNodeIOException)
 def get_nodes_by_machine(machine: str) -> list[str]:
     """Names of the nodes of a machine."""
     return nodes.nodes_on(_graph(), machine)
@@ -62,20 +64,26 @@ def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
     Returns:
         Those that were told, and those that could not be.
     """
-    failed = nodes.kill(_graph(), node_names)
+    try:
+        failed = nodes.kill(_graph(), node_names)
+    except MasterUnreachableError:
+        return [], list(node_names)
     return [name for name in node_names if name not in failed], failed
 
 
+@raising(ROSNodeIOException)
 def get_node_info_description(node_name: str) -> str:
     """What a node publishes, subscribes to and offers."""
     return nodes.node_info(_graph(), node_name, quiet=True)
 
 
+@raising(ROSNodeIOException)
 def rosnode_info(node_name: str, quiet: bool = False) -> None:  # noqa: FBT001, FBT002  # rosnode's interface
     """Print what a node publishes, subscribes to and offers."""
     sys.stdout.write(nodes.node_info(_graph(), node_name, quiet=quiet))
 
 
+@raising(ROSNodeIOException, ROSNodeIOException)
 def rosnode_ping(
     node_name: str,
     max_count: int | None = None,
@@ -89,19 +97,11 @@ def rosnode_ping(
     """
     del skip_cache
     out = sys.stdout if verbose else io.StringIO()
-    try:
-        return nodes.ping(
-            _graph(),
-            node_name,
-            out,
-            threading.Event(),
-            count=max_count,
-            complain=_complain,
-        )
-    except RosError as error:
-        raise ROSNodeIOException(str(error)) from None
+    stop = threading.Event()
+    return nodes.ping(_graph(), node_name, out, stop, count=max_count, complain=_complain)
 
 
+@raising(ROSNodeIOException)
 def rosnode_ping_all(
     verbose: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
     skip_cache: bool = False,  # noqa: FBT001, FBT002
@@ -123,6 +123,7 @@ def cleanup_master_blacklist(master: Any, blacklist: list[str]) -> None:
     nodes.unregister(_graph(), blacklist)
 
 
+@raising(ROSNodeIOException)
 def rosnode_listnodes(
     namespace: str | None = None,
     list_uri: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface

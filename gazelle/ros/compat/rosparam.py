@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.ros import names
 from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.msproxy import MasterProxy
-from gazelle.ros.errors import RosError
+from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.values import load_yaml, load_yaml_documents
 from gazelle.ros.tools import params
@@ -36,36 +36,30 @@ def get_param_server() -> MasterProxy:
     return MasterProxy(_graph().master_uri)
 
 
+@raising(RosParamIOException, RosParamException)
 def get_param(param: str) -> Any:
     """The value of a parameter.
 
     Raises:
         RosParamException: It is not set.
     """
-    try:
-        return params.get_parameter(_graph(), param)
-    except RosError as error:
-        raise RosParamException(str(error)) from None
+    return params.get_parameter(_graph(), param)
 
 
+@raising(RosParamIOException, RosParamIOException)
 def list_params(ns: str = "") -> list[str]:
     """Names of the parameters in a namespace."""
-    try:
-        return params.list_parameters(_graph(), ns or None)
-    except RosError as error:
-        raise RosParamIOException(str(error)) from None
+    return params.list_parameters(_graph(), ns or None)
 
 
+@raising(RosParamIOException, RosParamException)
 def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
     """Set a parameter.
 
     Raises:
         RosParamException: The master cannot take the value.
     """
-    try:
-        params.set_parameter(_graph(), param, value)
-    except RosError as error:
-        raise RosParamException(str(error)) from None
+    params.set_parameter(_graph(), param, value)
     if verbose:
         sys.stdout.write(f"set parameter [{param}] to [{value}]\n")
 
@@ -101,16 +95,14 @@ def upload_params(ns: str, values: Any, verbose: bool = False) -> None:  # noqa:
         upload_params(names.join(ns, str(key)), value, verbose)
 
 
+@raising(RosParamIOException, RosParamException)
 def delete_param(param: str, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
     """Remove a parameter.
 
     Raises:
         RosParamException: It is not set.
     """
-    try:
-        params.delete_parameter(_graph(), param)
-    except RosError as error:
-        raise RosParamException(str(error)) from None
+    params.delete_parameter(_graph(), param)
     if verbose:
         sys.stdout.write(f"deleted parameter [{param}]\n")
 
@@ -161,6 +153,7 @@ def load_file(
     return load_str(text, filename, default_namespace, verbose)
 
 
+@raising(RosParamIOException, RosParamException)
 def dump_params(filename: str | None, param: str, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
     """Write a namespace as YAML to a file, or to standard output.
 
@@ -168,10 +161,7 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
         RosParamException: It is not set.
     """
     del verbose
-    try:
-        text = params.dump_parameters(_graph(), param)
-    except RosError as error:
-        raise RosParamException(str(error)) from None
+    text = params.dump_parameters(_graph(), param)
     if filename:
         Path(filename).write_text(text, encoding="utf-8")
     else:

@@ -9,7 +9,8 @@ from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.exceptions import ServiceException
 from gazelle.ros.compat.rospy.guest import user
 from gazelle.ros.compat.rospy.service import ServiceProxy
-from gazelle.ros.errors import RosError
+from gazelle.ros.compat.tool_errors import raising
+from gazelle.ros.errors import MasterUnreachableError, RosError
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.messages.yaml import fill_message_args
 from gazelle.ros.time import Time
@@ -29,6 +30,7 @@ def _graph() -> Graph:
     return Graph("rosservice")
 
 
+@raising(ROSServiceIOException, ROSServiceIOException)
 def get_service_list(
     node: str | None = None,
     namespace: str | None = None,
@@ -39,10 +41,7 @@ def get_service_list(
     Raises:
         ROSServiceIOException: The master does not answer.
     """
-    try:
-        found = services.list_services(_graph(), namespace)
-    except RosError as error:
-        raise ROSServiceIOException(str(error)) from None
+    found = services.list_services(_graph(), namespace)
     if node is not None:
         found = [each for each in found if node in each[1]]
     if include_nodes:
@@ -50,49 +49,52 @@ def get_service_list(
     return [name for name, _ in found]
 
 
+@raising(ROSServiceIOException)
 def get_service_type(service_name: str) -> str | None:
     """The type of a service; None if there is none."""
     try:
         return services.service_type(_graph(), service_name)
+    except MasterUnreachableError:
+        raise
     except RosError:
         return None
 
 
+@raising(ROSServiceIOException, ROSServiceException)
 def get_service_class_by_name(service_name: str) -> Any:
     """The class of a service's type.
 
     Raises:
         ROSServiceException: There is no such service, or its type is not known.
     """
-    try:
-        return load_service(services.service_type(_graph(), service_name))
-    except RosError as error:
-        raise ROSServiceException(str(error)) from None
+    return load_service(services.service_type(_graph(), service_name))
 
 
+@raising(ROSServiceIOException)
 def get_service_node(service_name: str) -> str | None:
     """The node that offers a service; None if nobody does."""
     try:
         return services.service_node(_graph(), service_name)
+    except MasterUnreachableError:
+        raise
     except RosError:
         return None
 
 
+@raising(ROSServiceIOException)
 def get_service_uri(service_name: str) -> str | None:
     """The address of a service; None if there is none."""
     return _graph().service_uri(_graph().resolve(service_name))
 
 
+@raising(ROSServiceIOException, ROSServiceException)
 def get_service_args(service_name: str) -> str:
     """Names of the request's fields.
 
     Raises:
         ROSServiceException: There is no such service.
     """
-    try:
-        return services.service_arguments(_graph(), service_name).strip()
-    except RosError as error:
-        raise ROSServiceException(str(error)) from None
+    return services.service_arguments(_graph(), service_name).strip()
 
 
 def has_service_args(service_name: str, service_class: Any = None) -> bool:
@@ -105,6 +107,7 @@ def has_service_args(service_name: str, service_class: Any = None) -> bool:
     return bool(kind._request_class.__slots__)
 
 
+@raising(ROSServiceIOException, ROSServiceIOException)
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
     """What a service answers to a probe.
 
@@ -112,12 +115,10 @@ def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
         ROSServiceException: It does not answer.
     """
     del service_uri
-    try:
-        return services.probe(_graph(), service_name)
-    except RosError as error:
-        raise ROSServiceIOException(str(error)) from None
+    return services.probe(_graph(), service_name)
 
 
+@raising(ROSServiceIOException)
 def rosservice_find(service_type: str) -> list[str]:
     """Services of a type."""
     return services.services_of_type(_graph(), service_type)

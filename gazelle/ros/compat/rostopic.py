@@ -10,7 +10,7 @@ from gazelle.ros.compat import commands
 from gazelle.ros.compat.rospy.rostime import get_rostime, is_rostime_initialized
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.errors import RosError
+from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.messages import UnknownTypeError, load_message
 from gazelle.ros.messages.yaml import fill_message_args
 from gazelle.ros.time import Time
@@ -34,6 +34,7 @@ def _graph() -> Graph:
     return Graph("rostopic")
 
 
+@raising(ROSTopicIOException, ROSTopicIOException)
 def get_topic_type(
     topic: str,
     blocking: bool = False,  # noqa: FBT001, FBT002  # rostopic's interface
@@ -52,10 +53,7 @@ def get_topic_type(
     """
     graph = _graph()
     while True:
-        try:
-            found = listing.find_topic(graph, graph.resolve(topic))
-        except RosError as error:
-            raise ROSTopicIOException(str(error)) from None
+        found = listing.find_topic(graph, graph.resolve(topic))
         if found is not None:
             name, kind, path = found
             return kind, name, msgevalgen(path) if path else None
@@ -90,29 +88,29 @@ def msgevalgen(pattern: str) -> Evaluator | None:
 
 
 def get_topic_list(master: Any = None) -> tuple[list[Any], list[Any]]:
-    """Name, type and nodes of what is published, and of what is subscribed to."""
+    """Name, type and nodes of what is published, and of what is subscribed to.
+
+    Raises:
+        ConnectionRefusedError: There is no master.
+    """
     del master
-    try:
-        return _graph().uses()
-    except RosError as error:
-        raise ROSTopicIOException(str(error)) from None
+    return _graph().uses()
 
 
+@raising(ROSTopicIOException)
 def find_by_type(topic_type: str) -> list[str]:
     """Topics of a type."""
     return listing.topics_of_type(_graph(), topic_type)
 
 
+@raising(ROSTopicIOException, ROSTopicException)
 def get_info_text(topic: str) -> str:
     """Type, publishers and subscribers of a topic.
 
     Raises:
         ROSTopicException: There is none.
     """
-    try:
-        return listing.topic_info(_graph(), topic)
-    except RosError as error:
-        raise ROSTopicException(str(error)) from None
+    return listing.topic_info(_graph(), topic)
 
 
 def create_publisher(

@@ -9,6 +9,7 @@ from gazelle.ros.errors import (
     FaultError,
     MarshalError,
     MasterUnreachableError,
+    NoListeningMasterError,
     NoMasterError,
     ProtocolError,
     SilentPeerError,
@@ -72,7 +73,9 @@ class MasterProxy:
             raise _no_master(self.uri, error.message) from None
         except UnreachableError as error:
             reason = error.message.removeprefix(f"{self.uri} does not answer: ")
-            raise MasterUnreachableError(
+            refused = isinstance(error, ConnectionRefusedError)
+            kind = NoListeningMasterError if refused else MasterUnreachableError
+            raise kind(
                 f"the ROS master at {self.uri} does not answer ({reason})",
                 hint="start one with 'gazelle master', or set ROS_MASTER_URI",
             ) from None

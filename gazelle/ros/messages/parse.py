@@ -36,8 +36,11 @@ def parse_message(full_name: str, text: str, *, file: str | None = None) -> Mess
         file: Where the text is from, for errors.
 
     Raises:
-        InvalidDefinitionError: The text is malformed; names the line.
+        InvalidDefinitionError: The text is malformed; names the line. Or the name holds what
+            cannot be printed.
     """
+    if not full_name.isprintable():  # Python's classes cannot be called so
+        raise InvalidDefinitionError(f"{full_name!r} is no name of a type")
     package = full_name.partition("/")[0]
     fields: list[Field] = []
     constants: list[Constant] = []

@@ -11,7 +11,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle.ros import net
-from gazelle.ros.errors import ProtocolError, RosError, SilentPeerError, UnreachableError
+from gazelle.ros.errors import (
+    ProtocolError,
+    RefusedConnectionError,
+    RosError,
+    SilentPeerError,
+    UnreachableError,
+)
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.loop import READ, WRITE, EventLoop, Timer, give_way
 from gazelle.ros.xmlrpc.http import Message, MessageReader, request
@@ -92,10 +98,12 @@ class BlockingClient:
             if message is None:
                 raise ConnectionResetError("it closed the connection instead of answering")  # noqa: TRY301
         except OSError as error:
-            kind = UnreachableError
+            kind: type[UnreachableError] = UnreachableError
             if sock is not None:
                 sock.close()
                 kind = SilentPeerError if isinstance(error, TimeoutError) else kind
+            elif isinstance(error, ConnectionRefusedError):
+                kind = RefusedConnectionError
             raise kind(f"{self.uri} does not answer: {error}") from None
         except BaseException:
             if sock is not None:

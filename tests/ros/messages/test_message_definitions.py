@@ -6,7 +6,7 @@ import re
 import string
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from gazelle.errors import FormatWarning
@@ -323,3 +323,21 @@ def test_registering_a_type_again_changes_it_and_those_that_contain_it():
     assert before[0]._md5sum != after[0]._md5sum
     assert before[1]._md5sum != after[1]._md5sum
     assert after[0]().part.b == 0
+
+
+@given(name=st.text(min_size=1).filter(lambda text: not text.isprintable()))
+@example(name="\0")
+@example(name="std_msgs/Str\0ing")
+@example(name="std_msgs/\ud800")
+@example(name="std_msgs/Int\n")
+def test_a_name_that_cannot_be_printed_is_no_name(name):
+    """Python makes no class of it; damaged bags and odd peers have such names."""
+    with pytest.raises((InvalidDefinitionError, UnknownTypeError)):
+        class_from_text(name, "int32 a\n")
+
+
+@pytest.mark.parametrize("name", ["std_msgs/Str ing", "p-q/R", "straße/Maß"])
+def test_odd_names_that_can_be_printed_are_read(name):
+    made = class_from_text(name, "int32 a\n")
+    assert made._type == name
+    assert made().deserialize(b"\1\0\0\0").a == 1

@@ -6,7 +6,7 @@ from typing import Any
 
 from gazelle.ros.compat.rosgraph.names import make_caller_id
 from gazelle.ros.compat.rosgraph.rosenv import get_master_uri
-from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
+from gazelle.ros.errors import ApiError, RosError
 from gazelle.ros.master.proxy import MasterProxy
 
 
@@ -46,8 +46,6 @@ class Master:
         except ApiError as error:
             kind = MasterError if error.code == -1 else MasterFailure
             raise kind(error.text) from None
-        except MasterUnreachableError as error:
-            raise ConnectionRefusedError(str(error)) from None
 
     def is_online(self) -> bool:
         """Whether it answers."""

@@ -7,7 +7,12 @@ from typing import Any
 from gazelle.ros.compat.rospy.exceptions import ROSException
 from gazelle.ros.compat.rospy.guest import user
 from gazelle.ros.compat.rospy.names import get_caller_id, resolve_name
-from gazelle.ros.errors import MarshalError, ParameterNotFoundError, RosError
+from gazelle.ros.errors import (
+    MarshalError,
+    MasterUnreachableError,
+    ParameterNotFoundError,
+    RosError,
+)
 from gazelle.ros.master.proxy import MasterProxy
 
 
@@ -23,6 +28,7 @@ def get_param(param_name: str, default: Any = _unspecified) -> Any:
 
     Raises:
         KeyError: It is not set, and no default was given.
+        ConnectionRefusedError: There is no master, as with all that asks it.
     """
     return _get(param_name, default, user().parameters.get)
 
@@ -45,6 +51,8 @@ def _get(param_name: str, default: Any, ask: Any) -> Any:
         if default is _unspecified:
             raise KeyError(param_name) from None
         return default
+    except MasterUnreachableError:
+        raise
     except RosError as error:
         raise ROSException(f"unable to get parameter {param_name}: {error}") from error
 
@@ -68,6 +76,8 @@ def set_param(param_name: str, param_value: Any) -> None:
     except MarshalError as error:
         kind = OverflowError if "32" in str(error) else TypeError
         raise kind(str(error)) from None
+    except MasterUnreachableError:
+        raise
     except RosError as error:
         raise ROSException(f"unable to set parameter {param_name}: {error}") from error
 
