@@ -2,14 +2,41 @@
 
 from __future__ import annotations
 
-from gazelle.engines.native import kernel
+import math
+
+from gazelle.engines.native import inner, kernel
 from gazelle.engines.planar.kernels_noise import stream, uniform
-from gazelle.engines.planar.kernels_roam import sides
 from gazelle.engines.planar.tables import Floats, Indices
 
 # Columns of a manner: speed ahead [m/s], while it turns [m/s], of turning [rad/s], distance
-# ahead at which it turns away and at which it stands [m], and least steps that it turns for.
+# ahead at which it turns away, distance of anything at which it stands [m], and least steps
+# that it turns for.
 CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE = 0, 1, 2, 3, 4, 5
+
+FEW = 8  # samples with which Stage's own does not run
+
+
+@inner
+def room(ranges: Floats, m: int) -> tuple[float, float, float]:
+    """The shortest range in the middle third, in the right half and in the left one.
+
+    The middle third begins after a third of the samples, and the middle one is of the right
+    half, as in Stage.
+    """
+    count = ranges.shape[1]
+    third, half = count // 3, count // 2
+    begin = third if count <= FEW else third + 1
+    end = max(count - third, begin + 1)
+    ahead, right, left = math.inf, math.inf, math.inf
+    for k in range(count):
+        found = ranges[m, k]
+        if begin <= k < end:
+            ahead = min(ahead, found)
+        if k > half:
+            left = min(left, found)
+        else:
+            right = min(right, found)
+    return ahead, right, left
 
 
 @kernel
@@ -31,15 +58,11 @@ def wander(
         command: What is chosen.
         mood: Steps for which each still turns, and 1 or -1 for the way.
     """
-    count = ranges.shape[1]
-    third = count // 3
     for i in range(first, last):
         m, b = sensors[i], bodies[i]
-        right, left = sides(ranges, m)
-        ahead = ranges[m, third]
-        for k in range(third, max(count - third, third + 1)):
-            ahead = min(ahead, ranges[m, k])
-        near = ahead < manner[FRONT]
+        ahead, right, left = room(ranges, m)
+        stop = min(right, left) < manner[STOP]
+        near = stop or ahead < manner[FRONT]
         if near and mood[i, 0] < 1:
             more = int(uniform(stream(seed, i, clock[0]), 0) * manner[PATIENCE])
             mood[i, 0] = int(manner[PATIENCE]) + more
@@ -47,7 +70,7 @@ def wander(
         turning = near or mood[i, 0] > 0
         command[b, 1] = 0.0
         if turning:
-            command[b, 0] = 0.0 if ahead < manner[STOP] else manner[CREEP]
+            command[b, 0] = 0.0 if stop else manner[CREEP]
             command[b, 2] = manner[TURN] * mood[i, 1]
             mood[i, 0] -= 1
         else:

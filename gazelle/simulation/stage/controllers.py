@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from gazelle.engines.native import Call
 from gazelle.engines.planar.kernels_clock import tally
-from gazelle.engines.planar.kernels_wander import wander
+from gazelle.engines.planar.kernels_wander import FEW, wander
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
-from gazelle.simulation.stage.layout import StageRobot
+from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.streams import Stream
 
 if TYPE_CHECKING:
@@ -92,15 +92,17 @@ class Wander:
 
     Args:
         simulation: Runs.
-        robots: Those it drives; all with a first ranger of one scanner.
+        robots: Those it drives, each with what it looks at; all of one scanner.
         scanner: That.
     """
 
-    def __init__(self, simulation: StageSimulation, robots: list[StageRobot], scanner: int) -> None:
+    def __init__(
+        self, simulation: StageSimulation, robots: list[tuple[StageRobot, Ranger]], scanner: int
+    ) -> None:
         fleet = simulation.fleet
         self._simulation, self._scanner = simulation, scanner
-        own = np.array([robot.index for robot in robots], np.int64)
-        places = np.array([robot.rangers[0].places[0][1] for robot in robots], np.int64)
+        own = np.array([robot.index for robot, _ in robots], np.int64)
+        places = np.array([ranger.places[0][1] for _, ranger in robots], np.int64)
         worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
         self._bodies = (worlds * fleet.nbody + own).ravel()
         self._sensors = (worlds * len(simulation.mounts[scanner]) + places).ravel()
@@ -173,13 +175,14 @@ def _number(text: str, default: float) -> float:
 
 
 def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:
-    groups: dict[int, list[StageRobot]] = {}
+    groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
     for robot, _ in wanted:
-        if robot.rangers and robot.rangers[0].places:
-            groups.setdefault(robot.rangers[0].places[0][0], []).append(robot)
-        else:
+        ranger = _looked_at(robot)
+        if ranger is None:
             blind.append(robot.name)
+        else:
+            groups.setdefault(ranger.places[0][0], []).append((robot, ranger))
     if blind:
         warnings.warn(
             f"'wander' needs a ranger; these have none and stand: {', '.join(blind[:5])}",
@@ -187,6 +190,13 @@ def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[Controller
             stacklevel=2,
         )
     return [Wander(simulation, robots, scanner) for scanner, robots in groups.items()]
+
+
+def _looked_at(robot: StageRobot) -> Ranger | None:
+    """The first ranger of more than 8 samples, as Stage has it; the first if all have fewer."""
+    rangers = [ranger for ranger in robot.rangers if ranger.places]
+    fine = [ranger for ranger in rangers if ranger.sensors[0].samples > FEW]
+    return next(iter(fine or rangers), None)
 
 
 def _make_noise(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:

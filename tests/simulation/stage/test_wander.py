@@ -5,6 +5,7 @@ import pytest
 from stage_samples import write
 
 from gazelle.engines.native import Tape
+from gazelle.engines.planar.kernels_wander import wander
 from gazelle.simulation.stage import StageSimulation
 
 SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"
@@ -23,6 +24,7 @@ def wall(x, y):
         ("", (0.4, 0.0, 0.0)),
         (wall(1.5, 0.0), (0.4, 0.0, 0.0)),
         (wall(0.0, 1.0), (0.4, 0.0, 0.0)),  # beside it
+        (wall(0.0, 0.5), (0.4, 0.0, 0.0)),
         (wall(0.8, 0.0), (0.05, 0.0, 0.5)),
         (wall(0.3, 0.0), (0.0, 0.0, 0.5)),
     ],
@@ -31,6 +33,50 @@ def test_it_turns_away_from_what_is_ahead(start, samples, things, command):
     sim = start(ROBOT.format(samples, 0, 0, 0) + things)
     sim.step()
     assert abs(sim.commands[0, 0]) == pytest.approx(command)
+
+
+@pytest.mark.parametrize("samples", [31, 180, 181])
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("degrees", [30, 45, 85])
+def test_it_stands_and_turns_for_anything_near_wherever_it_is(start, samples, side, degrees):
+    x, y = (0.3 * part for part in (np.cos(np.radians(degrees)), np.sin(np.radians(degrees))))
+    sim = start(ROBOT.format(samples, 0, 0, 0) + wall(x, side * y))
+    sim.step()
+    assert sim.commands[0, 0] == pytest.approx((0.0, 0.0, -0.5 * side))
+
+
+def stages_answer(ranges):
+    """What Stage 4.3's controller does with a scan when it is not turning: speed and turn."""
+    count = len(ranges)
+    third = count // 3
+    obstruction = any(r < 1.0 for i, r in enumerate(ranges) if third < i < count - third)
+    stop = min(ranges) < 0.3
+    if not (obstruction or stop):
+        return 0.4, 0.0
+    left, right = ranges[count // 2 + 1 :], ranges[: count // 2 + 1]
+    return (0.0 if stop else 0.05), (-0.5 if min(left) < min(right) else 0.5)
+
+
+@pytest.mark.parametrize("samples", [9, 10, 11, 180, 181])
+def test_it_answers_any_scan_as_stage_does(samples):
+    random = np.random.default_rng(samples)
+    manner = np.array([0.4, 0.05, 0.5, 1.0, 0.3, 10])
+    for _ in range(200):
+        nearest = random.choice([0.1, 0.5, 1.5])
+        ranges = random.uniform(nearest, 8.0, (1, samples)) ** random.choice([1.0, 2.0])
+        command, mood = np.zeros((1, 3)), np.zeros((1, 2), np.int64)
+        zero = np.zeros(1, np.int64)
+        wander(0, 1, manner, 5, zero, zero, zero, ranges, command, mood)
+        assert tuple(command[0, [0, 2]]) == stages_answer(ranges[0])
+
+
+def test_it_looks_at_the_first_ranger_of_more_than_8_samples(start):
+    few = "ranger ( sensor ( range [0 8] fov 10 samples 8 ) )"
+    many = SCANNER.format(9)
+    robot = 'position ( size [.1 .1 .1] ctrl "wander" ' + few + many + " pose [0 0 0 0] )"
+    sim = start(robot + wall(0.0, 0.3))  # which the first one does not see
+    sim.step()
+    assert sim.commands[0, 0, 0] == 0.0
 
 
 @pytest.mark.parametrize("samples", [180, 181])
