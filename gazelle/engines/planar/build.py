@@ -96,7 +96,14 @@ def build(recipe: Recipe, nworld: int, threads: int | None) -> tuple[Fleet, Layo
     movers = [each for each in models.values() if not each.still]
     statics = [part for each in models.values() if each.still for part in statics_of(each, levels)]
     bodies = [body_of(each, levels) for each in movers]
-    fleet = Fleet(bodies, statics, nworld=nworld, time_step=recipe.time_step, threads=threads)
+    fleet = Fleet(
+        bodies,
+        statics,
+        nworld=nworld,
+        time_step=recipe.time_step,
+        sweep=bool(recipe.world.profile.speculative_contacts),
+        threads=threads,
+    )
     names = [each.model.name for each in movers]
     return fleet, _layout_of(models, names, recipe.motors, levels)
 

@@ -49,6 +49,7 @@ PIECE_LOW: Final = 3
 PIECE_HIGH: Final = 4
 FIRST: Final = 5  # of its corners
 COUNT: Final = 6  # 0 for a circle
+SLIM: Final = 7  # radius of a disc within it [m]
 PIECE: Final = 8
 
 # Drives: kind, wheelbase, then bounds of velocity and acceleration along x, y and about z.
@@ -73,7 +74,8 @@ LAST_LOOK: Final = 2
 FIRST_PIECE: Final = 3
 LAST_PIECE: Final = 4
 RADIUS: Final = 5  # of all of it about the body's origin [m]
-KIND_OF_BODY: Final = 6
+STRIDE: Final = 6  # farthest that it may go between two looks at what is in its way [m]
+KIND_OF_BODY: Final = 7
 
 # A sensor's place in its world: position, cosine and sine of its heading, height.
 S_X: Final = 0

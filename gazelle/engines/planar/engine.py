@@ -29,7 +29,8 @@ class PlanarEngine(Refusals, PlanarAccess):
     """Many copies of one world in a plane; see ``gazelle.engines.engine.Engine``.
 
     Bases are kinematic: they go as their wheels roll, or as they were told to, and stop at
-    what they would run into. Nothing falls, and nothing is pushed.
+    what they would run into. Nothing falls, and nothing is pushed. What is in the way is looked
+    for where each step ends; on the way too if the profile's ``speculative_contacts`` is true.
 
     Args:
         world: What to simulate; collision shapes are cut at the height of lidars and bases.
@@ -179,6 +180,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         models = self.world.models
         self._recipe = replace(self._recipe, world=replace(world, models=models), time_step=step)
         self._fleet.time_step = step
+        self._fleet.sweep = bool(world.profile.speculative_contacts)
 
     def _cut_at(self, height: float) -> None:
         """Cut shapes at one more height [m], for rays."""

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from gazelle.engines.native import inner, part
 from gazelle.engines.planar.columns import (
     BLOCKED,
@@ -18,9 +20,11 @@ from gazelle.engines.planar.columns import (
     MOVING,
     PASSIVE,
     PUSH,
+    RADIUS,
     SIN,
     SLOWEST,
     STILL,
+    STRIDE,
     WHEELBASE,
     YAW,
     X,
@@ -28,6 +32,8 @@ from gazelle.engines.planar.columns import (
     Z,
 )
 from gazelle.engines.planar.tables import Flags, Floats, Marks
+
+MOST_LOOKS = 1000.0
 
 
 @inner
@@ -139,6 +145,35 @@ def propose(
         state[b] = MOVING
         longest = max(longest, vx * vx + vy * vy)
     return math.sqrt(longest) * dt
+
+
+@inner
+def looks_on_the_way(
+    first: int, last: int, drives: Floats, command: Floats, velocity: Floats, kinds: Floats,
+    dt: float,
+) -> int:  # fmt: skip
+    """Into how many equal parts a step is cut so that no body goes farther than its stride.
+
+    At most 1,000: a command may be anything, and what goes farther than that jumps.
+    """
+    nbody = kinds.shape[0]
+    most = 1.0
+    for b in range(first, last):
+        k = b % nbody
+        d = b % drives.shape[0]
+        kind = drives[d, DRIVE_KIND]
+        if kind == PASSIVE:
+            continue
+        fast = np.zeros(3)
+        for axis in range(3):
+            wanted = command[b, axis]
+            if kind != CAR:
+                wanted = bounded(wanted, drives, d, axis)
+            fast[axis] = max(abs(velocity[b, axis]), abs(wanted))
+        turn = fast[0] / drives[d, WHEELBASE] if kind == CAR else fast[2]
+        way = (fast[0] + fast[1] + turn * kinds[k, RADIUS]) * dt
+        most = max(most, math.ceil(min(way / kinds[k, STRIDE], MOST_LOOKS)))
+    return int(most)
 
 
 @inner

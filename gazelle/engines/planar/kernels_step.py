@@ -8,7 +8,7 @@ from gazelle.engines.native import kernel, whole
 from gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
 from gazelle.engines.planar.kernels_bump import obstructed, statics_meet
 from gazelle.engines.planar.kernels_grid import relink
-from gazelle.engines.planar.kernels_motion import commit, propose
+from gazelle.engines.planar.kernels_motion import commit, looks_on_the_way, propose
 from gazelle.engines.planar.tables import Cells, Flags, Floats, Marks
 
 
@@ -85,3 +85,35 @@ def advance(
             first, last, reach, kinds, pieces, corners, pose, goal, state, stalled, grid, head,
             follow, cell,
         )  # fmt: skip
+
+
+@kernel
+def looks(
+    first: int, last: int, drives: Floats, command: Floats, velocity: Floats, kinds: Floats,
+    dt: float,
+) -> int:  # fmt: skip
+    """``looks_on_the_way`` of the bodies first to last, for who steps a world in parts."""
+    return int(looks_on_the_way(first, last, drives, command, velocity, kinds, dt))
+
+
+@whole
+def advance_swept(
+    first: int, last: int, count: int, widest: float, drives: Floats, command: Floats,
+    velocity: Floats, pose: Floats, goal: Floats, state: Marks, stalled: Flags, dt: float,
+    euler: bool, kinds: Floats, pieces: Floats, corners: Floats, statics: Floats, grid: Floats,
+    start: Cells, items: Cells, lanes: Floats, head: Cells, follow: Cells, cell: Cells,
+) -> None:  # fmt: skip
+    """Do what ``advance`` does, and look what is in the way so often that nothing is jumped over.
+
+    Each world by itself, so that none depends on how fast others go.
+    """
+    nbody = kinds.shape[0]
+    for _ in range(count):
+        for world in range(first // nbody, last // nbody):
+            begin, end = world * nbody, (world + 1) * nbody
+            parts = looks_on_the_way(begin, end, drives, command, velocity, kinds, dt)
+            advance(
+                begin, end, parts, widest, drives, command, velocity, pose, goal, state, stalled,
+                dt / parts, euler, kinds, pieces, corners, statics, grid, start, items, lanes,
+                head, follow, cell,
+            )  # fmt: skip

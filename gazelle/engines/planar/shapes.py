@@ -146,13 +146,14 @@ def pieces_of(parts: Iterable[Part]) -> Pieces:
             continue
         if part.radius > 0.0:
             x, y = points[0]
-            rows.append([x, y, part.radius, part.low, part.high, 0.0, 0.0, 0.0])
+            rows.append([x, y, part.radius, part.low, part.high, 0.0, 0.0, part.radius])
             continue
         for polygon in convex(ccw(points)):
             middle = (polygon.min(axis=0) + polygon.max(axis=0)) / 2.0
             bound = float(np.linalg.norm(polygon - middle, axis=1).max())
             first = sum(map(len, corners))
-            rows.append([*middle, bound, part.low, part.high, first, len(polygon), 0.0])
+            slim = slimness(polygon)
+            rows.append([*middle, bound, part.low, part.high, first, len(polygon), slim])
             corners.append(polygon)
     return Pieces(
         np.array(rows).reshape(-1, c.PIECE),
@@ -169,6 +170,15 @@ def check(part: Part, points: Floats) -> None:
     least = 1 if part.radius > 0.0 else 3 if part.closed else 2
     if len(points) < least or not np.isfinite(points).all() or not math.isfinite(part.radius):
         raise EngineError(f"an outline needs at least {least} finite corners, not {part.points}")
+
+
+def slimness(polygon: Floats) -> float:
+    """Distance from the mean corner of a convex polygon to its nearest side [m]."""
+    along = np.roll(polygon, -1, axis=0) - polygon
+    arm = polygon.mean(axis=0) - polygon
+    aside = np.abs(along[:, 0] * arm[:, 1] - along[:, 1] * arm[:, 0])
+    length = np.hypot(along[:, 0], along[:, 1])
+    return float((aside / np.maximum(length, 1e-300)).min())
 
 
 def ccw(points: Floats) -> Floats:

@@ -48,6 +48,7 @@ class StageSimulation(Senses):
         seed: Decides all random numbers; world i's do not depend on ``nworld``.
         threads: Native threads; all processors if None. Results do not depend on it.
         euler: Move as Stage does, straight ahead and then turning, not along the exact arc.
+        sweep: Look for what is in the way within a step too, so that fast robots jump over nothing.
         controllers: Whether the controllers that the file names (``wander``, ``lasernoise``)
             run.
 
@@ -77,6 +78,7 @@ class StageSimulation(Senses):
         seed: int = 0,
         threads: int | None = None,
         euler: bool = False,
+        sweep: bool = False,
         controllers: bool = True,
     ) -> None:
         self.stage = stage_of(world)
@@ -89,6 +91,7 @@ class StageSimulation(Senses):
                 nworld=nworld,
                 time_step=self.stage.interval_sim,
                 euler=euler,
+                sweep=sweep,
                 threads=threads,
             )
         self.robots, self.things = tuple(layout.robots), tuple(layout.things)
