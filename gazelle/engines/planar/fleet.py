@@ -324,7 +324,7 @@ class Fleet:
     def _looks(self) -> int:
         """Into how many parts the step of one world is cut."""
         own = (self.drives, self._command, self._velocity, self.kinds, self.time_step)
-        return kernels_step.looks(0, self.nbody, *own)
+        return int(kernels_step.looks(0, self.nbody, *own))
 
     def arguments(self) -> tuple[Any, ...]:
         """What ``kernels_step.advance`` works on, after the range and the count."""
