@@ -18,7 +18,7 @@ from gazelle.sensors.lidar import LaserScan, LidarModel
 from gazelle.sensors.magnetometer import MagneticReading, Magnetometer, MagnetometerModel
 from gazelle.sensors.model import SensorModel
 from gazelle.sensors.noise import NoiseModel
-from gazelle.sensors.rendering import View, look_at, render
+from gazelle.sensors.rendering import View, look_at, range_image, render
 from gazelle.sensors.sonar import Sonar, SonarModel, SonarReading
 
 __all__ = [
@@ -52,5 +52,6 @@ __all__ = [
     "WrenchReading",
     "air_pressure",
     "look_at",
+    "range_image",
     "render",
 ]

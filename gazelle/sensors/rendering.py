@@ -54,7 +54,7 @@ def look_at(eye: tuple[float, float, float], target: tuple[float, float, float])
 
 def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
     """A picture, shape (height, width, 3), red, green, blue."""
-    directions = _directions(view)
+    directions = directions_of_view(view, view.samples)
     eye = np.broadcast_to(np.asarray(view.pose.position), directions.shape)
     sight = tracer.trace(eye, directions)
     colour = _background(world, directions)
@@ -68,9 +68,21 @@ def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
     return np.asarray(np.clip(picture, 0.0, 1.0) ** (1 / _GAMMA) * 255.0 + 0.5, dtype=np.uint8)
 
 
-def _directions(view: View) -> Floats:
-    """Unit vectors in the world through every subpixel, row by row, shape (rays, 3)."""
-    across, down = view.width * view.samples, view.height * view.samples
+def range_image(tracer: Tracer, view: View) -> Floats:
+    """Distances to what the middles of pixels show, shape (height, width) [m]; infinite for nothing."""
+    directions = directions_of_view(view, samples=1)
+    eye = np.broadcast_to(np.asarray(view.pose.position), directions.shape)
+    return tracer.trace(eye, directions).distance.reshape(view.height, view.width)
+
+
+def directions_of_view(view: View, samples: int) -> Floats:
+    """Unit vectors in the world through every subpixel, row by row, shape (rays, 3).
+
+    Args:
+        view: From where and how.
+        samples: Subpixels along each side of a pixel.
+    """
+    across, down = view.width * samples, view.height * samples
     focal = across / 2.0 / math.tan(view.horizontal_fov / 2.0)
     left = (across / 2.0 - 0.5 - np.arange(across)) / focal
     up = (down / 2.0 - 0.5 - np.arange(down)) / focal

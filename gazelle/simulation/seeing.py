@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Model, Pose
 from gazelle.engines.tracer import Tracer, make_tracer
-from gazelle.sensors import View, render
+from gazelle.sensors import View, range_image, render
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
@@ -24,6 +24,14 @@ class Eye:
 
     def see(self, simulation: Simulation, view: View, world: int) -> NDArray[np.uint8]:
         """A picture of one world, shape (height, width, 3)."""
+        return render(self._placed(simulation, world), simulation.engine.world, view)
+
+    def measure(self, simulation: Simulation, view: View, world: int) -> NDArray[np.float64]:
+        """Distances to what a picture shows, shape (height, width)."""
+        return range_image(self._placed(simulation, world), view)
+
+    def _placed(self, simulation: Simulation, world: int) -> Tracer:
+        """What follows rays through one world as it is now."""
         engine = simulation.engine
         if self._tracer is None or self._models is not engine.world.models:
             self._models, self._tracer = engine.world.models, make_tracer(engine.world)
@@ -35,4 +43,4 @@ class Eye:
                 for name, p in places.items()
             }
         )
-        return render(self._tracer, engine.world, view)
+        return self._tracer
