@@ -149,7 +149,7 @@ def beside_mujoco(seconds: float) -> None:
     state = sim.engine._batch.get_data(0)  # noqa: SLF001
     model = mujoco.MjModel.from_xml_path(str(BY_HAND))
     data = mujoco.MjData(model)
-    data.ctrl[:] = state.ctrl
+    data.ctrl[:] = state.userdata[: model.nu]  # the velocities that its motors hold
     mujoco.mj_step(model, data, nstep=500)
 
     def simulation() -> float:

@@ -320,13 +320,33 @@ class Engine(Protocol):
             EngineError: There is no such collision.
         """
 
-    def add_motor(self, joint: str, max_effort: float) -> None:
-        """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""
+    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
+        """Give a joint a motor that holds a velocity, zero at first, with limited effort.
+
+        A joint that has one keeps its velocity and gets the effort, in all worlds.
+
+        Args:
+            joint: Scoped name.
+            max_effort: Of all axes or of each [N or N m], shape () or (axes,); zero is a motor
+                that is off.
+
+        Raises:
+            EngineError: The joint has no axis that a motor could turn, or an effort cannot be.
+        """
 
     def set_motor_velocity(
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Set the velocity that a joint's motor holds [m/s or rad/s], shape () or (n,)."""
+        """Set the velocity that a joint's motor holds [m/s or rad/s].
+
+        Args:
+            joint: Scoped name.
+            velocity: Shape () or (n,); of a joint with several axes (), (axes,) or (n, axes).
+            worlds: Which worlds.
+
+        Raises:
+            EngineError: The joint has no motor.
+        """
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""

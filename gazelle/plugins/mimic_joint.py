@@ -17,8 +17,6 @@ Worlds = NDArray[np.intp]
 
 # Time in which a motor makes up for most of what it lacks [s].
 _HASTE = 0.1
-# The effort of a motor that is not to be felt; an engine wants some [N or N m].
-_NONE = 1e-12
 
 
 class MimicJoint(ModelPlugin):
@@ -57,7 +55,7 @@ class MimicJoint(ModelPlugin):
         """Push by PID from now on."""
         gains = Gains.of_ros_control(given, self._effort)
         self._pid = Pid(gains, self._nworld)
-        self._mimic.set_properties(motor_effort=_NONE)
+        self._mimic.set_properties(motor_effort=0.0)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
         """Follow."""

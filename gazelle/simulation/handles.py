@@ -272,12 +272,33 @@ class JointHandle:
         """What the child exerts on the parent, about the joint's origin, in the world frame."""
         return self._engine.joint_wrench(self.name, worlds)
 
-    def add_motor(self, max_effort: float) -> None:
-        """Put a velocity motor of limited effort [N or N m] on it."""
+    def add_motor(self, max_effort: ArrayLike) -> None:
+        """Put a velocity motor on it that holds still until ``drive``.
+
+        Args:
+            max_effort: Of all axes or of each [N or N m], shape () or (axes,).
+
+        Raises:
+            EngineError: It has no axis that a motor could turn, or an effort cannot be.
+        """
         self._engine.add_motor(self.name, max_effort)
 
+    def motor_effort(self, worlds: Worlds | None = None) -> Floats:
+        """Largest efforts of its motor [N or N m], shape (n, axes).
+
+        Raises:
+            EngineError: There is no motor on it.
+        """
+        return self._engine.parameter("motor_effort", self.name, worlds)
+
+    @property
+    def has_motor(self) -> bool:
+        """Whether there is a velocity motor on it."""
+        calls = (call for call in self._engine.history() if call.method == "add_motor")
+        return any(call.arguments[0] == self.name for call in calls)
+
     def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Set what the motor holds [m/s or rad/s], shape () or (n,)."""
+        """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
         self._engine.set_motor_velocity(self.name, velocity, worlds)
 
     def set_properties(

@@ -136,11 +136,24 @@ def test_friction_holds_below_and_slows_evenly_above():
     engine.set_joint_effort("m::j", [[0.09], [0.14]])
     engine.step(1000)
     speed = engine.joint_velocity("m::j")[:, 0]
-    assert abs(speed[0]) < 0.02
-    assert speed[1] == pytest.approx(0.04 / 0.02, rel=0.01)
+    assert abs(speed[0]) < 1e-6
+    assert speed[1] == pytest.approx(0.04 / 0.02, rel=1e-6)
     engine.set_joint_effort("m::j", np.zeros((2, 1)))
     engine.step(200)
     assert engine.joint_velocity("m::j")[1, 0] == pytest.approx(speed[1] - 5.0 * 0.2, rel=0.02)
+
+
+@pytest.mark.parametrize("step", [0.0005, 0.002, 0.005])
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_what_friction_holds_does_not_creep_in_a_minute(step, kind):
+    friction = 5.0 * 9.8 * 1.001
+    along = (0.0, 0.0, 1.0) if kind == "prismatic" else Y
+    inertial = Inertial(5.0, Pose(x=1.0), Inertia(0.01, 0.01, 0.01))
+    joint = Joint("j", kind, "world", "arm", axes=(JointAxis(along, friction=friction),))
+    model = Model("m", links=(Link("arm", inertial=inertial),), joints=(joint,))
+    engine = make_engine("mujoco", scenes.world(model, step=step))
+    engine.step(round(5.0 / step))
+    assert abs(engine.joint_position("m::j")[0, 0]) * 12.0 < 1e-3
 
 
 def test_worlds_with_inertias_of_their_own_have_the_same_stops():

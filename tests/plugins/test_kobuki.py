@@ -68,7 +68,7 @@ def test_it_tells_of_cliffs_when_they_come_and_go():
 
 @pytest.mark.parametrize(
     ("place", "x", "y", "size"),
-    [("center", 0.5, 0.0, "0.1 0.1"), ("left", 0.05, 0.155, "0.06 0.02")],
+    [("center", 0.5, 0.0, "0.1 0.1"), ("left", 0.3, 0.15, "0.06 0.02")],
 )
 def test_it_tells_where_it_is_touched(place, x, y, size):
     with simulate(kobuki(), WALL.format(x=x, y=y, size=size)) as sim:

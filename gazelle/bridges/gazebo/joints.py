@@ -6,7 +6,11 @@ Joints that do not move are there, as in Gazebo: nothing that is done to them ha
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import Context
@@ -63,18 +67,25 @@ class JointServices:
                 upper=_first(wanted.hiStop),
                 worlds=self._entities.worlds,
             )
-            self._set_motor(joint, _first(wanted.fmax), _first(wanted.vel))
+            self._set_motor(joint, list(wanted.fmax), list(wanted.vel))
         except Error as error:
             return no(f"SetJointProperties: {error}")
         return yes("SetJointProperties: properties set")
 
-    def _set_motor(self, joint: JointHandle, effort: float | None, speed: float | None) -> None:
+    def _set_motor(
+        self, joint: JointHandle, efforts: Sequence[float], speeds: Sequence[float]
+    ) -> None:
+        """ODE's motor: either number may come first, and each axis has its own."""
+        if not efforts and not speeds:
+            return
         worlds = self._entities.worlds
-        if effort is not None:
-            joint.add_motor(effort)
-            joint.set_properties(motor_effort=effort, worlds=worlds)
-        if speed is not None and effort is not None:
-            joint.drive(speed, worlds)
+        if not joint.has_motor:
+            joint.add_motor(0.0)
+        known = joint.motor_effort(worlds)[0]
+        if efforts:
+            joint.set_properties(motor_effort=_filled(efforts, known), worlds=worlds)
+        if speeds:
+            joint.drive(_filled(speeds, np.zeros_like(known))[None], worlds)
 
     def apply_effort(self, request: Any) -> Answer:
         """``apply_joint_effort``."""
@@ -102,6 +113,12 @@ class JointServices:
         if found is not None:
             found[1].clear_efforts()
         return {}
+
+
+def _filled(values: Sequence[float], rest: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What is given for the first axes, and ``rest`` for those after."""
+    count = min(len(values), len(rest))
+    return np.concatenate((np.asarray(values[:count], np.float64), rest[count:]))
 
 
 def _first(values: Any) -> float | None:

@@ -295,9 +295,12 @@ class StateAccess(ABC):
     def set_motor_velocity(
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Set the velocity that a joint's motor holds [m/s or rad/s], shape () or (n,)."""
-        column = self._now().motor(joint)
-        self._state.ctrl[rows_of(worlds), column] = velocity
+        """Set the velocity that a joint's motor holds; see the protocol."""
+        columns = self._now().motor(joint).targets
+        given = np.asarray(velocity, np.float64)
+        if columns.stop - columns.start == 1 and given.ndim == 1:
+            given = given[:, None]
+        self._state.userdata[rows_of(worlds), columns] = given
 
     # -- sensing -----------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.loose import tumbling
+from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
@@ -36,31 +37,9 @@ from gazelle.errors import EngineError, EngineWarning
 COLLISION_GROUP = 0
 VISUAL_GROUP = 1
 
-# How many times the inertia that a motor moves is added to its axle; see ``Motor``.
-_ARMATURE_FACTOR = 10.0
-
 # How many times stiffer friction is than the springs across it, where there are springs. In
 # ODE they do not soften it at all; with ten, what it holds creeps by some mm/s at most.
 _SPRING_IMPEDANCE_RATIO = 10.0
-
-
-@dataclass(frozen=True, slots=True)
-class Motor:
-    """A velocity motor on a joint.
-
-    ODE's motor is a constraint solved together with the contacts: the axle turns at the
-    wanted speed whatever inertia hangs on it, as long as the effort suffices. In MuJoCo an
-    actuator of gain (I + A) / dt reaches the wanted speed in one step, and an added
-    armature A, well above the inertia that the contacts reflect to the axle, keeps them
-    from turning it back within the step. The armature does not react on the parent link.
-
-    Attributes:
-        joint: Scoped name.
-        max_effort: [N or N m].
-    """
-
-    joint: str
-    max_effort: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +73,7 @@ class Compiled:
         geoms: Names of MuJoCo's geoms by scoped collision, ``model::link::collision``.
         springs: Indices of MuJoCo's contact pairs that are springs.
         closures: Joints that close loops or couple others.
+        motors: By scoped joint name.
     """
 
     model: mujoco.MjModel
@@ -101,6 +81,7 @@ class Compiled:
     geoms: Mapping[str, list[str]]
     springs: Sequence[int] = ()
     closures: Sequence[Closure] = ()
+    motors: Mapping[str, Motor] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +121,7 @@ class Draft:
         tune_springs(compiled, self.springs)
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
         tune_slips(compiled, self.slips)
+        stiffen(compiled)
         self._solve_at_once(compiled)
         return compiled
 
@@ -162,7 +144,7 @@ def compile_world(recipe: Recipe) -> Compiled:
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()
     finish(model, draft.extras)
-    return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures)
+    return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures, recipe.motors)
 
 
 def draft_world(recipe: Recipe) -> Draft:
@@ -187,8 +169,7 @@ def draft_world(recipe: Recipe) -> Draft:
         add_couplings(spec, tree.bodies, recipe.time_step)
         for closure in tree.closures:
             add_closure(spec, closure, tree.bodies, recipe.time_step)
-    for motor in recipe.motors.values():
-        _add_motor(spec, motor, bodies, recipe.time_step)
+    add_motors(spec, recipe.motors.values(), recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
     hold_tyres(spec, slips, recipe.time_step)
     if _needs_cone(builder.solids):
@@ -203,7 +184,12 @@ def draft_world(recipe: Recipe) -> Draft:
     if pairs.springs:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     closures = [closure for tree in trees.values() for closure in tree.closures]
-    extras = Extras(pairs.bounces, pairs.rubs, tumbling(recipe.world, bodies))
+    extras = Extras(
+        bounces=pairs.bounces,
+        rubs=pairs.rubs,
+        tumbling=tumbling(recipe.world, bodies),
+        motors=motor_count(recipe.motors),
+    )
     return Draft(
         spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras, slips
     )
@@ -352,46 +338,6 @@ def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float
     quaternion = np.zeros(4)
     mujoco.mju_mat2Quat(quaternion, axes.ravel())
     return [float(m) for m in moments], [float(q) for q in quaternion]
-
-
-def _add_motor(
-    spec: mujoco.MjSpec, motor: Motor, bodies: Mapping[str, list[Body]], time_step: float
-) -> None:
-    armature = _ARMATURE_FACTOR * _reflected_inertia(motor.joint, bodies)
-    actuator = spec.add_actuator(
-        name=motor.joint, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=motor.joint
-    )
-    gain = armature / time_step
-    actuator.gaintype = mujoco.mjtGain.mjGAIN_FIXED
-    actuator.biastype = mujoco.mjtBias.mjBIAS_AFFINE
-    actuator.gainprm[0] = gain
-    actuator.biasprm[2] = -gain
-    actuator.armature = armature
-    actuator.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
-    actuator.forcerange = [-motor.max_effort, motor.max_effort]
-
-
-def _reflected_inertia(joint: str, bodies: Mapping[str, list[Body]]) -> float:
-    """An upper estimate of the inertia at an axle: the whole model, at its link's radius."""
-    for parts in bodies.values():
-        for body in parts:
-            if body.joint_name == joint:
-                mass = sum((part.link.inertial or Inertial()).mass for part in parts)
-                slides = body.joint is not None and body.joint.type == "prismatic"
-                return mass if slides else mass * _reach(body) ** 2
-    raise EngineError(f"there is no joint '{joint}' to put a motor on")
-
-
-def _reach(body: Body) -> float:
-    """How far a link's shapes reach from its joint axis, at least a centimetre [m]."""
-    reach = 0.01
-    for collision in body.link.collisions:
-        shape = collision.geometry
-        radius = getattr(shape, "radius", None)
-        if radius is None:
-            radius = max(getattr(shape, "size", (0.05,))) / 2.0
-        reach = max(reach, float(radius))
-    return reach
 
 
 def _first_line(error: Exception) -> str:

@@ -17,11 +17,12 @@ from gazelle.engines.engine import Call, DivergenceError, Floats, Worlds
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.compiler import Compiled, Motor, Recipe, compile_world
+from gazelle.engines.mujoco.compiler import Compiled, Recipe, compile_world
 from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.forcing import ForcedSteps
-from gazelle.engines.mujoco.layout import Layout, Slot, layout_of
+from gazelle.engines.mujoco.layout import Layout, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
+from gazelle.engines.mujoco.motors import motor_again, motor_of, refuse_motors
 from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, check
 from gazelle.engines.mujoco.process import settle
@@ -222,21 +223,21 @@ class MujocoEngine(ForcedSteps):
             if not pair.is_of(gone) and self._batch.eq_active[:, columns[pair.name]].any()
         )
 
-    def add_motor(self, joint: str, max_effort: float) -> None:
-        """Give a joint of one axis a motor that holds a velocity with limited effort [N or N m]."""
-        slots = self._layout.joint(joint)  # motors do not change the layout of joints
-        if len(slots) != 1 or _width(slots[0]) != 1:
-            raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
-        if not max_effort > 0.0:
-            raise EngineError(f"the largest effort of a motor must be positive, not {max_effort:g}")
+    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
+        """Give a joint a motor that holds a velocity with limited effort; see the protocol."""
+        self._layout.joint(joint)  # motors do not change the layout of joints
+        motor = motor_of(joint, max_effort, self._compiled.bodies.values())
+        if joint in self._recipe.motors:
+            self.set_parameter("motor_effort", joint, motor.max_effort)
+            return
         recipe = self._pending or self._recipe
-        motors = {**recipe.motors, joint: Motor(joint, max_effort)}
-        self._pending = replace(recipe, motors=motors)
+        self._pending = replace(recipe, motors={**recipe.motors, joint: motor})
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
         recipe = self._pending or self._recipe
         self._now().model(model)
+        refuse_motors(model, recipe.motors)
         self._change(replace(recipe, kinematic=recipe.kinematic | {model}))
 
     def update_world(self, world: World) -> None:
@@ -344,7 +345,7 @@ class MujocoEngine(ForcedSteps):
     def adopt(self, history: Sequence[Call]) -> None:
         """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
         kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
-        motors = [Motor(*call.arguments) for call in history if call.method == "add_motor"]
+        motors = [motor_again(*call.arguments) for call in history if call.method == "add_motor"]
         pairs = [Attachment(*call.arguments) for call in history if call.method == "attach"]
         recipe = Recipe(
             self.world,
@@ -396,8 +397,3 @@ class MujocoEngine(ForcedSteps):
         """Free threads and memory; the engine must not be used any more."""
         self._pending = None
         del self._batch, self._state
-
-
-def _width(slot: Slot) -> int:
-    width: int = slot.velocity.stop - slot.velocity.start
-    return width

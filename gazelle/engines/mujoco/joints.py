@@ -26,6 +26,9 @@ LIMIT_STEPS = 5.0
 
 _PLAY = 1e-6  # [m or rad]
 
+# MuJoCo's largest impedance.
+_HOLDING = 0.9999
+
 
 def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
     """Let a MuJoCo body move in its parent as the joint says.
@@ -105,6 +108,14 @@ def _floating(body: Any, name: str, joint: Joint, _: float) -> None:
     body.add_freejoint(name=name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
 
 
+def dry_friction(time_step: float) -> tuple[list[float], list[float]]:
+    """MuJoCo's reference and impedance of a friction that stops within a step and holds.
+
+    What it holds creeps by 1e-4 of the acceleration that it holds back, times the step.
+    """
+    return [0.0, -_HOLDING / time_step], [_HOLDING, _HOLDING, 0.001, 0.5, 2.0]
+
+
 def _axis(joint: Joint, index: int) -> JointAxis:
     if index >= len(joint.axes):
         raise EngineError(
@@ -116,11 +127,14 @@ def _axis(joint: Joint, index: int) -> JointAxis:
 
 
 def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, Any]:
+    hold, stiff = dry_friction(time_step)
     options: dict[str, Any] = {
         "pos": list(joint.pose.position),
         "axis": list(joint.pose.rotate(axis.xyz)),
         "damping": [axis.damping, 0.0, 0.0],
         "frictionloss": axis.friction,
+        "solref_friction": hold,
+        "solimp_friction": stiff,
         "stiffness": [axis.spring_stiffness, 0.0, 0.0],
         "springref": axis.spring_reference,
     }

@@ -12,6 +12,7 @@ import mujoco
 from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
+from gazelle.engines.mujoco.motors import MotorSlot, motor_slots
 from gazelle.engines.mujoco.tree import Body, Closure, RootKind
 from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
 from gazelle.errors import EngineError, did_you_mean
@@ -112,7 +113,7 @@ class Layout:
         links: By scoped name.
         joints: Those that move, by scoped name.
         models: By name.
-        motors: Columns in ``ctrl`` by scoped joint name.
+        motors: By scoped joint name.
         collisions: Indices of MuJoCo's geoms by scoped name, ``model::link::collision``.
         attachments: Indices of MuJoCo's equality constraints by name, ``parent>child``.
         reactions: Joints that hold a body, by scoped name.
@@ -126,7 +127,7 @@ class Layout:
     links: Mapping[str, LinkSlot]
     joints: Mapping[str, tuple[Slot, ...]]
     models: Mapping[str, ModelSlot]
-    motors: Mapping[str, int]
+    motors: Mapping[str, MotorSlot]
     collisions: Mapping[str, list[int]]
     attachments: Mapping[str, int]
     reactions: Mapping[str, ReactionSlot]
@@ -160,8 +161,8 @@ class Layout:
         """
         return look_up("model", name, self.models)
 
-    def motor(self, joint: str) -> int:
-        """The column in ``ctrl`` of a joint's motor.
+    def motor(self, joint: str) -> MotorSlot:
+        """Where a joint's motor is.
 
         Raises:
             EngineError: The joint has no motor.
@@ -199,7 +200,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
                 joints[body.joint_name] = _joint_slots(model, body.joint_name)
         if bodies:  # a model may have no links, only plugins
             models[name] = _model_slot(bodies, joints)
-    motors = {model.actuator(column).name: column for column in range(model.nu)}
+    motors = motor_slots(compiled.motors)
     collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
     held = {name: model.equality(name).id for name in attachments}
     columns = {name: tuple(slot.velocity for slot in slots) for name, slots in joints.items()}

@@ -13,7 +13,8 @@ from gazelle.description import World
 from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead, rubs_alike
 from gazelle.errors import EngineError, did_you_mean
 
-_LINE_SEARCH_ITERATIONS = 20
+# So often MuJoCo's line search may halve its interval: motors and dry friction are stiff.
+_LINE_SEARCH_ITERATIONS = 100
 
 _INTEGRATORS = {
     # Semi-implicit Euler as ODE integrates; joint damping is implicit (eulerdamp).

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
 from gazelle.engines.mujoco.layout import Layout, look_up
+from gazelle.engines.mujoco.motors import stiffen_worlds
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.retuning import retune
 from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
@@ -109,7 +110,7 @@ _READERS: dict[str, Callable[[_Target, str], Floats]] = {
     "link_inertia": _read_inertia,
     "link_mass": lambda t, n: np.array([t.batch.model.body_mass[t.body(n)]]),
     "motor_effort": lambda t, n: np.array(
-        [t.batch.model.actuator_forcerange[t.layout.motor(n), 1]]
+        t.batch.model.tendon_frictionloss[t.layout.motor(n).targets]
     ),
     "wheel_slip": _read_slip,
 }
@@ -169,8 +170,7 @@ def _write_limit(target: _Target, name: str, values: Floats, side: int) -> None:
 
 
 def _write_motor(target: _Target, name: str, values: Floats) -> None:
-    both = np.concatenate((-values, values), axis=1)
-    target.batch.expand("actuator_forcerange")[:, target.layout.motor(name)] = both
+    target.batch.expand("tendon_frictionloss")[:, target.layout.motor(name).targets] = values
 
 
 def _write_friction(target: _Target, name: str, values: Floats) -> None:
@@ -224,7 +224,9 @@ _WRITERS: dict[str, Callable[[_Target, str, Floats], None]] = {
     "wheel_slip": _write_slip,
 }
 
-_NOT_NEGATIVE = frozenset({"collision_friction", "joint_damping", "joint_friction", "wheel_slip"})
+_NOT_NEGATIVE = frozenset(
+    {"collision_friction", "joint_damping", "joint_friction", "motor_effort", "wheel_slip"}
+)
 
 # What MuJoCo derives other constants from, by ``mj_setConst``.
 _DERIVED_FROM = frozenset({"link_centre", "link_gravity", "link_inertia", "link_mass"})
@@ -272,6 +274,7 @@ class ParameterStore:
     def _derive(self, batch: Batch, layout: Layout) -> None:
         """What follows from masses and inertias: springs and slips stay as they are."""
         batch.set_const()
+        stiffen_worlds(batch)
         retune(batch, layout.springs)
         for link, slot in layout.tyres.items():
             set_slip(batch, slot, self.read(batch, layout, "wheel_slip", link))
@@ -305,7 +308,7 @@ def check(kind: str, name: str, values: Floats) -> None:
     limits = kind in {"joint_lower", "joint_upper"}
     if np.isnan(values).any() or not (limits or np.isfinite(values).all()):
         raise EngineError(f"the {kind} of '{name}' must be finite")
-    if kind in {"link_mass", "motor_effort"} and not (values > 0.0).all():
+    if kind == "link_mass" and not (values > 0.0).all():
         raise EngineError(f"the {kind} of '{name}' must be positive, not {values.min():g}")
     if kind in _NOT_NEGATIVE and (values < 0.0).any():
         raise EngineError(f"the {kind} of '{name}' must not be negative, not {values.min():g}")

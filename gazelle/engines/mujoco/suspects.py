@@ -59,8 +59,8 @@ def _places(layout: Layout, views: StateViews) -> Iterator[tuple[str, Floats, sl
             yield f"the orientation of link '{name}'", views.mocap_quat, link.mocap
         elif link.body:
             yield f"the force on link '{name}'", views.xfrc_applied, link.body
-    for name, column in layout.motors.items():
-        yield f"the command of the motor on '{name}'", views.ctrl, column
+    for name, motor in layout.motors.items():
+        yield f"the command of the motor on '{name}'", views.userdata, motor.targets
 
 
 def _moving(layout: Layout) -> Iterator[tuple[str, slice]]:

@@ -21,9 +21,11 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
         if former is not None:
             _copy_link(old, former, new, link)
     _copy_tyres(old, old_layout, new, new_layout)
-    for name, column in new_layout.motors.items():
-        if name in old_layout.motors:
-            new.ctrl[:, column] = old.ctrl[:, old_layout.motors[name]]
+    for name, motor in new_layout.motors.items():
+        former_motor = old_layout.motors.get(name)
+        if former_motor is not None:
+            new.userdata[:, motor.targets] = old.userdata[:, former_motor.targets]
+            new.userdata[:, motor.givings] = old.userdata[:, former_motor.givings]
     for name, column in new_layout.attachments.items():
         if name in old_layout.attachments:
             new.eq_active[:, column] = old.eq_active[:, old_layout.attachments[name]]

@@ -25,7 +25,7 @@ class StateViews:
 
     qpos: Floats
     qvel: Floats
-    ctrl: Floats
+    userdata: Floats
     mocap_pos: Floats
     mocap_quat: Floats
     qfrc_applied: Floats
@@ -39,7 +39,7 @@ class StateViews:
         return cls(
             qpos=batch.bind("qpos"),
             qvel=batch.bind("qvel"),
-            ctrl=batch.bind("ctrl"),
+            userdata=batch.bind("userdata"),
             mocap_pos=batch.bind("mocap_pos"),
             mocap_quat=batch.bind("mocap_quat"),
             qfrc_applied=batch.bind("qfrc_applied"),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call, Floats, Worlds
@@ -156,14 +157,15 @@ class PlanarEngine(Refusals, PlanarAccess):
             )
         )
 
-    def add_motor(self, joint: str, max_effort: float) -> None:
+    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
         axes = self._axes(joint)
         if axes.stop - axes.start != 1:
             raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
-        if not max_effort > 0.0:
-            raise EngineError(f"the largest effort of a motor must be positive, not {max_effort:g}")
-        self._change(replace(self._recipe, motors={**self._recipe.motors, joint: max_effort}))
+        most = float(np.asarray(max_effort, np.float64).reshape(-1)[0])
+        if not most > 0.0:
+            raise EngineError(f"the largest effort of a motor must be positive, not {most:g}")
+        self._change(replace(self._recipe, motors={**self._recipe.motors, joint: most}))
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``."""

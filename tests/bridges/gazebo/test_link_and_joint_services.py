@@ -11,6 +11,11 @@ BALL = """<sdf version="1.6"><model name="{name}"><link name="core">
 <inertial><mass>2</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
 <gravity>0</gravity></link></model></sdf>"""
 
+CROSS = """<sdf version="1.6"><model name="cross"><link name="arm"><gravity>0</gravity>
+<inertial><mass>2</mass><inertia>{inertia}</inertia></inertial></link><joint name="both"
+type="universal"><parent>world</parent><child>arm</child><axis><xyz>1 0 0</xyz></axis>
+<axis2><xyz>0 1 0</xyz></axis2></joint></model></sdf>"""
+
 
 @pytest.fixture
 def ball(graph):
@@ -207,3 +212,26 @@ def test_the_damping_of_a_joint_is_set(graph):
     assert answer.status_message == "SetJointProperties: properties set"
     found = graph.sim.engine.parameter("joint_damping", "r1::wheel_left_joint")
     assert np.allclose(found, 0.7)
+
+
+def test_the_motor_of_a_joint_is_set_axis_by_axis_and_in_any_order(graph):
+    def configure(joint, **values):
+        config = load_message("gazebo_msgs/ODEJointProperties")(**values)
+        answer = graph.client.call(
+            "set_joint_properties", "SetJointProperties", joint_name=joint, ode_joint_config=config
+        )
+        assert answer.status_message == "SetJointProperties: properties set"
+
+    text = CROSS.format(inertia="<ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz>")
+    graph.client.call("spawn_sdf_model", "SpawnModel", model_name="cross", model_xml=text)
+    both = graph.sim.robots["cross"].joints["both"]
+    configure("both", vel=[1.0, -2.0])
+    graph.sim.step(50)
+    assert both.velocities()[0] == pytest.approx((0.0, 0.0), abs=1e-9)
+    configure("both", fmax=[1e4, 1e4])
+    graph.sim.step(50)
+    assert both.velocities()[0] == pytest.approx((1.0, -2.0), abs=1e-6)
+    configure("both", fmax=[0.0], vel=[0.5, 0.0])
+    graph.sim.step(50)
+    assert both.velocities()[0, 1] == pytest.approx(0.0, abs=1e-6)
+    assert both.motor_effort()[0].tolist() == [0.0, 1e4]

@@ -24,7 +24,7 @@ def install() -> None:
     elif present is not mine:
         raise EngineError(
             "something else in this process uses MuJoCo's callback mjcb_control",
-            hint="bounces, friction by direction and bodies that tumble in free fall need it",
+            hint="motors, bounces, friction by direction and bodies that tumble need it",
         )
 
 

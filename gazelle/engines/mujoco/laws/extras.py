@@ -37,16 +37,18 @@ class Extras:
         bounces: Whether some contacts bounce.
         rubs: Geoms that rub by direction, by name.
         tumbling: Names of loose bodies that tumble freely.
+        motors: How many motors hold a velocity.
     """
 
     bounces: bool = False
     rubs: Mapping[str, Rub] = field(default_factory=dict)
     tumbling: Sequence[str] = ()
+    motors: int = 0
 
     @property
     def any(self) -> bool:
         """Whether there is need of any."""
-        return bool(self.bounces or self.rubs or self.tumbling)
+        return bool(self.bounces or self.rubs or self.tumbling or self.motors)
 
 
 def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
@@ -79,7 +81,7 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
 
     # The first of the custom numbers: nothing else here adds any.
     numbers = model.numeric_data
-    numbers[:HEAD] = MARK, mujoco.mj_isSparse(model), len(extras.tumbling)
+    numbers[:HEAD] = MARK, mujoco.mj_isSparse(model), len(extras.tumbling), extras.motors
     for place, name in enumerate(extras.tumbling):
         body = model.body(name)
         numbers[HEAD + 2 * place :][:2] = body.id, body.dofadr[0]

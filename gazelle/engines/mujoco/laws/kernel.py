@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.laws.layouts import offsets
+from gazelle.engines.mujoco.laws.motors import drive_motors
 from gazelle.engines.native import floats, integers, long_at, part, whole
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -41,9 +42,10 @@ _ELLIPTIC = 1  # mjCONE_ELLIPTIC
 GEOM_NUMBERS = 5
 NO_DIRECTION, ITS_OWN, BY_THE_NORMAL = 0.0, 1.0, 2.0
 
-# Numbers before those of the tumbling bodies: the mark, whether Jacobians are sparse, and
-# how many bodies tumble. Each has its body and the first of its six velocities.
-HEAD = 3
+# Numbers before those of the tumbling bodies: the mark, whether Jacobians are sparse, how many
+# bodies tumble, and how many motors there are. Each that tumbles has its body and the first of
+# its six velocities.
+HEAD = 4
 
 _ROUNDS = 8
 
@@ -63,6 +65,8 @@ def apply(model: int, data: int) -> None:
         return
     if head[2] > 0.0:
         _keep_turning(model, data, int(head[2]))
+    if head[3] > 0.0:
+        drive_motors(model, data, int(head[3]))
     contacts = long_at(data + AT.contact)
     for index in range(integers(data + AT.ncon, 1)[0]):
         contact = contacts + index * AT.contact_size

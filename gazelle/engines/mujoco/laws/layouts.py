@@ -40,7 +40,14 @@ class Offsets(NamedTuple):
     """
 
     ncon: int
+    ne: int
+    nf: int
     contact: int
+    kind: int
+    owner: int
+    softness: int
+    frictionloss: int
+    userdata: int
     rownnz: int
     rowadr: int
     jacobian: int
@@ -91,7 +98,14 @@ def offsets() -> Offsets:
     option = _struct("mjOption")
     found = Offsets(
         ncon=data.ncon.offset,
+        ne=data.ne.offset,
+        nf=data.nf.offset,
         contact=data.contact.offset,
+        kind=data.efc_type.offset,
+        owner=data.efc_id.offset,
+        softness=data.efc_R.offset,
+        frictionloss=data.efc_frictionloss.offset,
+        userdata=data.userdata.offset,
         rownnz=data.efc_J_rownnz.offset,
         rowadr=data.efc_J_rowadr.offset,
         jacobian=data.efc_J.offset,
@@ -171,6 +185,7 @@ def _verify(found: Offsets) -> None:
     """
     spec = mujoco.MjSpec()
     spec.nuser_geom = 1
+    spec.nuserdata = 1
     spec.add_numeric(name="here", data=[1.0], size=1)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[1, 1, 1])
     body = spec.worldbody.add_body(pos=[0, 0, 0.09])
@@ -185,6 +200,11 @@ def _verify(found: Offsets) -> None:
         (there + found.passive, data.qfrc_passive),
         (there + found.contact, data.contact.dist),
         (there + found.velocity, data.efc_vel),
+        (there + found.kind, data.efc_type),
+        (there + found.owner, data.efc_id),
+        (there + found.softness, data.efc_R),
+        (there + found.frictionloss, data.efc_frictionloss),
+        (there + found.userdata, data.userdata),
         (there + found.reference, data.efc_aref),
         (there + found.jacobian, data.efc_J),
         (here + found.model_numeric, model.numeric_data),
@@ -199,5 +219,5 @@ def _verify(found: Offsets) -> None:
     if not (right and step == model.opt.timestep and count == data.ncon == 1):
         raise EngineError(
             f"MuJoCo {mujoco.__version__} is not laid out as it says",
-            hint="bounces, turning friction and tumbling bodies need a release from PyPI",
+            hint="motors, bounces, turning friction and tumbling bodies need a release from PyPI",
         )
