@@ -1,5 +1,6 @@
 """What the documentation shows works as typed."""
 
+import importlib
 import re
 import subprocess
 import sys
@@ -56,6 +57,44 @@ def test_links_and_commands_of_a_page_exist(page):
             assert (page.parent / target).exists(), target
     for command in re.findall(r"(?:^ {4}|`)gazelle ([a-z]+)\b", text, re.MULTILINE):
         assert command in {**COMMANDS, **tool_names.COMMANDS}, command
+
+
+def test_our_names_beside_those_of_other_tools_exist():
+    """Each is a method, property or field of what its first word stands for."""
+    import gazelle
+    from gazelle import clients
+    from gazelle.simulation.physics import _NAMES as PHYSICS
+    from gazelle.simulation.physics import PhysicsProperties
+
+    text = (ROOT / "docs" / "names.md").read_text()
+    owners = {
+        "gazebo": clients.Gazebo,
+        "controllers": clients.Controllers,
+        "processes": clients.Processes,
+    }
+    found = re.findall(r"`(?:with )?([a-z]+)\.(\w+)", text)
+    missing = [
+        f"{owner}.{name}"
+        for owner, name in found
+        if owner in owners and not hasattr(owners[owner], name)
+    ]
+    with gazelle.Simulation("empty", engine="planar") as sim:
+        sim.spawn("turtlebot3_burger", name="robot")
+        there = {"sim": sim, "robot": sim.robots["robot"]}
+        missing += [
+            f"{owner}.{name}"
+            for owner, name in found
+            if owner in there and not hasattr(there[owner], name)
+        ]
+    for name in re.findall(r"`sim\.physics\.(\w+)", text):
+        if name not in PHYSICS and not hasattr(PhysicsProperties, name):
+            missing.append(f"sim.physics.{name}")
+    for dotted in re.findall(r"`(?:with )?(gazelle(?:\.\w+)+)", text):
+        module, _, name = dotted.rpartition(".")
+        if not hasattr(importlib.import_module(module), name):
+            missing.append(dotted)
+    assert missing == []
+    assert len(found) > 60
 
 
 def test_the_readme_names_the_two_commands_first():
