@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.ros import names
-from gazelle.ros.errors import report
+from gazelle.ros.errors import MarshalError, report
 from gazelle.ros.xmlrpc.server import UnknownMethodError
+from gazelle.ros.xmlrpc.writing import check_value
 
 Triple = tuple[int, str, Any]
 Check = Callable[[str, Any, str], Any]
@@ -44,8 +45,8 @@ class Api:
     def __init__(self, methods: dict[str, Method]) -> None:
         self._methods = methods
 
-    def dispatch(self, name: str, params: list[Any]) -> list[Any]:
-        """Do a call.
+    def prepare(self, name: str, params: list[Any]) -> Callable[[], list[Any]]:
+        """Check the arguments of a call; what does it is returned, and its answer never raises.
 
         Raises:
             UnknownMethodError: There is no such method.
@@ -53,24 +54,40 @@ class Api:
         method = self._methods.get(name)
         if method is None:
             raise UnknownMethodError(name)
-        return list(_call(name, method, params))
+        try:
+            caller, arguments = _checked(method, params)
+        except BadArgumentError as error:
+            refusal = [-1, str(error), method.failure]
+            return lambda: refusal
+        return lambda: list(_call(name, method, caller, arguments))
+
+    def dispatch(self, name: str, params: list[Any]) -> list[Any]:
+        """Do a call.
+
+        Raises:
+            UnknownMethodError: There is no such method.
+        """
+        return self.prepare(name, params)()
 
 
-def _call(name: str, method: Method, params: list[Any]) -> Triple:
+def _checked(method: Method, params: list[Any]) -> tuple[str, list[Any]]:
+    """The caller and the arguments.
+
+    Raises:
+        BadArgumentError: One is wrong.
+    """
     if not params:
-        return -1, "missing required caller_id parameter", method.failure
+        raise BadArgumentError("missing required caller_id parameter")
     caller = params[0]
     if not isinstance(caller, str):
-        return -1, "caller_id must be a string", method.failure
+        raise BadArgumentError("caller_id must be a string")
     if len(params) - 1 != len(method.checks):
-        return -1, "Error: bad call arity", method.failure
-    try:
-        arguments = [
-            check(label, value, caller)
-            for (label, check), value in zip(method.checks, params[1:], strict=True)
-        ]
-    except BadArgumentError as error:
-        return -1, str(error), method.failure
+        raise BadArgumentError("Error: bad call arity")
+    given = zip(method.checks, params[1:], strict=True)
+    return caller, [check(label, value, caller) for (label, check), value in given]
+
+
+def _call(name: str, method: Method, caller: str, arguments: list[Any]) -> Triple:
     try:
         return method.function(caller, *arguments)
     except BadArgumentError as error:
@@ -111,6 +128,15 @@ def given(label: str, value: Any, _caller: str) -> Any:
     """Any value but nil."""
     if value is None:
         raise BadArgumentError(f"ERROR: parameter [{label}] must be specified")
+    return value
+
+
+def carriable(label: str, value: Any, caller: str) -> Any:
+    """Any value that an answer can carry, so that others can read it."""
+    try:
+        check_value(given(label, value, caller))
+    except MarshalError as error:
+        raise BadArgumentError(f"Error: invalid arguments: {error}") from None
     return value
 
 

@@ -31,7 +31,7 @@ from gazelle.ros.slave import SlaveApi
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.server import TcprosServer
 from gazelle.ros.topics import TopicUser
-from gazelle.ros.xmlrpc.client import AsyncClient
+from gazelle.ros.xmlrpc.async_client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 if TYPE_CHECKING:
@@ -117,7 +117,9 @@ class Node(TopicUser, ServiceUser):
         try:
             self.calls = AsyncClient(self.loop, limits=self.limits, lost=self._lost)
             slave = SlaveApi(self)
-            self._server = XmlRpcServer(self.loop, self.host, 0, slave.dispatch, self.limits)
+            self._server = XmlRpcServer(
+                self.loop, self.host, 0, slave.dispatch, self.limits, slave.prepare
+            )
             opened.append(self._server.close)
             self._tcpros = TcprosServer(self.loop, self.host, self._route, self.limits)
             opened.append(lambda: self.loop.run(self._tcpros.close))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from gazelle.ros.clock import Clock
     from gazelle.ros.registration import Registrar
     from gazelle.ros.statistics import Statistics
-    from gazelle.ros.xmlrpc.client import AsyncClient
+    from gazelle.ros.xmlrpc.async_client import AsyncClient
 
 
 class NodeBase:

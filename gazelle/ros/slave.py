@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros import apis
@@ -48,6 +48,10 @@ class SlaveApi:
     def dispatch(self, method: str, params: list[Any]) -> list[Any]:
         """Do a call; see `gazelle.ros.apis.Api.dispatch`."""
         return self._api.dispatch(method, params)
+
+    def prepare(self, method: str, params: list[Any]) -> Callable[[], list[Any]]:
+        """Check the arguments of a call; see `gazelle.ros.apis.Api.prepare`."""
+        return self._api.prepare(method, params)
 
     def get_pid(self, _caller: str) -> Triple:
         """The node's process."""

@@ -8,10 +8,8 @@ from typing import Any
 
 from gazelle.ros import apis, names
 from gazelle.ros.apis import Api, BadArgumentError, Method, Triple
-from gazelle.ros.errors import MarshalError
 from gazelle.ros.master.parameters import ParameterTree, changes
 from gazelle.ros.master.registrations import NodeEntry, Registrations, Roles
-from gazelle.ros.xmlrpc.writing import check_value
 
 CALLER = "/master"
 """What the master calls itself when it calls nodes."""
@@ -40,11 +38,15 @@ class MasterApi:
         """Do a call; see `gazelle.ros.apis.Api.dispatch`."""
         return self._api.dispatch(method, params)
 
+    def prepare(self, method: str, params: list[Any]) -> Callable[[], list[Any]]:
+        """Check the arguments of a call; see `gazelle.ros.apis.Api.prepare`."""
+        return self._api.prepare(method, params)
+
     def _methods(self) -> dict[str, Method]:
         topic, kind = ("topic", apis.graph_name), ("topic_type", apis.message_type)
         service, address = ("service", apis.graph_name), ("service_api", apis.api_uri)
         caller = ("caller_api", apis.api_uri)
-        key, value = ("key", apis.parameter), ("value", apis.given)
+        key, value = ("key", apis.parameter), ("value", apis.carriable)
         return {
             "getPid": Method(self.get_pid, -1),
             "getUri": Method(self.get_uri, ""),
@@ -174,9 +176,8 @@ class MasterApi:
     def set_param(self, caller: str, key: str, value: Any) -> Triple:
         """Set a parameter or, with a dict, a whole namespace."""
         try:
-            check_value(value)  # what others could not read would make every answer fail
             self.parameters.set(key, value)
-        except (TypeError, MarshalError) as error:
+        except TypeError as error:
             raise BadArgumentError(str(error)) from None
         self._tell_parameter(caller, key, value)
         return 1, f"parameter {key} set", 0

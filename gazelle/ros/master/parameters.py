@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 from gazelle.ros.names import SEPARATOR, canonical, namespace_of
 
 _MISSING = object()
+_MOST_FRESH = 10_000
 
 
 class ParameterTree:
-    """Nested dicts, addressed by names like ``/a/b``."""
+    """Nested dicts, addressed by names like ``/a/b``.
+
+    What was given out never changes, so it need not be copied, however large, and may be read on
+    any thread: a change copies the dicts on its way, but for those that it made since the last
+    value was given out.
+    """
 
     def __init__(self) -> None:
         self._root: dict[str, Any] = {}
+        self._fresh: dict[int, dict[str, Any]] = {}
+        """Dicts that nobody else has, by their identity."""
 
     def get(self, key: str) -> Any:
-        """A copy of the value of `key`; a namespace is a dict.
+        """The value of `key`, which is not to be changed; a namespace is a dict.
 
         Raises:
             KeyError: It is not set.
@@ -26,7 +33,8 @@ class ParameterTree:
         value = self._find(key)
         if value is _MISSING:
             raise KeyError(key)
-        return copy.deepcopy(value)
+        self._fresh.clear()
+        return value
 
     def has(self, key: str) -> bool:
         """True if `key` is set, if only to an empty dict."""
@@ -35,23 +43,18 @@ class ParameterTree:
     def set(self, key: str, value: Any) -> None:
         """Set `key`; a dict replaces the whole namespace, a scalar in the way gives way.
 
+        The value is not to be changed afterwards.
+
         Raises:
             TypeError: The root is to be something other than a dict.
         """
         parts = _parts(key)
-        value = copy.deepcopy(value)
         if not parts:
             if not isinstance(value, dict):
                 raise TypeError("cannot set root of parameter tree to non-dictionary")
             self._root = value
             return
-        place = self._root
-        for part in parts[:-1]:
-            inner = place.get(part)
-            if not isinstance(inner, dict):
-                inner = place[part] = {}
-            place = inner
-        place[parts[-1]] = value
+        self._writable(parts[:-1])[parts[-1]] = value
 
     def delete(self, key: str) -> None:
         """Remove `key` and all below it.
@@ -67,7 +70,25 @@ class ParameterTree:
             place = place.get(part) if isinstance(place, dict) else None
         if not isinstance(place, dict) or parts[-1] not in place:
             raise KeyError(key)
-        del place[parts[-1]]
+        del self._writable(parts[:-1])[parts[-1]]
+
+    def _writable(self, parts: list[str]) -> dict[str, Any]:
+        """The dict at the end of a way, after all on the way were copied that others may have."""
+        place = self._root = self._own(self._root)
+        for part in parts:
+            inner = place.get(part)
+            place[part] = self._own(inner if isinstance(inner, dict) else {})
+            place = place[part]
+        return place
+
+    def _own(self, tree: dict[str, Any]) -> dict[str, Any]:
+        if id(tree) in self._fresh:
+            return tree
+        if len(self._fresh) >= _MOST_FRESH:
+            self._fresh.clear()
+        made = dict(tree)
+        self._fresh[id(made)] = made
+        return made
 
     def names(self) -> list[str]:
         """All keys that hold a value; namespaces and empty dicts are not among them."""

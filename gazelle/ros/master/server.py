@@ -16,7 +16,7 @@ from gazelle.ros.errors import RosError
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.master.api import MasterApi
 from gazelle.ros.master.proxy import TAKEN_HINT, MasterProxy
-from gazelle.ros.xmlrpc.client import AsyncClient
+from gazelle.ros.xmlrpc.async_client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 _PATIENCE_S = 3.0
@@ -64,7 +64,9 @@ class Master:
         self._calls = AsyncClient(self._loop, _PATIENCE_S, limits)
         self.api = MasterApi(self._notify, self._ask_to_end)
         try:
-            self._server = XmlRpcServer(self._loop, host, port, self.api.dispatch, limits)
+            self._server = XmlRpcServer(
+                self._loop, host, port, self.api.dispatch, limits, self.api.prepare
+            )
         except OSError as error:
             loop.release(self._loop)
             raise _cannot_listen(error, host, port) from None

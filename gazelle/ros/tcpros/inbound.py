@@ -13,7 +13,7 @@ from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.attendant import Attendant
 from gazelle.ros.tcpros.frames import FrameReader
-from gazelle.ros.xmlrpc.client import AsyncClient
+from gazelle.ros.xmlrpc.async_client import AsyncClient
 
 _FIRST_RETRY_S = 0.1
 _LAST_RETRY_S = 8.0

@@ -80,7 +80,8 @@ class MessageReader:
         message, length = self._message, self._length
         if message is None or length is None or len(self._buffer) < length:
             return None
-        message.body = bytes(self._buffer[:length])
+        with memoryview(self._buffer) as view:
+            message.body = bytes(view[:length])
         del self._buffer[:length]
         self._message, self._searched = None, 0
         return message

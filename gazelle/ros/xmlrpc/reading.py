@@ -26,6 +26,7 @@ _EXPECTED_IN: dict[str, frozenset[str]] = {
     "name": frozenset({"member"}),
 }
 _MISSING = object()
+_PIECE_BYTES = 64 * 1024
 
 
 def read_call(document: bytes, limits: Limits = LIMITS) -> tuple[str, list[Any]]:
@@ -64,7 +65,11 @@ def read_response(document: bytes, limits: Limits = LIMITS) -> Any:
 def _read(document: bytes, root: str, limits: Limits) -> _Reader:
     reader = _Reader(root, limits)
     try:
-        reader.parser.Parse(document, True)
+        # Piece by piece: meanwhile no other thread runs.
+        with memoryview(document) as view:
+            for begin in range(0, len(document), _PIECE_BYTES):
+                reader.parser.Parse(view[begin : begin + _PIECE_BYTES])
+        reader.parser.Parse(b"", True)
     except expat.ExpatError as error:
         raise MarshalError(f"not well-formed XML: {error}") from None
     except (RecursionError, UnicodeError, LookupError) as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import socket
 import time
 from collections.abc import Callable
@@ -12,10 +13,15 @@ from gazelle.ros.errors import MarshalError, report
 from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.loop import READ, WRITE, EventLoop
 from gazelle.ros.xmlrpc.http import HttpError, Message, MessageReader, response
+from gazelle.ros.xmlrpc.long_documents import LONG_BYTES, Aside, is_long
 from gazelle.ros.xmlrpc.reading import read_call
 from gazelle.ros.xmlrpc.writing import write_fault, write_response
 
 Dispatch = Callable[[str, list[Any]], Any]
+Step = Callable[[], Any]
+"""Does a call whose arguments are checked, and returns the value of the answer."""
+Prepare = Callable[[str, list[Any]], Step]
+"""Checks the arguments of a call, on any thread."""
 
 _PATHS = frozenset({"/", "/RPC2"})
 _CHUNK = 65536
@@ -32,12 +38,16 @@ class UnknownMethodError(Exception):
 class XmlRpcServer:
     """Answers calls; `dispatch(method, params)` runs on the leader and must be quick.
 
+    Long requests are read, and long answers written, on another thread, so that nobody else waits.
+
     Args:
         loop: Where it lives.
         host: The name peers use; it decides the interface.
         port: 0 for any free one.
         dispatch: Returns the value of the answer; what it raises becomes a fault.
         limits: What peers may demand.
+        prepare: Used instead of `dispatch`, where checking arguments may take long: it does
+            that on any thread, and only what it returns runs on the leader.
 
     Raises:
         OSError: The port is taken.
@@ -50,9 +60,11 @@ class XmlRpcServer:
         port: int,
         dispatch: Dispatch,
         limits: Limits = LIMITS,
+        prepare: Prepare | None = None,
     ) -> None:
         self._loop = loop
-        self._dispatch = dispatch
+        self._prepare = prepare or functools.partial(functools.partial, dispatch)
+        self.aside = Aside(loop)
         self.limits = limits
         self._connections: dict[_Connection, None] = {}
         self._listener = net.listen(host, port)
@@ -103,37 +115,54 @@ class XmlRpcServer:
         """A connection closed."""
         self._connections.pop(connection, None)
 
-    def answer(self, message: Message) -> tuple[int, bytes]:
-        """Status and body that answer a request."""
-        if message.first[0] != "POST":
-            return 501, b"POST only"
-        if message.first[1] not in _PATHS:
-            return 404, b"No such page"
-        return 200, self._answer_call(message.body)
-
-    def _answer_call(self, body: bytes) -> bytes:
+    def prepared(self, body: bytes) -> Step:
+        """What does the call of a document on the leader; raises nothing, and may take long."""
         try:
-            method, params = read_call(body, self.limits)
-            return write_response(self.call(method, params))
+            return self._prepare_call(*read_call(body, self.limits))
         except Exception as error:  # noqa: BLE001  # a bad call must not end the server
-            if not isinstance(error, (MarshalError, UnknownMethodError)):
-                report("an XML-RPC call", error)
-            return write_fault(1, _fault_text(error))
+            return functools.partial(_raise, error)
 
-    def call(self, method: str, params: list[Any]) -> Any:
-        """Do a call, or several in one."""
+    def _prepare_call(self, method: str, params: list[Any]) -> Step:
+        """A call, or several in one."""
         if method != "system.multicall":
-            return self._dispatch(method, params)
+            return self._prepare(method, params)
         calls = params[0] if len(params) == 1 and isinstance(params[0], list) else None
         if calls is None:
             raise MarshalError("system.multicall expects one array")
-        return [self._call_one(call) for call in calls]
+        steps = [self._prepare_one(call) for call in calls]
+        return lambda: [_do_one(step) for step in steps]
 
-    def _call_one(self, call: Any) -> Any:
+    def _prepare_one(self, call: Any) -> Step:
         try:
-            return [self._dispatch(*_inner_call(call))]
+            return self._prepare(*_inner_call(call))
         except Exception as error:  # noqa: BLE001  # each call of several fails for itself
-            return {"faultCode": 1, "faultString": _fault_text(error)}
+            return functools.partial(_raise, error)
+
+
+def _raise(error: Exception) -> None:
+    raise error
+
+
+def _do_one(step: Step) -> Any:
+    """Do one of several calls, which fails for itself."""
+    try:
+        return [step()]
+    except Exception as error:  # noqa: BLE001  # as above
+        return {"faultCode": 1, "faultString": _fault_text(error)}
+
+
+def _answered(value: Any) -> bytes:
+    """The document of an answer; raises nothing, and may take long."""
+    try:
+        return write_response(value)
+    except Exception as error:  # noqa: BLE001  # a bad value must not end the server
+        return _failed(error)
+
+
+def _failed(error: Exception) -> bytes:
+    if not isinstance(error, (MarshalError, UnknownMethodError)):
+        report("an XML-RPC call", error)
+    return write_fault(1, _fault_text(error))
 
 
 def _inner_call(call: Any) -> tuple[str, list[Any]]:
@@ -159,6 +188,8 @@ class _Connection:
         self._reader = MessageReader(server.limits)
         self._outgoing = bytearray()
         self._closing = False
+        self._working = False
+        """Whether a long document is read or written for it."""
         self._events = READ
         self.last_heard = time.monotonic()
         loop.watch(sock, READ, self._ready)
@@ -166,6 +197,8 @@ class _Connection:
     @property
     def idle(self) -> bool:
         """True if no request and no answer is under way."""
+        if self._working:
+            return False
         silent = time.monotonic() - self.last_heard > self._server.limits.idle_seconds
         return not self._outgoing and (silent or not self._reader)
 
@@ -201,7 +234,7 @@ class _Connection:
 
     def _serve(self) -> None:
         """Answer every whole request, but none before the client took the last answer."""
-        while not self._closing and not self._outgoing and self._answer_next():
+        while not (self._closing or self._working or self._outgoing) and self._answer_next():
             self._flush()
 
     def _answer_next(self) -> bool:
@@ -218,11 +251,72 @@ class _Connection:
                 self._outgoing += b"HTTP/1.1 100 Continue\r\n\r\n"
                 return True
             return False
-        status, body = self._server.answer(message)
+        return self._exchange(message)
+
+    def _exchange(self, message: Message) -> bool:
+        """Answer a request; False if that goes on beside the loop."""
+        if message.first[0] != "POST":
+            self._put(message, b"POST only", 501)
+        elif message.first[1] not in _PATHS:
+            self._put(message, b"No such page", 404)
+        elif len(message.body) > LONG_BYTES:
+            self._aside(lambda: self._read_long(message))
+        else:
+            self._do(message, self._server.prepared(message.body))
+        return not self._working
+
+    def _aside(self, task: Callable[[], None]) -> None:
+        """Do something that takes long; nothing more is read until it is done."""
+        self._working = True
+        self._wait_for(0)
+        self._server.aside.post(task)
+
+    def _read_long(self, message: Message) -> None:
+        step = self._server.prepared(message.body)
+        message.body = b""
+        self._loop.call_soon(lambda: self._do_later(message, step))
+
+    def _do_later(self, message: Message, step: Step) -> None:
+        if self._sock.fileno() >= 0:
+            self._working = False
+            self._do(message, step)
+            self._go_on()
+
+    def _do(self, message: Message, step: Step) -> None:
+        try:
+            value = step()
+        except Exception as error:  # noqa: BLE001  # a bad call must not end the server
+            self._put(message, _failed(error))
+            return
+        if is_long(value):
+            self._aside(lambda: self._write_long(message, value))
+        else:
+            self._put(message, _answered(value))
+
+    def _write_long(self, message: Message, value: Any) -> None:
+        body = _answered(value)
+        self._loop.call_soon(lambda: self._put_later(message, body))
+
+    def _put_later(self, message: Message, body: bytes) -> None:
+        if self._sock.fileno() >= 0:
+            self._working = False
+            self._put(message, body)
+            self._go_on()
+
+    def _go_on(self) -> None:
+        """Send what there is, and answer what came meanwhile."""
+        if self._working:
+            return
+        try:
+            self._flush()
+            self._serve()
+        except OSError:
+            self.close()
+
+    def _put(self, message: Message, body: bytes, status: int = 200) -> None:
         self._closing = not message.keep_alive
         kind = "text/xml" if status == 200 else "text/plain"
         self._outgoing += response(status, body, keep_alive=message.keep_alive, kind=kind)
-        return True
 
     def _flush(self) -> None:
         try:

@@ -12,6 +12,7 @@ from gazelle.ros.errors import MarshalError
 
 INT_MIN, INT_MAX = -(2**31), 2**31 - 1
 _DEEPEST = 100
+_PIECE = 64 * 1024
 # What XML 1.0 cannot carry, whatever the escape; a lone surrogate cannot be UTF-8.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 _SPECIAL = re.compile("[&<>\r]")
@@ -64,6 +65,9 @@ def escape(text: str) -> str:
     Raises:
         MarshalError: It holds control characters.
     """
+    if len(text) > _PIECE:  # piece by piece: meanwhile no other thread runs
+        pieces = range(0, len(text), _PIECE)
+        return "".join(escape(text[begin : begin + _PIECE]) for begin in pieces)
     if text.isascii() and text.isalnum():
         return text
     if _FORBIDDEN.search(text):
