@@ -71,14 +71,36 @@ def add_file_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_scenario_options(parser: argparse.ArgumentParser) -> None:
+    """The options that say where episodes of navigation tasks begin and end."""
+    group = parser.add_argument_group("starts and goals (of navigation tasks)")
+    kinds = "published, training or held-out"
+    group.add_argument("--goals", metavar="KIND", help=f"where goals are: {kinds}")
+    group.add_argument(
+        "--starts", metavar="KIND", help=f"how robot and obstacles stand at first: {kinds}"
+    )
+
+
+def add_import_option(parser: argparse.ArgumentParser) -> None:
+    """The option that finds tasks of the user's own."""
+    parser.add_argument(
+        "--import",
+        dest="imports",
+        metavar="MODULE",
+        action="append",
+        default=[],
+        help="a module or file that registers your task (repeatable)",
+    )
+
+
 def environment_options(args: argparse.Namespace) -> dict[str, Any]:
-    """What `add_environment_options` and `add_file_options` collected, without what is not given."""
+    """What the functions above collected of a task's options, without what is not given."""
     options = dict(args.option)
-    for name in ("engine", "world", "robot"):
+    for name in ("engine", "world", "robot", "goals", "starts"):
         value = getattr(args, name, None)
         if value is not None:
             # A run must find its files again, wherever it is evaluated from.
-            file = name != "engine" and Path(value).exists()
+            file = name in {"world", "robot"} and Path(value).exists()
             options[name] = str(Path(value).resolve()) if file else value
     return options
 

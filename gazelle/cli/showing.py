@@ -38,6 +38,7 @@ def evaluation(result: Evaluation) -> str:
         ("success", rate(result.success)),
         ("collision", rate(result.collision)),
         ("time-out", rate(result.timeout)),
+        *([("other end", rate(result.other))] if result.other.count else []),
         ("mean return", f"{result.mean_return:.2f}"),
         ("mean length", f"{result.mean_length:.1f} control steps"),
         ("speed", speed(result.wall_seconds, result.sim_seconds)),

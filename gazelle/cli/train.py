@@ -1,31 +1,40 @@
 """Train a policy for a task on many copies of its world at once, or go on with a
-run that was stopped. Ctrl-C saves a checkpoint first.
+run that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
 
   gazelle train TurtleBot3Stage1
   gazelle train TurtleBot3Stage4 --steps 2e6 --seed 3
-  gazelle train --resume runs/TurtleBot3Stage1-ppo-20261105-140302
+  gazelle train --resume runs/TurtleBot3Stage1-ppo-20261105-140302 [--steps 4e6]
+  gazelle train my/Task-v0 --import my_tasks.py
+  gazelle train my_package.tasks:my/Task-v0
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import add_environment_options, add_file_options, environment_options
+from gazelle.cli.parsing import (
+    add_environment_options,
+    add_file_options,
+    add_import_option,
+    add_scenario_options,
+    environment_options,
+)
 
 if TYPE_CHECKING:
     from gazelle.training import TrainResult
 
-INTERRUPTED = 130
-
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("task", nargs="?", metavar="TASK", help="a name from 'gazelle tasks'")
+    parser.add_argument(
+        "task", nargs="?", metavar="TASK", help="a name from 'gazelle tasks', or MODULE:ID"
+    )
     parser.add_argument("--algo", metavar="NAME", help="ppo, dqn, sac, td3 or ddpg")
     parser.add_argument(
         "--steps", metavar="N", type=positive_int, help="control steps, all copies together"
@@ -39,7 +48,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
     )
+    add_import_option(parser)
     add_file_options(parser)
+    add_scenario_options(parser)
     add_environment_options(parser)
     parser.set_defaults(parser=parser)
 
@@ -50,7 +61,10 @@ def run(args: argparse.Namespace) -> int:
     from gazelle.training import choose_progress, resume, train
 
     if args.resume is not None:
-        return report(resume(args.resume, progress=choose_progress()))
+        result = resume(
+            args.resume, steps=args.steps, progress=choose_progress(), imports=args.imports
+        )
+        return report(result)
     result = train(
         args.task,
         algo=args.algo,
@@ -60,6 +74,7 @@ def run(args: argparse.Namespace) -> int:
         out=args.out or Path("runs"),
         checkpoint_every=args.checkpoint_every,
         progress=choose_progress(),
+        imports=args.imports,
         **environment_options(args),
     )
     return report(result)
@@ -74,9 +89,12 @@ def report(result: TrainResult) -> int:
             f"stopped at {result.steps:,} of {total:,} steps; everything is saved\n"
             f"  go on with: {showing.program()} train --resume {folder}\n"
         )
-        return INTERRUPTED
+        return 128 + (result.stop_signal or signal.SIGINT)
     if not result.new_steps:
-        sys.stdout.write(f"nothing left to do: the run has its {result.steps:,} steps\n")
+        sys.stdout.write(
+            f"nothing left to do: the run has its {result.steps:,} steps "
+            "(--steps N trains on to more)\n"
+        )
     else:
         sys.stdout.write(f"trained: {showing.training(result, indent=9)}\n")
     sys.stdout.write(
@@ -94,8 +112,8 @@ def _check(args: argparse.Namespace) -> None:
         if args.task is None:
             parser.error("which task? (or which run, with --resume)")
         return
-    fixed = ["task", "algo", "steps", "num_envs", "seed", "checkpoint_every", "out"]
-    fixed += ["engine", "world", "robot"]
+    fixed = ["task", "algo", "num_envs", "seed", "checkpoint_every", "out"]
+    fixed += ["engine", "world", "robot", "goals", "starts"]
     given = [name for name in fixed if getattr(args, name) is not None]
     if given or args.option:
         name = (given or ["option"])[0].replace("_", "-")

@@ -16,6 +16,7 @@ environment wraps one with many worlds, a single environment one with one world.
 
 from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
 from gazelle.envs.errors import ClosedEnvError, ResetNeededError
+from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.registry import register_all, task_ids
 from gazelle.envs.single_env import TaskEnv
@@ -24,6 +25,7 @@ from gazelle.envs.vector_env import TaskVectorEnv
 __all__ = [
     "BatchedTask",
     "ClosedEnvError",
+    "FloorPlan",
     "GoalTable",
     "ResetNeededError",
     "TaskEnv",

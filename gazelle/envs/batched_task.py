@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.envs.autoreset import with_idle
+from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 
 Bool = NDArray[np.bool_]
@@ -18,6 +19,9 @@ Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
 Worlds = NDArray[np.intp]
 Info = dict[str, NDArray[Any]]
+
+SCENARIO = "scenario"
+"""In the info of a first moment: see `BatchedTask.scenario`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,12 +100,16 @@ class BatchedTask(ABC):
         observation_space: Of one world.
         action_space: Of one world.
         control_period: Simulated time of one control step [s].
+        scenario_names: What the numbers of `scenario` are, such as ``start_x``.
+        floor_plan: What stands in the world, seen from above; None if it cannot tell.
         elapsed: Control steps of the current episode, shape (nworld,).
     """
 
     observation_space: gym.spaces.Box
     action_space: gym.Space[Any]
     control_period: float
+    scenario_names: tuple[str, ...] = ()
+    floor_plan: FloorPlan | None = None
 
     _made_with: tuple[tuple[Any, ...], dict[str, Any]]
 
@@ -142,7 +150,20 @@ class BatchedTask(ABC):
         observation, info = self._look(worlds)
         if self.max_episode_steps is not None:
             info["is_timeout"] = np.zeros(len(worlds), dtype=np.bool_)
+        scenario = self.scenario(worlds)
+        if scenario is not None:
+            info[SCENARIO] = scenario
         return observation, info
+
+    def scenario(self, worlds: Worlds) -> Float64 | None:
+        """What sets the episodes apart that begin in these worlds now, shape (n, size).
+
+        All that was drawn for them: where the robot starts, its goal, how obstacles stand. Two
+        episodes with equal numbers are the same one, which evaluations count once; noise does
+        not belong here. None, the default, if the task cannot tell.
+        """
+        del worlds
+        return None
 
     def advance(self, actions: ArrayLike) -> Transition:
         """Make one control step in every world; nothing is reset.
@@ -284,8 +305,11 @@ class BatchedTask(ABC):
 def _put(info: Info, start: Info, worlds: Worlds) -> Info:
     """The info with that of some worlds' new episodes in its place."""
     merged = dict(info)
+    nworld = len(next(iter(info.values()))) if info else 0
     for name, values in start.items():
-        merged[name] = info[name].copy()
+        # What only a first moment tells, such as the scenario, is zero elsewhere.
+        blank = np.zeros((nworld, *values.shape[1:]), values.dtype)
+        merged[name] = info[name].copy() if name in info else blank
         merged[name][worlds] = values
     return merged
 

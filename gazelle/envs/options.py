@@ -13,6 +13,8 @@ from gazelle.engines import engine_names
 from gazelle.errors import TaskError, did_you_mean
 
 RENDER_MODES = ("rgb_array",)
+SPLITS = ("published", "training", "held-out")
+"""Where starts and goals may come from: as published, or free space for one of two purposes."""
 
 Settings = TypeVar("Settings", bound="TaskSettings")
 
@@ -34,7 +36,9 @@ class NavigationOptions(TaskOptions, total=False):
     lidar_samples: int
     world: str | Path | World | None
     robot: str | Path | Model | None
-    goals: Sequence[tuple[float, float]] | None
+    goals: Sequence[tuple[float, float]] | str | None
+    seen_goals: Sequence[tuple[float, float]] | None
+    starts: str
     respawn: bool
 
 
@@ -85,14 +89,19 @@ class NavigationSettings(TaskSettings):
         lidar_samples: Ranges in the observation, 2 or more.
         world: World file, bundled name or description; None for the task's own.
         robot: Robot file, bundled name or description; None for the task's own.
-        goals: Places in the world frame [m] that goals are drawn from; None for the task's own.
+        goals: Places in the world frame [m] that goals are drawn from, or one of `SPLITS`; None
+            for the task's own, as ``published``.
+        seen_goals: Places [m] that ``held-out`` goals keep away from, as from the task's own.
+        starts: One of `SPLITS`: how the robot and what moves stand when an episode begins.
         respawn: Whether the episode goes on to another goal when one is reached.
     """
 
     lidar_samples: int = 24
     world: str | Path | World | None = None
     robot: str | Path | Model | None = None
-    goals: Sequence[tuple[float, float]] | None = None
+    goals: Sequence[tuple[float, float]] | str | None = None
+    seen_goals: Sequence[tuple[float, float]] | None = None
+    starts: str = "published"
     respawn: bool = True
 
     def __post_init__(self) -> None:
@@ -101,8 +110,25 @@ class NavigationSettings(TaskSettings):
         check_whole("lidar_samples", self.lidar_samples, 2)
         if not isinstance(self.respawn, bool):
             raise TaskError(f"respawn must be True or False, not {self.respawn!r}")
+        check_name("kind of starts", str(self.starts), SPLITS)
+        if isinstance(self.goals, str):
+            check_name("kind of goals", self.goals, SPLITS)
         _check_kind("world", self.world, World)
         _check_kind("robot", self.robot, Model)
+
+
+def held_out_options(trained: Mapping[str, Any]) -> dict[str, Any]:
+    """How a navigation task wants a policy to be evaluated: on starts and goals new to it.
+
+    Args:
+        trained: The options that it was trained with.
+
+    Returns:
+        Those that differ. One goal an episode, so that each counts alike.
+    """
+    seen = trained.get("goals")
+    options = {"starts": "held-out", "goals": "held-out", "respawn": False}
+    return options if seen is None or isinstance(seen, str) else {**options, "seen_goals": seen}
 
 
 def read_options(settings: type[Settings], options: Mapping[str, Any]) -> Settings:

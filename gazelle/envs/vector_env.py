@@ -23,6 +23,7 @@ from gazelle.envs.batched_task import (
     Worlds,
 )
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
+from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
@@ -169,6 +170,16 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
         result = self.task.advance_or_begin(actions, over)
         self._over = result.terminated | result.truncated
         return Step(result, None)
+
+    @property
+    def scenario_names(self) -> tuple[str, ...]:
+        """What the numbers of ``info["scenario"]`` are, see `BatchedTask.scenario`."""
+        return self.task.scenario_names
+
+    @property
+    def floor_plan(self) -> FloorPlan | None:
+        """What stands in the world, seen from above; None if the task cannot tell."""
+        return self.task.floor_plan
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of every world, each of shape (height, width, 3); None without render mode."""

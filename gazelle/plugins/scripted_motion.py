@@ -67,17 +67,38 @@ class ScriptedMotion(ModelPlugin):
         span = np.diff(self.times)[:, None]
         return np.diff(self.positions, axis=0) / span, np.diff(self.quaternions, axis=0) / span
 
+    @property
+    def period(self) -> float:
+        """After how long the script begins anew [s]; 0 if it never does."""
+        if self.splines:
+            last = self.splines[-1][0] + self.splines[-1][1].duration
+            return float(last) if self.loop else 0.0
+        if self.times.size:
+            return float(self.times[-1]) if self.loop else 0.0
+        rate = float(np.linalg.norm(self.spin))
+        return 2.0 * np.pi / rate if rate > 0.0 else 0.0
+
+    def begin_at(self, elapsed: Floats, worlds: Worlds) -> None:
+        """Go on in these worlds as if the script had begun so long ago [s], shape (n,)."""
+        self._epoch[worlds] = self.robot.simulation.time - elapsed
+        self.robot.simulation.engine.set_model_placement(
+            self.robot.name, *self._placed(elapsed), worlds
+        )
+
     def on_update(self, time: float) -> None:
         """Put the model where the script says."""
-        elapsed = time - self._epoch
+        self.robot.simulation.engine.set_model_placement(
+            self.robot.name, *self._placed(time - self._epoch)
+        )
+
+    def _placed(self, elapsed: Floats) -> tuple[Floats, Floats]:
+        """Positions [m] and quaternions after some times, shapes (n, 3) and (n, 4)."""
         if self.splines:
-            position, quaternion = self._on_splines(elapsed)
-        elif self.times.size:
-            position, quaternion = self._on_path(elapsed)
-        else:
-            position = np.broadcast_to(self.start[0], (len(elapsed), 3))
-            quaternion = multiply(_turned(self.spin, elapsed), self.start[1][None])
-        self.robot.simulation.engine.set_model_placement(self.robot.name, position, quaternion)
+            return self._on_splines(elapsed)
+        if self.times.size:
+            return self._on_path(elapsed)
+        position = np.broadcast_to(self.start[0], (len(elapsed), 3))
+        return position, multiply(_turned(self.spin, elapsed), self.start[1][None])
 
     def _on_path(self, elapsed: Floats) -> tuple[Floats, Floats]:
         first, last = self.times[0], self.times[-1]

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         Recipe,
         recipe_for,
     )
+    from gazelle.training.records import EpisodeRecord
     from gazelle.training.runs import Run, RunConfig
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import Rate, wilson_interval
@@ -39,6 +40,7 @@ _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 _HOMES = {
     "ALGORITHMS": "learners",
     "Actor": "actor",
+    "EpisodeRecord": "records",
     "Evaluation": "evaluation",
     "OffPolicySettings": "recipes",
     "PPOSettings": "recipes",
@@ -66,6 +68,7 @@ __all__ = [
     "ALGORITHMS",
     "RECIPES",
     "Actor",
+    "EpisodeRecord",
     "Evaluation",
     "OffPolicySettings",
     "PPOSettings",

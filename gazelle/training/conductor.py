@@ -14,6 +14,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import KVWriter, Logger, TensorBoardOutputFormat
 
 from gazelle.training.checkpoint import write_checkpoint
+from gazelle.training.event_files import trim_events
 from gazelle.training.learners import Learner
 from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
@@ -47,35 +48,39 @@ _CURVE_POINTS = 200
 
 
 class StopRequested(Exception):  # noqa: N818  # a signal to the loop, not a fault
-    """Ctrl-C was pressed, and everything is saved."""
+    """A signal asked to stop, and everything is saved."""
 
 
-class StopOnInterrupt:
-    """While active, the first Ctrl-C only asks to stop; the second interrupts at once.
+class StopOnSignal:
+    """While active, the first Ctrl-C or SIGTERM only asks to stop; the second interrupts at once.
 
     Args:
         progress: Tells the user that the request was heard.
+
+    Attributes:
+        heard: The signal that asked to stop; None so far.
     """
 
     def __init__(self, progress: Progress) -> None:
-        self.requested = False
+        self.heard: int | None = None
         self._progress = progress
-        self._before: Any = None
+        self._before: dict[int, Any] = {}
 
     def __enter__(self) -> Self:
         if threading.current_thread() is threading.main_thread():
-            self._before = signal.signal(signal.SIGINT, self._heard)
+            for number in (signal.SIGINT, signal.SIGTERM):
+                self._before[number] = signal.signal(number, self._hear)
         return self
 
     def __exit__(self, *exception: object) -> None:
-        if self._before is not None:
-            signal.signal(signal.SIGINT, self._before)
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
 
-    def _heard(self, number: int, frame: FrameType | None) -> None:
-        del number, frame
-        if self.requested:
+    def _hear(self, number: int, frame: FrameType | None) -> None:
+        del frame
+        if self.heard is not None:
             raise KeyboardInterrupt
-        self.requested = True
+        self.heard = number
         self._progress.say("stopping after this update (Ctrl-C again stops at once) ...")
 
 
@@ -123,7 +128,7 @@ class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
     """
 
     def __init__(
-        self, run: Run, total: int, episodes: EpisodeLog, progress: Progress, stop: StopOnInterrupt
+        self, run: Run, total: int, episodes: EpisodeLog, progress: Progress, stop: StopOnSignal
     ) -> None:
         super().__init__()
         self.run = run
@@ -133,24 +138,36 @@ class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
         self.stop = stop
         self.saved_at = 0
         self.logged_at = 0
-        self._began = (time.monotonic(), 0)
+        self._began = time.monotonic()
+        self._seconds_before = 0.0
 
     def attach(self, learner: Learner) -> None:
         """Give the learner a logger; call after its checkpoint, if any, was read."""
         steps = learner.num_timesteps
-        self._began = (time.monotonic(), steps)
-        folder = str(self.run.folder / "tensorboard")
+        self._began = time.monotonic()
+        folder = self.run.folder / "tensorboard"
+        trim_events(folder, steps)
         table = CurveTable(self.run.folder / "progress.csv", steps)
-        learner.set_logger(Logger(folder, [table, TensorBoardOutputFormat(folder)]))
+        learner.set_logger(Logger(str(folder), [table, TensorBoardOutputFormat(str(folder))]))
 
     def get_state(self) -> dict[str, Any]:
         """What a checkpoint must remember of the conductor."""
-        return {"episodes": self.episodes.get_state(), "logged_at": self.logged_at}
+        return {
+            "episodes": self.episodes.get_state(),
+            "logged_at": self.logged_at,
+            "seconds": self._seconds,
+        }
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:
         """Continue from a checkpoint made after so many steps."""
         self.episodes.set_state(state["episodes"])
         self.logged_at, self.saved_at = int(state["logged_at"]), steps
+        self._seconds_before = float(state["seconds"])
+
+    @property
+    def _seconds(self) -> float:
+        """Wall time of the training so far, without that between a stop and going on [s]."""
+        return self._seconds_before + time.monotonic() - self._began
 
     def finish(self) -> None:
         """Write the last point of the curves and the last checkpoint."""
@@ -165,9 +182,9 @@ class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
         if steps - self.logged_at >= self.total / _CURVE_POINTS:
             self._log()
         due = steps - self.saved_at >= self.run.config.checkpoint_every
-        if self.stop.requested or due:
+        if self.stop.heard is not None or due:
             self._save()
-        if self.stop.requested:
+        if self.stop.heard is not None:
             raise StopRequested
 
     def _on_step(self) -> bool:
@@ -175,12 +192,12 @@ class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
 
     def _log(self) -> None:
         steps = self.model.num_timesteps
-        seconds = time.monotonic() - self._began[0]
+        seconds = self._seconds
         for name, value in self.episodes.summary().items():
             self.logger.record(f"episodes/{name}", value)
         self.logger.record("episodes/total", self.episodes.total)
         self.logger.record("time/seconds", round(seconds, 3))
-        rate = (steps - self._began[1]) / max(seconds, 1e-9)
+        rate = steps / max(seconds, 1e-9)
         self.logger.record("time/steps_per_second", round(rate, 1))
         self.logger.dump(steps)
         self.logged_at = steps

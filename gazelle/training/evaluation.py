@@ -3,39 +3,56 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, load_actor
+from gazelle.training.importing import TaskModule, load_all
+from gazelle.training.records import EpisodeRecord, Ledger, Trail
 from gazelle.training.runs import Run
 from gazelle.training.statistics import Rate
-from gazelle.training.stepper import Episodes, Stepper
-from gazelle.training.tasks import control_period, make_task
+from gazelle.training.stepper import Stepper
+from gazelle.training.tasks import (
+    control_period,
+    evaluation_options,
+    fitting_copies,
+    make_task,
+    told_by,
+)
 
 _MOST_COPIES = 128
 
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """What an evaluation found."""
+    """What an evaluation found.
+
+    Success, collision, time-out and other ends are shares of the goals that were tried, see
+    `Episodes`: together they are 1. With one goal an episode they are shares of the episodes.
+    """
 
     task: str
     """The task's id or name."""
     episodes: int
     """How many episodes were counted."""
+    distinct: int
+    """How many of them differ: the others repeat one of these."""
     seed: int
     """Seed of the environment."""
     success: Rate | None
-    """Episodes that reached their goal; None when the task does not tell."""
+    """Goals that were reached; None when the task does not tell."""
     collision: Rate | None
-    """Episodes that ended in a collision; None when the task does not tell."""
+    """Attempts that ended in a collision; None when the task does not tell."""
     timeout: Rate
-    """Episodes that ran out of time."""
+    """Attempts that ran out of time."""
+    other: Rate
+    """Attempts that ended otherwise, such as by a fall."""
     mean_return: float
     """Mean sum of rewards of an episode."""
     mean_length: float
@@ -44,21 +61,32 @@ class Evaluation:
     """Wall time of the evaluation, without building the environment [s]."""
     sim_seconds: float | None
     """Simulated time of all copies together [s]; None when the task has no control period."""
+    records: tuple[EpisodeRecord, ...] = field(default=(), repr=False)
+    """Each episode by itself."""
+    floor_plan: FloorPlan | None = field(default=None, repr=False)
+    """What stands in the world, seen from above; None when the task does not tell."""
 
     @property
     def rtf(self) -> float | None:
         """Simulated seconds per wall second."""
         return None if self.sim_seconds is None else self.sim_seconds / self.wall_seconds
 
+    @property
+    def failures(self) -> tuple[EpisodeRecord, ...]:
+        """The episodes of which the last attempt failed."""
+        return tuple(record for record in self.records if record.failed)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain values for JSON; rates as ``{count, total, value, low, high}``."""
         return {
             "task": self.task,
             "episodes": self.episodes,
+            "distinct": self.distinct,
             "seed": self.seed,
             "success": _rate_to_dict(self.success),
             "collision": _rate_to_dict(self.collision),
             "timeout": _rate_to_dict(self.timeout),
+            "other": _rate_to_dict(self.other),
             "mean_return": self.mean_return,
             "mean_length": self.mean_length,
             "wall_seconds": self.wall_seconds,
@@ -74,13 +102,18 @@ def evaluate(
     seed: int = 10_000,
     task: str | None = None,
     num_envs: int | None = None,
+    imports: Sequence[str] = (),
     **options: Any,
 ) -> Evaluation:
-    """Let a policy act at its best and count how its episodes end.
+    """Let a policy act at its best and count how its attempts at goals end.
 
     Every copy of the environment runs a number of episodes that is fixed in
     advance. (Taking the first episodes that end, from any copy, would favour
     the short ones.) Same policy, seed and number of copies: same result.
+
+    A task says with which options it is evaluated, see `evaluation_options`; the bundled
+    navigation tasks ask for starts and goals that no policy was trained on. Episodes that
+    repeat others widen the intervals, see `clustered_rate`.
 
     Args:
         run_or_policy: Folder of a run, a ``policy.npz``, or an actor.
@@ -88,8 +121,9 @@ def evaluate(
         seed: Seed of the environment.
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
-        options: Options of the environment that differ from the run's and from its
-            recipe's ``evaluation_options``.
+        imports: Modules or files to import first, which register the task.
+        options: Options of the environment that differ from the run's, from the task's own for
+            evaluations, and from its recipe's ``evaluation_options``.
 
     Raises:
         TaskError: A number is below 1, no task is given, or the policy does not fit it.
@@ -97,68 +131,58 @@ def evaluate(
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
-    actor, task, options = _resolve(run_or_policy, task, options)
-    copies = min(episodes, num_envs or _MOST_COPIES)
+    actor, task, options = _resolve(run_or_policy, task, load_all(imports), options)
+    copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
     env = make_task(task, copies, **options)
     try:
         period = control_period(env)
-        counter = _Counter(episodes, copies)
+        plan = told_by(env, "floor_plan")
+        ledger = Ledger(episodes, copies, tuple(told_by(env, "scenario_names") or ()))
         start = time.perf_counter()
-        steps = _play(actor, Stepper(env), counter, seed)
+        steps = _play(actor, Stepper(env, keep_info=True), ledger, seed)
         wall = time.perf_counter() - start
     finally:
         env.close()
-    return Evaluation(
+    return _summed_up(
+        ledger,
         task=task,
-        episodes=episodes,
         seed=seed,
-        success=counter.rate("is_success"),
-        collision=counter.rate("is_collision"),
-        timeout=counter.rate("is_timeout") or Rate(counter.truncated, episodes),
-        mean_return=counter.sum_of_returns / episodes,
-        mean_length=counter.sum_of_lengths / episodes,
+        floor_plan=plan,
         wall_seconds=wall,
         sim_seconds=None if period is None else steps * copies * period,
     )
 
 
-class _Counter:
-    """Counts the first so many episodes of each copy, and no others."""
-
-    def __init__(self, episodes: int, copies: int) -> None:
-        share, rest = divmod(episodes, copies)
-        self.left = np.full(copies, share) + (np.arange(copies) < rest)
-        self.episodes = episodes
-        self.sum_of_returns = 0.0
-        self.sum_of_lengths = 0.0
-        self.truncated = 0
-        self.outcomes: dict[str, int] = {}
-
-    def add(self, ended: Episodes, truncated: npt.NDArray[np.bool_]) -> None:
-        counts = self.left[ended.slots] > 0
-        self.left[ended.slots[counts]] -= 1
-        self.sum_of_returns += float(ended.returns[counts].sum())
-        self.sum_of_lengths += float(ended.lengths[counts].sum())
-        self.truncated += int(truncated[ended.slots[counts]].sum())
-        for name, values in ended.outcomes.items():
-            self.outcomes[name] = self.outcomes.get(name, 0) + int(values[counts].sum())
-
-    def rate(self, outcome: str) -> Rate | None:
-        count = self.outcomes.get(outcome)
-        return None if count is None else Rate(count, self.episodes)
+def _summed_up(ledger: Ledger, **about: Any) -> Evaluation:
+    """What the ledger of all episodes says."""
+    return Evaluation(
+        episodes=len(ledger.records),
+        distinct=ledger.distinct,
+        success=ledger.rate("goals") if ledger.tells("is_success") else None,
+        collision=ledger.rate("collisions") if ledger.tells("is_collision") else None,
+        timeout=ledger.rate("timeouts"),
+        other=ledger.rate("others"),
+        mean_return=float(np.mean([record.sum_of_rewards for record in ledger.records])),
+        mean_length=float(np.mean([record.length for record in ledger.records])),
+        records=tuple(ledger.records),
+        **about,
+    )
 
 
-def _play(actor: Actor, stepper: Stepper, counter: _Counter, seed: int) -> int:
+def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:
     """Step until every copy has run its episodes; returns the number of steps."""
     obs = stepper.reset(seed=seed)
     _check_fit(actor, stepper)
+    trail = Trail(stepper.num_envs)
+    trail.follow(obs, ~stepper.waiting)
     steps = 0
-    while counter.left.any():
+    while ledger.left.any():
         step = stepper.step(actor.act(obs))
         steps += 1
         obs = step.obs
-        if step.ended is not None:
-            counter.add(step.ended, step.truncated)
+        if step.ended is not None and step.final_obs is not None:
+            ledger.add(step.ended, trail.end(step.ended, step.final_obs))
+        trail.follow(obs, ~stepper.waiting)
     return steps
 
 
@@ -172,16 +196,28 @@ def _check_fit(actor: Actor, stepper: Stepper) -> None:
 
 
 def _resolve(
-    run_or_policy: str | Path | Actor, task: str | None, options: dict[str, Any]
+    run_or_policy: str | Path | Actor,
+    task: str | None,
+    modules: tuple[TaskModule, ...],
+    options: dict[str, Any],
 ) -> tuple[Actor, str, dict[str, Any]]:
     """The actor, its task, and the options of the environment."""
+    given = {key: value for key, value in options.items() if value is not None}
     if isinstance(run_or_policy, str | Path) and Path(run_or_policy).suffix != ".npz":
         run = Run.open(Path(run_or_policy))
-        given = {key: value for key, value in options.items() if value is not None}
-        known = run.config.options | dict(run.config.recipe.evaluation_options)
-        return load_actor(run.policy_file()), task or run.config.task, known | given
+        if task is None:
+            load_all(() if modules else run.config.imports)
+            task = run.config.task
+        trained = run.config.options
+        known = trained | evaluation_options(task, trained)
+        return (
+            load_actor(run.policy_file()),
+            task,
+            known | dict(run.config.recipe.evaluation_options) | given,
+        )
     if task is None:
         raise TaskError("a policy alone does not tell its task", hint="give the task as well")
+    options = evaluation_options(task, {}) | given
     if isinstance(run_or_policy, Actor):
         return run_or_policy, task, options
     return load_actor(Path(run_or_policy)), task, options

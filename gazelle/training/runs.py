@@ -12,6 +12,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import platform
 import shutil
@@ -23,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError, TaskError
+from gazelle.training.importing import TaskModule, modules_from_list, modules_to_list
 from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
 
 _FORMAT = "gazelle-run-1"
@@ -44,6 +46,8 @@ class RunConfig:
     """Options of the environment."""
     checkpoint_every: int = 100_000
     """Control steps between two checkpoints."""
+    imports: tuple[TaskModule, ...] = ()
+    """Modules that register the task, where that is not one of Gazelle's."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +71,27 @@ class Run:
         try:
             folder = _new_folder(out, name)
             (folder / "checkpoints").mkdir()
-            text = json.dumps(_config_to_dict(config), indent=2)
-            (folder / "config.json").write_text(text + "\n", encoding="utf-8")
+            _write_config(folder, config)
         except OSError as error:
             hint = "give another folder with --out"
             raise TaskError(f"cannot write the run: {error}", hint=hint) from error
         return Run(folder, config)
+
+    def changed(self, **values: Any) -> Run:
+        """The run with another configuration, which takes the old one's place on disk.
+
+        Args:
+            values: Fields of `RunConfig` that change.
+
+        Raises:
+            TaskError: The folder cannot be written.
+        """
+        config = dataclasses.replace(self.config, **values)
+        try:
+            _write_config(self.folder, config)
+        except OSError as error:
+            raise TaskError(f"cannot write the run: {error}") from error
+        return Run(self.folder, config)
 
     @staticmethod
     def open(folder: Path) -> Run:
@@ -157,6 +176,13 @@ def _new_folder(out: Path, name: str) -> Path:
     raise FileExistsError(f"{out / name} and 98 like it exist")
 
 
+def _write_config(folder: Path, config: RunConfig) -> None:
+    """All or nothing, so that a run is never without a configuration."""
+    draft = folder / "config.json.part"
+    draft.write_text(json.dumps(_config_to_dict(config), indent=2) + "\n", encoding="utf-8")
+    draft.replace(folder / "config.json")
+
+
 def _config_to_dict(config: RunConfig) -> dict[str, Any]:
     return {
         "format": _FORMAT,
@@ -164,6 +190,7 @@ def _config_to_dict(config: RunConfig) -> dict[str, Any]:
         "seed": config.seed,
         "options": config.options,
         "checkpoint_every": config.checkpoint_every,
+        "imports": modules_to_list(config.imports),
         "recipe": recipe_to_dict(config.recipe),
         "versions": {"python": platform.python_version()} | _versions(),
         "machine": platform.machine(),
@@ -179,6 +206,7 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
         seed=int(values["seed"]),
         options=dict(values["options"]),
         checkpoint_every=int(values["checkpoint_every"]),
+        imports=modules_from_list(values.get("imports", [])),
     )
 
 

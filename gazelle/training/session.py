@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,13 +13,20 @@ import torch
 
 from gazelle.errors import TaskError
 from gazelle.training.checkpoint import read_checkpoint
-from gazelle.training.conductor import Conductor, StopOnInterrupt, StopRequested
+from gazelle.training.conductor import Conductor, StopOnSignal, StopRequested
+from gazelle.training.importing import load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import Progress, Silent
 from gazelle.training.recipes import Recipe, recipe_for
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
-from gazelle.training.tasks import control_period, find_task, make_task, plain_options
+from gazelle.training.tasks import (
+    control_period,
+    find_task,
+    make_task,
+    plain_options,
+    split_module,
+)
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -40,7 +48,9 @@ class TrainResult:
     sim_seconds: float | None
     """Simulated time of this call, all copies together [s]; None when the task has no period."""
     interrupted: bool
-    """Whether Ctrl-C ended it early; everything is saved then, see `resume`."""
+    """Whether a signal ended it early; everything is saved then, see `resume`."""
+    stop_signal: int | None
+    """The signal that ended it early, such as `signal.SIGINT`, or None."""
     summary: dict[str, float]
     """Means over the latest episodes: ``return``, ``length``, ``success_rate`` ..."""
 
@@ -57,12 +67,13 @@ def train(
     checkpoint_every: int | None = None,
     progress: Progress | None = None,
     threads: int = 1,
+    imports: Sequence[str] = (),
     **options: Any,
 ) -> TrainResult:
     """Train a policy from scratch.
 
     Args:
-        task: A task's id or name.
+        task: A task's id or name, or ``module:id`` for one that a module registers.
         algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; by default what the recipe says.
         recipe: How to train; by default the task's own, see `recipe_for`.
         steps: Control steps in total, instead of the recipe's.
@@ -72,12 +83,15 @@ def train(
         checkpoint_every: Control steps between two checkpoints; by default a tenth of the total.
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
-        options: Options of the environment.
+        imports: Modules or files to import first, which register tasks; the run remembers them.
+        options: Options of the environment; those that the recipe sets are taken from it.
 
     Raises:
         TaskError: The task, the algorithm or an option does not exist, or they do not fit.
         MissingExtraError: torch or Stable-Baselines3 is not installed.
     """
+    module, task = split_module(task)
+    modules = load_all([*imports, *([] if module is None else [module])])
     task = find_task(task)
     recipe = recipe or recipe_for(task, algo)
     recipe = dataclasses.replace(
@@ -93,8 +107,9 @@ def train(
         task=task,
         recipe=recipe,
         seed=seed,
-        options=plain_options(options),
+        options=plain_options({**recipe.training_options, **options}),
         checkpoint_every=checkpoint_every or max(1, recipe.steps // _CHECKPOINTS),
+        imports=modules,
     )
     limit_threads(threads)
     session = _Session(config, progress or Silent())
@@ -104,22 +119,44 @@ def train(
         session.close()
 
 
-def resume(run: str | Path, *, progress: Progress | None = None, threads: int = 1) -> TrainResult:
-    """Go on with a run until the number of steps it was started with.
+def resume(
+    run: str | Path,
+    *,
+    steps: int | None = None,
+    progress: Progress | None = None,
+    threads: int = 1,
+    imports: Sequence[str] = (),
+) -> TrainResult:
+    """Go on with a run, until the number of steps it was started with or another.
 
-    The result is the same, bit for bit, as without the break, if the
-    environment can save its state (else a warning says so).
+    The result is the same, bit for bit, as without the break, if the environment can save
+    its state (else a warning says so). With more steps than the run had, a step size that
+    falls to zero goes back to where it is at this point of the longer training.
 
     Args:
         run: The run's folder.
+        steps: Control steps in total, instead of those that it was started with.
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
+        imports: Modules or files that register the task, if not those that the run names.
 
     Raises:
         FormatError: There is no run, no checkpoint, or it is damaged.
+        TaskError: The run has more steps already, or its task is not there.
     """
     found = Run.open(Path(run))
     checkpoint = found.newest_checkpoint()
+    if imports:
+        found = found.changed(imports=load_all(imports))
+    load_all(found.config.imports)
+    if steps is not None and steps != found.config.recipe.steps:
+        done = int(checkpoint.name)
+        if steps < done:
+            raise TaskError(
+                f"the run has {done:,} steps already, more than {steps:,}",
+                hint="--steps is the total, not how many more",
+            )
+        found = found.changed(recipe=dataclasses.replace(found.config.recipe, steps=steps))
     limit_threads(threads)
     session = _Session(found.config, progress or Silent())
     try:
@@ -150,7 +187,7 @@ class _Session:
 
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
-        with StopOnInterrupt(self.progress) as stop:
+        with StopOnSignal(self.progress) as stop:
             conductor = Conductor(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
@@ -174,6 +211,7 @@ class _Session:
             wall_seconds=seconds,
             sim_seconds=None if period is None else new * period,
             interrupted=interrupted,
+            stop_signal=stop.heard if interrupted else None,
             summary=self.episodes.summary(),
         )
 

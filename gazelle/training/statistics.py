@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.training.stepper import Episodes
+from gazelle.training.episodes import Episodes
 
 _Z_95 = 1.959963984540054
-_COLUMNS = ("return", "length", "goals", "attempts", "collision_rate", "timeout_rate")
+_COLUMNS = ("return", "length", "goals", "attempts", "collisions", "timeouts")
+_ENDS = {"success_rate": "goals", "collision_rate": "collisions", "timeout_rate": "timeouts"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,8 @@ class Rate:
     """How often it happened."""
     total: int
     """How often it could have."""
+    effective: float | None = None
+    """How many independent draws tell as much as these do; None for all of them."""
 
     @property
     def value(self) -> float:
@@ -32,10 +35,11 @@ class Rate:
     @property
     def interval(self) -> tuple[float, float]:
         """Lower and upper end of the 95 % interval; see `wilson_interval`."""
-        return wilson_interval(self.count, self.total)
+        size = self.total if self.effective is None else self.effective
+        return wilson_interval(self.value * size, size)
 
 
-def wilson_interval(count: int, total: int, z: float = _Z_95) -> tuple[float, float]:
+def wilson_interval(count: float, total: float, z: float = _Z_95) -> tuple[float, float]:
     """Confidence interval of a share, also sound near 0 and 1.
 
     The score interval of E. B. Wilson, "Probable inference, the law of
@@ -43,7 +47,7 @@ def wilson_interval(count: int, total: int, z: float = _Z_95) -> tuple[float, fl
 
     Args:
         count: How often it happened.
-        total: How often it could have.
+        total: How often it could have; an effective number may have a fraction.
         z: Quantile of the normal distribution; the default gives 95 %.
 
     Returns:
@@ -56,6 +60,43 @@ def wilson_interval(count: int, total: int, z: float = _Z_95) -> tuple[float, fl
     scale = 1 + z**2 / total
     centre = share + z**2 / (2 * total)
     return max(0.0, (centre - spread) / scale), min(1.0, (centre + spread) / scale)
+
+
+def clustered_rate(
+    counts: npt.NDArray[np.int64], totals: npt.NDArray[np.int64], clusters: npt.NDArray[np.int64]
+) -> Rate:
+    """A rate over episodes of which some are repetitions of others.
+
+    Repetitions tell less than fresh draws: nothing more where they end alike. The number of
+    draws that the interval counts is the total divided by the design effect of the clusters
+    (E. L. Korn and B. I. Graubard, "Confidence intervals for proportions with small expected
+    number of positive counts estimated from survey data", Survey Methodology 24 (1998)
+    193-201), never more than the total. The variance is that of a ratio between clusters
+    (W. G. Cochran, "Sampling Techniques", 3rd ed., 1977, sec. 2.11).
+
+    Args:
+        counts: How often it happened in each episode, shape (n,).
+        totals: How often it could have, shape (n,).
+        clusters: Which episodes are the same: equal numbers from 0 up, shape (n,).
+    """
+    count, total = int(counts.sum()), int(totals.sum())
+    sizes = np.bincount(clusters, weights=totals)
+    hits = np.bincount(clusters, weights=counts)
+    sizes, hits = sizes[sizes > 0], hits[sizes > 0]
+    many = len(sizes)
+    if sizes.max(initial=0.0) <= 1:
+        return Rate(count, total)
+    # If all attempts of a cluster end alike (L. Kish, "Survey Sampling", 1965, sec. 8.2).
+    alike = total**2 / float((sizes**2).sum())
+    # Few clusters tell little of how alike their attempts end. Two more that are, one of each
+    # kind, keep the interval from being too short, as Agresti's and Coull's do for a share.
+    usual = total / many
+    sizes = np.append(sizes, (usual, usual))
+    hits = np.append(hits, (usual, 0.0))
+    share = hits.sum() / sizes.sum()
+    variance = float(((hits - share * sizes) ** 2).sum()) / sizes.sum() ** 2
+    draws = share * (1.0 - share) / variance * many / (many + 2)
+    return Rate(count, total, min(max(draws, alike), total))
 
 
 class EpisodeLog:
@@ -73,18 +114,14 @@ class EpisodeLog:
     def add(self, episodes: Episodes) -> None:
         """Take in the episodes that ended in one step."""
         unknown = np.full(len(episodes.slots), np.nan)
-        known = {name: values.astype(np.float64) for name, values in episodes.outcomes.items()}
-        success = known.get("is_success", unknown)
-        timeout = known.get("is_timeout", np.zeros(len(episodes.slots)))
-        undecided = (timeout > 0) & (episodes.goals > 0)
-        failures = np.where(undecided, 0.0, 1.0 - success)
+        told = episodes.outcomes
         columns = {
             "return": episodes.returns,
             "length": episodes.lengths,
-            "goals": np.where(np.isnan(success), np.nan, episodes.goals),
-            "attempts": episodes.goals + failures,
-            "collision_rate": known.get("is_collision", unknown),
-            "timeout_rate": known.get("is_timeout", unknown),
+            "goals": episodes.goals if "is_success" in told else unknown,
+            "attempts": episodes.attempts,
+            "collisions": episodes.collisions if "is_collision" in told else unknown,
+            "timeouts": episodes.timeouts if "is_timeout" in told else unknown,
         }
         rows = np.column_stack([columns[name] for name in _COLUMNS])
         self._rows = np.concatenate([self._rows, rows])[-self.window :]
@@ -93,17 +130,17 @@ class EpisodeLog:
     def summary(self) -> dict[str, float]:
         """What the window shows, as far as the environment tells it.
 
-        ``return`` and ``length`` are means over episodes, ``collision_rate`` and
-        ``timeout_rate`` shares of episodes. ``success_rate`` is the share of goals that
-        were reached: every goal reached is a success, every episode that ends without
-        reaching its last goal is a failure, unless time ran out on the way from one
-        goal to the next. With one goal an episode that is the share of episodes.
+        ``return`` and ``length`` are means over episodes; ``success_rate``,
+        ``collision_rate`` and ``timeout_rate`` are shares of the goals that were tried, see
+        `Episodes`: with one goal an episode, of the episodes.
         """
         if not len(self._rows):
             return {}
         means = dict(zip(_COLUMNS, self._rows.mean(axis=0).tolist(), strict=True))
-        goals, attempts = means.pop("goals"), means.pop("attempts")
-        means["success_rate"] = goals / attempts
+        attempts = means.pop("attempts")
+        for name, ends in _ENDS.items():
+            ended = means.pop(ends)
+            means[name] = ended / attempts if attempts else math.nan
         return {name: mean for name, mean in means.items() if not math.isnan(mean)}
 
     def get_state(self) -> dict[str, Any]:

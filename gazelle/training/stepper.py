@@ -23,29 +23,14 @@ import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 from gazelle.errors import TaskError
+from gazelle.training.episodes import OUTCOMES, Bools, Doubles, Episodes
 
-Bools = npt.NDArray[np.bool_]
 Floats = npt.NDArray[np.float32]
-Doubles = npt.NDArray[np.float64]
 
-OUTCOMES = ("is_success", "is_collision", "is_timeout")
-"""The outcome of an episode, as boolean arrays in ``info["final_info"]``."""
+SCENARIO = "scenario"
+"""In the info of an episode's first moment: numbers that set it apart from others."""
 
-
-@dataclass(frozen=True, slots=True)
-class Episodes:
-    """Episodes that ended in one step, in the order of their slots. Arrays have shape (k,)."""
-
-    slots: npt.NDArray[np.intp]
-    """Which copies of the environment they ran in."""
-    returns: Doubles
-    """Sums of rewards."""
-    lengths: npt.NDArray[np.int64]
-    """Control steps."""
-    outcomes: dict[str, Bools]
-    """For each name in `OUTCOMES` that the environment reports: whether it holds at the end."""
-    goals: npt.NDArray[np.int64]
-    """Steps with ``is_success``: more than one where an episode goes on to the next goal."""
+_FEW = 8  # numbers of an info that a record of an episode keeps at most
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,12 +58,18 @@ class Stepper:
 
     Args:
         env: A Gymnasium vector environment with Box observations.
+        keep_info: Whether ended episodes keep all numbers of their last info.
 
     Raises:
         TaskError: The observations are not a Box of numbers.
+
+    Attributes:
+        obs: What the policy acts on next, shape (N, ...).
+        scenarios: What the environment says of how the running episodes began, shape (N, size);
+            None if it says nothing.
     """
 
-    def __init__(self, env: VectorEnv[Any, Any, Any]) -> None:
+    def __init__(self, env: VectorEnv[Any, Any, Any], *, keep_info: bool = False) -> None:
         if not isinstance(env.single_observation_space, gym.spaces.Box):
             kind = type(env.single_observation_space).__name__
             raise TaskError(f"training needs observations in a Box, not in a {kind}")
@@ -90,14 +81,18 @@ class Stepper:
         self._returns = np.zeros(self.num_envs)
         self._lengths = np.zeros(self.num_envs, dtype=np.int64)
         self._goals = np.zeros(self.num_envs, dtype=np.int64)
+        self._goal_at = np.zeros(self.num_envs, dtype=np.int64)
+        self._there = np.zeros(self.num_envs, dtype=np.bool_)
+        self.scenarios: Doubles | None = None
+        self._keep_info = keep_info
 
     def reset(self, *, seed: int | None = None) -> Floats:
         """Start all episodes anew and return the first observations, shape (N, ...)."""
-        obs, _ = self.env.reset(seed=seed)
+        obs, info = self.env.reset(seed=seed)
         self._resetting[:] = False
-        self._returns[:] = 0.0
-        self._lengths[:] = 0
-        self._goals[:] = 0
+        self._forget(np.arange(self.num_envs))
+        self.scenarios = None
+        self._note_scenarios(info, np.ones(self.num_envs, dtype=np.bool_))
         self.obs = np.array(obs, dtype=np.float32)
         return self.obs
 
@@ -115,19 +110,48 @@ class Stepper:
         done = terminated | truncated
         self._returns += rewards
         self._lengths += valid
-        if "is_success" in info:
-            self._goals += np.asarray(info["is_success"], dtype=np.bool_) & valid & ~done
+        began = self._resetting
+        self._count_goals(info, valid, done)
         obs = np.array(obs, dtype=np.float32)
         final_obs, ended = None, None
         if done.any():
             slots = np.flatnonzero(done)
-            final_obs, info = self._last(obs, info, slots)
-            ended = self._close_episodes(slots, info)
+            final_obs, last = self._last(obs, info, slots)
+            ended = self._close_episodes(slots, last, truncated)
             if self.mode is AutoresetMode.DISABLED:
-                obs = np.array(self.env.reset(options={"reset_mask": done})[0], dtype=np.float32)
-        self._resetting = done if self.mode is AutoresetMode.NEXT_STEP else np.zeros_like(done)
+                fresh, info = self.env.reset(options={"reset_mask": done})
+                obs = np.array(fresh, dtype=np.float32)
+            began = done
+        if self.mode is AutoresetMode.NEXT_STEP:
+            began, self._resetting = self._resetting, done
+        self._note_scenarios(info, began)
         self.obs = obs
         return Step(obs, rewards, terminated, truncated, valid, final_obs, ended)
+
+    def _count_goals(self, info: dict[str, Any], valid: Bools, done: Bools) -> None:
+        """Count goals reached on the way; those of a last step are counted when it is closed."""
+        if "is_success" not in info:
+            return
+        there = np.asarray(info["is_success"], dtype=np.bool_) & valid & ~done
+        # A goal at which a task lets its robot stay is reached once.
+        came = there & ~self._there
+        self._goals += came
+        self._goal_at[came] = self._lengths[came]
+        self._there = there
+
+    def _note_scenarios(self, info: dict[str, Any], began: Bools) -> None:
+        """Keep what the info says of the episodes that began."""
+        if SCENARIO not in info or not began.any():
+            return
+        rows = [np.ravel(np.asarray(row, dtype=np.float64)) for row in info[SCENARIO][began]]
+        if self.scenarios is None:
+            self.scenarios = np.zeros((self.num_envs, len(rows[0])))
+        self.scenarios[began] = rows
+
+    @property
+    def waiting(self) -> Bools:
+        """Which copies will spend the next step on their reset, shape (N,)."""
+        return self._resetting
 
     def get_state(self) -> dict[str, Any]:
         """The stepper's own state (not the environment's)."""
@@ -137,6 +161,8 @@ class Stepper:
             "returns": self._returns,
             "lengths": self._lengths,
             "goals": self._goals,
+            "goal_at": self._goal_at,
+            "there": self._there,
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
@@ -146,6 +172,8 @@ class Stepper:
         self._returns = np.array(state["returns"], dtype=np.float64)
         self._lengths = np.array(state["lengths"], dtype=np.int64)
         self._goals = np.array(state["goals"], dtype=np.int64)
+        self._goal_at = np.array(state["goal_at"], dtype=np.int64)
+        self._there = np.array(state["there"], dtype=np.bool_)
 
     def _last(
         self, obs: Floats, info: dict[str, Any], slots: npt.NDArray[np.intp]
@@ -163,15 +191,45 @@ class Stepper:
             last = np.stack(list(last))
         return np.asarray(last, dtype=np.float32), info.get("final_info", info)
 
-    def _close_episodes(self, slots: npt.NDArray[np.intp], info: dict[str, Any]) -> Episodes:
+    def _close_episodes(
+        self, slots: npt.NDArray[np.intp], info: dict[str, Any], truncated: Bools
+    ) -> Episodes:
         outcomes = {
             name: np.asarray(info[name])[slots].astype(np.bool_)
             for name in OUTCOMES
             if name in info
         }
-        goals = self._goals[slots] + outcomes.get("is_success", np.zeros(len(slots), np.bool_))
-        ended = Episodes(slots, self._returns[slots], self._lengths[slots], outcomes, goals)
-        self._returns[slots] = 0.0
-        self._lengths[slots] = 0
-        self._goals[slots] = 0
+        last = outcomes.get("is_success", np.zeros(len(slots), np.bool_))
+        goals = self._goals[slots] + (last & ~self._there[slots])
+        if "goals_reached" in info:
+            goals = np.asarray(info["goals_reached"])[slots].astype(np.int64)
+        ended = Episodes(
+            slots=slots,
+            returns=self._returns[slots],
+            lengths=self._lengths[slots],
+            outcomes=outcomes,
+            goals=goals,
+            since_goal=self._lengths[slots] - self._goal_at[slots],
+            truncated=truncated[slots],
+            scenarios=None if self.scenarios is None else self.scenarios[slots],
+            info=_numbers(info, slots) if self._keep_info else {},
+        )
+        self._forget(slots)
         return ended
+
+    def _forget(self, slots: npt.NDArray[np.intp]) -> None:
+        """Count anew for the next episodes of these copies."""
+        self._returns[slots] = 0.0
+        self._lengths[slots] = self._goals[slots] = self._goal_at[slots] = 0
+        self._there[slots] = False
+
+
+def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Doubles]:
+    """What info holds in numbers, a few a copy, at some copies: shapes (k,) or (k, few)."""
+    found = {}
+    for name, values in info.items():
+        array = np.asarray(values) if not isinstance(values, dict) else np.zeros(0, np.object_)
+        fits = array.dtype != np.object_ and array.ndim in (1, 2) and len(array) > slots.max()
+        if not name.startswith("_") and fits and array.size <= _FEW * len(array):
+            found[name] = array[slots].astype(np.float64)
+    return found

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import importlib.util
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
+from gymnasium.envs.registration import load_env_creator
 from gymnasium.vector import VectorEnv
 
 from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.importing import load_all, load_entry_points
 from gazelle.training.recipes import task_name
 
 NAMESPACE = "gazelle"
+
+_others: set[str] = set()
+"""Ids that entry points registered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +34,12 @@ class Task:
 
 
 def list_tasks() -> list[Task]:
-    """Gazelle's tasks, by name."""
+    """Gazelle's tasks and those of installed packages' entry points, by name."""
     _register()
-    specs = [spec for spec in gym.registry.values() if spec.namespace == NAMESPACE]
+    _register_others()
+    specs = [
+        spec for spec in gym.registry.values() if spec.namespace == NAMESPACE or spec.id in _others
+    ]
     return sorted(
         (Task(name=spec.name, id=spec.id) for spec in specs), key=lambda task: (task.name, task.id)
     )
@@ -40,22 +49,86 @@ def find_task(name: str) -> str:
     """The Gymnasium id of a task.
 
     Args:
-        name: A full id, or the name without namespace or version (then the newest).
+        name: A full id, or the name without namespace or version (then the newest). Of a task
+            that is registered when a module is imported: ``module:id``.
 
     Raises:
         TaskError: There is no such task; the hint names the closest.
     """
-    _register()
+    module, bare_id = split_module(name)
+    if module is not None:
+        load_all([module])
+    for register in (_register, _register_others):
+        register()
+        found = _registered(bare_id)
+        if found is not None:
+            return found
+    listed = [task.name for task in list_tasks()]
+    known = [*gym.registry, *listed] if "/" in bare_id else listed
+    raise TaskError(f"there is no task '{bare_id}'", hint=_hint(bare_id, known))
+
+
+def split_module(name: str) -> tuple[str | None, str]:
+    """``module:id`` to both; None for the module where there is none."""
+    module, colon, rest = name.rpartition(":")
+    return (module, rest) if colon else (None, name)
+
+
+def _registered(name: str) -> str | None:
+    """The id of a task that is registered by now."""
     for candidate in (name, f"{NAMESPACE}/{name}"):
         if candidate in gym.registry:
             return candidate
     bare = task_name(name)
     own = [spec for spec in gym.registry.values() if spec.name == bare]
     own.sort(key=lambda spec: (spec.namespace == NAMESPACE, spec.version or 0))
-    if own and name == bare:
-        return own[-1].id
-    known = [task.name for task in list_tasks()] or [spec.name for spec in gym.registry.values()]
-    raise TaskError(f"there is no task '{name}'", hint=did_you_mean(bare, known))
+    return own[-1].id if own and name == bare else None
+
+
+def _hint(name: str, known: list[str]) -> str:
+    hint = did_you_mean(name, known)
+    if hint.startswith("did you mean"):
+        return hint
+    return (
+        "'gazelle tasks' lists those there are; one of your own is found with "
+        "--import MODULE, or as MODULE:ID"
+    )
+
+
+def entry_class(task: str, *, vector: bool) -> object:
+    """What makes the environments of a task, usually a class; None if it has none of that kind."""
+    spec = gym.registry[find_task(task)]
+    entry = spec.vector_entry_point if vector else spec.entry_point
+    return load_env_creator(entry) if isinstance(entry, str) else entry
+
+
+def evaluation_options(task: str, trained: Mapping[str, Any]) -> dict[str, Any]:
+    """With which options a task wants its policies to be evaluated.
+
+    A task says so by a class method or static method ``evaluation_options`` of its environment:
+    it takes the options that a policy was trained with and returns those that differ, such
+    as starts and goals that it was not trained on.
+    """
+    ask = _hook(task, "evaluation_options")
+    return {} if ask is None else dict(ask(trained))
+
+
+def fitting_copies(task: str, least: int, options: Mapping[str, Any]) -> int:
+    """How many copies to make where so many are wanted.
+
+    A task of which not any number can be made says so by a class method or static method
+    ``fitting_num_envs`` of its vector environment, which takes a number and options.
+    """
+    ask = _hook(task, "fitting_num_envs")
+    return least if ask is None else int(ask(least, options))
+
+
+def _hook(task: str, name: str) -> Any:
+    for vector in (True, False):
+        found = getattr(entry_class(task, vector=vector), name, None)
+        if found is not None:
+            return found
+    return None
 
 
 def make_task(name: str, num_envs: int, **options: Any) -> VectorEnv[Any, Any, Any]:
@@ -99,6 +172,15 @@ def control_period(env: VectorEnv[Any, Any, Any]) -> float | None:
     return 1.0 / float(rate) if rate else None
 
 
+def told_by(env: VectorEnv[Any, Any, Any], name: str) -> Any:
+    """An attribute of the environment below all wrappers, or of its copies; None if there is none."""
+    for each in (env.unwrapped, *getattr(env.unwrapped, "envs", ())[:1]):
+        found = getattr(each.unwrapped, name, None)
+        if found is not None:
+            return found
+    return None
+
+
 def plain_options(options: dict[str, Any]) -> dict[str, Any]:
     """Options as values that JSON can hold: paths become absolute, those that are None go.
 
@@ -125,3 +207,10 @@ def _register() -> None:
     """Let Gazelle's environments register themselves."""
     if importlib.util.find_spec("gazelle.envs") is not None:
         importlib.import_module("gazelle.envs")
+
+
+def _register_others() -> None:
+    """Let installed packages register theirs."""
+    before = set(gym.registry)
+    load_entry_points()
+    _others.update(set(gym.registry) - before)

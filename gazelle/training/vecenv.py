@@ -15,7 +15,8 @@ import numpy.typing as npt
 from gymnasium.vector import VectorEnv
 from stable_baselines3.common.vec_env import VecEnv
 
-from gazelle.training.stepper import Episodes, Step, Stepper
+from gazelle.training.episodes import Episodes
+from gazelle.training.stepper import Step, Stepper
 
 
 class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base

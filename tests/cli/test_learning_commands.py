@@ -39,7 +39,7 @@ def test_train_says_what_it_did_and_what_to_type_next(cli, tmp_path):
 def test_eval_prints_rates(cli, run):
     code, out, _ = cli("eval", run, "--episodes", 20)
     assert code == 0
-    assert "CartPole-v1, 20 episodes, seed 10000" in out
+    assert "CartPole-v1, 20 episodes (20 distinct), seed 10000" in out
     assert re.search(r"time-out +0\.0 % +95 % interval 0\.0 % to 16\.1 % +\(0 of 20\)", out)
     assert "RTF" in out
 
@@ -64,7 +64,8 @@ def test_resume_of_a_finished_run_has_nothing_to_do(cli, run):
     [
         ((), "which task?"),
         (("CartPole-v1", "--resume", "x"), "leave out task"),
-        (("--resume", "x", "--steps", "5"), "leave out --steps"),
+        (("--resume", "x", "--num-envs", "5"), "leave out --num-envs"),
+        (("--resume", "x", "--goals", "published"), "leave out --goals"),
         (("--resume", "x", "--option", "a=1"), "leave out --option"),
         (("CartPole-v1", "--steps", "0"), "above 0"),
     ],

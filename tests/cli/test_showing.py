@@ -31,7 +31,7 @@ def test_rates_come_with_their_interval():
 
 def test_evaluation_fits_80_columns():
     result = Evaluation(
-        "gazelle/T-v0", 10_000, 1, Rate(9_900, 10_000), None, Rate(100, 10_000),
+        "gazelle/T-v0", 10_000, 9_000, 1, Rate(9_900, 10_000), None, Rate(100, 10_000), Rate(0, 10_000),
         -123456.789, 499.9, 1234.5, 1e7,
     )  # fmt: skip
     text = showing.evaluation(result)

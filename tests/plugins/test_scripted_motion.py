@@ -64,6 +64,39 @@ def test_every_world_restarts_its_own_script():
         np.testing.assert_allclose(sim.robots["post"].position[:, 0], [3.0, 1.0], atol=0.002)
 
 
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+@pytest.mark.parametrize("elapsed", [0.0, 0.7, 3.9])
+def test_begun_so_long_ago_it_is_where_it_would_be(engine, elapsed):
+    """Some worlds only, and both at once and later."""
+    path = script(
+        (0, "0 0 0.25 0 0 0"), (2, "2 0 0.25 0 0 0"), (4, "0 0 0.25 0 0 0"), loop=True, updateRate=0
+    )
+    with Simulation(scenes.world(moving(path)), nworld=3, engine=engine) as sim:
+        plugin = sim.plugins[0].plugin
+        assert plugin.period == 4.0
+        sim.run(0.5)
+        plugin.begin_at(np.full(2, elapsed), np.array([0, 2]))
+        for later in (0.0, 0.6):
+            sim.run(later)
+            x = 2.0 - abs(2.0 - (elapsed + later) % 4.0)
+            np.testing.assert_allclose(sim.robots["post"].position[[0, 2], 0], x, atol=0.02)
+            assert sim.robots["post"].position[1, 0] == pytest.approx(0.5 + later, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("plugin", "period"),
+    [
+        (script(angular_velocity="0 0 0.5"), 4.0 * np.pi),
+        (script(angular_velocity="0 0 0"), 0.0),
+        (script((0, "0 0 1 0 0 0"), (3, "1 0 1 0 0 0")), 0.0),
+        (script((0, "0 0 1 0 0 0"), (3, "1 0 1 0 0 0"), loop=True), 3.0),
+    ],
+)
+def test_its_period_is_when_it_begins_anew(plugin, period):
+    with Simulation(scenes.world(moving(plugin))) as sim:
+        assert sim.plugins[0].plugin.period == pytest.approx(period)
+
+
 def test_it_pushes_and_nothing_pushes_it():
     plugin = script((0, "0 0 0.25 0 0 0"), (4, "1 0 0.25 0 0 0"), updateRate=0)
     box = scenes.box(pose=Pose(x=0.5, z=0.1))

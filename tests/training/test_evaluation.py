@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gymnasium as gym
 import numpy as np
 import pytest
 from corridor import MODES, PERIOD
@@ -87,3 +88,154 @@ def test_evaluation_works_without_torch():
     code = "import sys, gazelle.training; gazelle.training.evaluate; print('torch' in sys.modules)"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "False"
+
+
+class Dice(gym.Env):
+    """Ends at once, as one of ``sides`` episodes has it: a user's own task, of the plainest kind."""
+
+    observation_space = gym.spaces.Box(-10.0, 10.0, (1,), np.float32)
+    action_space = gym.spaces.Discrete(2)
+
+    def __init__(self, sides=5, tell=True, good=3, noise=0.0):
+        self.sides, self.tell, self.good, self.noise = sides, tell, good, noise
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.side = int(self.np_random.integers(self.sides))
+        info = {"scenario": [self.side, 7.0]} if self.tell else {}
+        return self.look(), info
+
+    def step(self, action):
+        success = self.side < self.good
+        ends = {"is_success": success, "is_collision": not success, "goal": np.ones(2)}
+        return self.look(), float(success), True, False, ends
+
+    def look(self):
+        noise = self.noise * self.np_random.standard_normal()
+        return np.array([self.side + noise], np.float32)
+
+
+class Choosy(Dice):
+    """Is to be evaluated on more sides than it is trained on."""
+
+    @classmethod
+    def evaluation_options(cls, trained):
+        return {"sides": trained.get("sides", 5) + 4}
+
+
+for _name, _kind in (("Dice", Dice), ("Choosy", Choosy)):
+    if f"test/{_name}-v0" not in gym.registry:
+        gym.register(f"test/{_name}-v0", entry_point=_kind, max_episode_steps=10)
+
+ONLY = Actor(
+    (np.zeros((1, 2), np.float32),), (np.array([1.0, 0.0], np.float32),), "tanh", "categorical"
+)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.01])
+@pytest.mark.parametrize("num_envs", [1, 7, 128])
+def test_repeated_episodes_count_once_in_the_interval(num_envs, noise):
+    found = evaluate(ONLY, task="test/Dice-v0", episodes=300, num_envs=num_envs, noise=noise)
+    assert (found.episodes, found.distinct, found.success.total) == (300, 5, 300)
+    low, high = found.success.interval
+    assert low < 0.3
+    assert high > 0.8
+    assert found.to_dict()["distinct"] == 5
+
+
+def test_without_a_word_equal_trails_are_the_same_episode():
+    assert evaluate(ONLY, task="test/Dice-v0", episodes=300, tell=False).distinct == 5
+    noisy = evaluate(ONLY, task="test/Dice-v0", episodes=300, tell=False, noise=0.01)
+    assert noisy.distinct == 300
+    assert evaluate(RIGHT, task=TASK, episodes=200).distinct == 200
+
+
+def test_a_task_says_how_it_is_evaluated():
+    assert evaluate(ONLY, task="test/Choosy-v0", episodes=400).distinct == 9
+    assert evaluate(ONLY, task="test/Choosy-v0", episodes=400, sides=2).distinct == 2
+
+
+def test_failures_are_told_one_by_one():
+    found = evaluate(ONLY, task="test/Dice-v0", episodes=200)
+    assert len(found.failures) == found.collision.count
+    for record in found.failures:
+        row = record.to_row()
+        assert row["outcome"] == "collision"
+        assert row["scenario_0"] >= 3
+        assert (row["goal_x"], row["goal_y"], row["length"]) == (1.0, 1.0, 1)
+
+
+def turn(size, action):
+    """Always the same of five actions."""
+    bias = np.zeros(5, np.float32)
+    bias[action] = 1.0
+    return Actor((np.zeros((size, 5), np.float32),), (bias,), "tanh", "categorical")
+
+
+def shares(found):
+    return [found.success.value, found.collision.value, found.timeout.value, found.other.value]
+
+
+@pytest.mark.parametrize("engine", ["planar", "mujoco"])
+@pytest.mark.parametrize("respawn", [True, False])
+@pytest.mark.parametrize("action", [0, 2])
+def test_shares_add_up(engine, respawn, action):
+    """Circling for ever is a time-out, straight on meets some goals and then a wall."""
+    found = evaluate(
+        turn(26, action),
+        task="TurtleBot3Stage1",
+        episodes=64,
+        engine=engine,
+        respawn=respawn,
+        max_episode_steps=120,
+    )
+    assert sum(shares(found)) == pytest.approx(1.0)
+    assert found.distinct == 64
+    if action == 2:
+        assert found.collision.value > 0.5
+        assert found.success.value > 0.0
+    else:
+        assert found.timeout.value > 0.8
+
+
+@pytest.mark.parametrize("engine", ["planar", "mujoco"])
+def test_a_policy_that_always_arrives_succeeds_always(engine):
+    """The next goal ahead: goals on a line, and time runs out on the way to one more."""
+    found = evaluate(
+        turn(26, 2),
+        task="TurtleBot3Stage1",
+        episodes=10,
+        engine=engine,
+        respawn=True,
+        starts="published",
+        goals=[(0.6, 0.0), (0.9, 0.0)],
+        max_episode_steps=30,
+    )
+    assert shares(found) == [1.0, 0.0, 0.0, 0.0]
+    assert found.success.total == found.success.count >= 10
+    assert found.distinct == 1
+
+
+def test_the_published_list_is_thirteen_episodes():
+    given = {"task": "TurtleBot3Stage4", "engine": "planar", "respawn": False}
+    published = evaluate(turn(28, 2), episodes=300, goals="published", starts="published", **given)
+    assert published.distinct == 13
+    fresh = evaluate(turn(28, 2), episodes=300, **given)
+    assert fresh.distinct == 300
+    assert published.floor_plan is not None
+    narrow, wide = (np.ptp(found.collision.interval) for found in (fresh, published))
+    assert wide > 3 * narrow
+
+
+@pytest.mark.parametrize("episodes", [4, 20, 100])
+def test_the_fleet_is_evaluated_in_any_number(episodes):
+    weight = np.zeros((28, 2), np.float32)
+    weight[25, 1] = 1.5
+    actor = Actor((weight,), (np.array([0.6, 0.0], np.float32),), "tanh", "gaussian",
+                  low=np.full(2, -1.0, np.float32), high=np.full(2, 1.0, np.float32))  # fmt: skip
+    found = evaluate(actor, task="AGVFleet", episodes=episodes, max_episode_steps=200)
+    assert found.episodes == found.distinct == episodes
+    assert sum(shares(found)) == pytest.approx(1.0)
+    assert found.success.value > 0.1
+    assert found.collision.count > 0
+    assert found.success.total > episodes

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import itertools
 import json
 import os
 import signal
+import subprocess
 import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
+from tensorboard.backend.event_processing.event_file_loader import EventFileLoader
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
-from gazelle.training import OffPolicySettings, Recipe, evaluate, resume, train
+from gazelle.training import OffPolicySettings, Recipe, Run, evaluate, resume, train
 from gazelle.training.progress import Silent
 
 SMALL = OffPolicySettings(
@@ -151,6 +156,113 @@ def test_a_finished_run_has_nothing_left_to_do(tmp_path, tiny):
     again = resume(result.run.folder)
     assert again.new_steps == 0
     assert again.steps == result.steps
+
+
+@pytest.mark.parametrize("interrupted", [False, True])
+def test_a_run_is_extended(tmp_path, tiny, interrupted):
+    stop = StopAt(500) if interrupted else None
+    first = train("test/Corridor-v0", recipe=tiny, out=tmp_path, progress=stop)
+    more = resume(first.run.folder, steps=2048)
+    assert more.steps == 2048
+    assert more.new_steps == 2048 - first.steps
+    assert more.run.config.recipe.steps == 2048
+    assert json.loads((first.run.folder / "config.json").read_text())["recipe"]["steps"] == 2048
+    steps = [int(row["time/steps"]) for row in curves(more)]
+    assert steps == sorted(set(steps))
+    assert steps[-1] == 2048
+    assert resume(first.run.folder).new_steps == 0
+
+
+def test_a_run_is_not_made_shorter_than_it_is(tmp_path, tiny):
+    result = train("test/Corridor-v0", recipe=tiny, out=tmp_path)
+    with pytest.raises(TaskError, match="has 1,024 steps already"):
+        resume(result.run.folder, steps=512)
+    assert Run.open(result.run.folder).config.recipe.steps == 1024
+
+
+def test_seconds_and_rates_go_on_over_a_break(tmp_path, tiny):
+    """The clock of a run stands still between its parts, and never goes back."""
+    recipe = dataclasses.replace(tiny, steps=2048)
+    first = train("test/Corridor-v0", recipe=recipe, out=tmp_path, progress=StopAt(700))
+    time.sleep(1.5)
+    second = resume(first.run.folder)
+    with (second.run.folder / "progress.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    seconds = [float(row["time/seconds"]) for row in rows]
+    assert all(early < late for early, late in itertools.pairwise(seconds))
+    spent = first.wall_seconds + second.wall_seconds
+    assert seconds[-1] <= spent + 0.1
+    for row in rows:
+        rate = int(row["time/steps"]) / float(row["time/seconds"])
+        assert float(row["time/steps_per_second"]) == pytest.approx(rate, rel=0.05)
+
+
+def tensorboard_steps(folder):
+    """Steps of one curve, file by file, as they stand there."""
+    steps = []
+    for file in sorted((folder / "tensorboard").glob("events.out.tfevents.*")):
+        steps += [
+            event.step
+            for event in EventFileLoader(str(file)).Load()
+            if any(value.tag == "episodes/length" for value in event.summary.value)
+        ]
+    return steps
+
+
+def test_a_killed_run_has_no_step_twice(tmp_path):
+    """Killed without a chance to save, far beyond its last checkpoint, in the middle of a file."""
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[2])\n"
+        "import corridor; corridor.register()\n"
+        "from gazelle.training import PPOSettings, Recipe, train\n"
+        "settings = PPOSettings(n_steps=16, batch_size=32, n_epochs=2)\n"
+        "recipe = Recipe(steps=40_000, num_envs=8, net_arch=(16,), settings=settings)\n"
+        "train('test/Corridor-v0', recipe=recipe, out=sys.argv[1], checkpoint_every=6_000)\n"
+    )
+    here = str(Path(__file__).parent)
+    child = subprocess.Popen([sys.executable, "-c", code, str(tmp_path), here])
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline:
+        tables = list(tmp_path.glob("*/progress.csv"))
+        rows = tables[0].read_text().splitlines() if tables else []
+        if len(rows) > 2 and int(rows[-1].split(",")[0] or 0) > 10_000:
+            break
+        time.sleep(0.01)
+    child.kill()
+    child.wait()
+    (folder,) = tmp_path.iterdir()
+    newest = int(Run.open(folder).newest_checkpoint().name)
+    (events,) = (folder / "tensorboard").iterdir()
+    with events.open("ab") as file:
+        file.write(b"half a record")
+    assert max(tensorboard_steps(folder)) > newest
+    resume(folder, steps=newest + 4_000)
+    steps = tensorboard_steps(folder)
+    assert steps == sorted(set(steps))
+    assert steps[-1] >= newest + 4_000
+    table = [int(row["time/steps"]) for row in csv.DictReader((folder / "progress.csv").open())]
+    assert steps == table
+
+
+def test_being_told_to_end_saves_as_ctrl_c_does(tmp_path, tiny):
+    class EndAt(StopAt):
+        def update(self, done, summary):
+            if done >= self.steps:
+                self.steps = float("inf")
+                os.kill(os.getpid(), signal.SIGTERM)
+
+    before = signal.getsignal(signal.SIGTERM)
+    whole = train("test/Corridor-v0", recipe=tiny, out=tmp_path / "whole")
+    stop = EndAt(500)
+    first = train("test/Corridor-v0", recipe=tiny, out=tmp_path / "broken", progress=stop)
+    assert first.interrupted
+    assert first.stop_signal == signal.SIGTERM
+    assert 500 <= first.steps < 1024
+    assert int(first.run.newest_checkpoint().name) == first.steps
+    assert signal.getsignal(signal.SIGTERM) is before
+    second = resume(first.run.folder)
+    for name, expected in weights(whole).items():
+        assert torch.equal(weights(second)[name], expected), name
 
 
 def test_a_run_in_the_same_second_gets_a_folder_of_its_own(tmp_path, tiny):

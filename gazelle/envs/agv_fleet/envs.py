@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Unpack
+from collections.abc import Mapping
+from typing import Any, Unpack
 
 from gymnasium.vector import AutoresetMode
 
@@ -68,7 +69,8 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     ## Info
 
     ``is_success`` (a goal was reached in this step), ``is_collision``, ``goal`` (x, y) [m] (the
-    one to go for next), ``goals_reached`` (in this episode), and ``is_timeout``.
+    one to go for next), ``position`` (x, y) [m], ``goals_reached`` (in this episode), and
+    ``is_timeout``; where an episode begins ``scenario``: start (x, y, heading) and goal (x, y).
 
     ## Arguments
 
@@ -78,6 +80,8 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     ``num_envs``           1         AGVs in all, a multiple of ``agents`` or less than it
     ``agents``             8         AGVs in a hall
     ``lidar_samples``      24        rays in the observation, 2 or more
+    ``places``             training  where AGVs start and goals are: on a grid of 1.5 m, or
+                                     "held-out": in the middles of its squares
     ``seed``               None      for a first ``reset`` without one; None draws one
     ``max_episode_steps``  500       see above
     ``render_mode``        None      "rgb_array": the hall from above, 630 by 430
@@ -93,6 +97,18 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     Raises:
         TaskError: An option cannot be.
     """
+
+    @staticmethod
+    def evaluation_options(trained: Mapping[str, Any]) -> dict[str, Any]:
+        """Policies are evaluated at places that they were not trained at."""
+        del trained
+        return {"places": "held-out"}
+
+    @staticmethod
+    def fitting_num_envs(num_envs: int, options: Mapping[str, Any]) -> int:
+        """So many AGVs, or as many more as fill the last hall."""
+        agents = read_options(FleetSettings, options).agents
+        return -(-num_envs // agents) * agents
 
     def __init__(
         self,

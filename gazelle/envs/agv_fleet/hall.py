@@ -36,10 +36,15 @@ def walls() -> tuple[Part, ...]:
     )
 
 
-def places() -> Floats:
-    """Where AGVs start and goals are [m], shape (n, 2): a grid, clear of all that stands."""
-    x = np.arange(-LENGTH / 2.0 + _CLEAR, LENGTH / 2.0 - _CLEAR + 1e-9, _SPACING)
-    y = np.arange(-WIDTH / 2.0 + _CLEAR, WIDTH / 2.0 - _CLEAR + 1e-9, _SPACING)
+def places(*, between: bool = False) -> Floats:
+    """Where AGVs start and goals are [m], shape (n, 2): a grid, clear of all that stands.
+
+    Args:
+        between: Those in the middles of the grid's squares instead.
+    """
+    first = _CLEAR + 0.5 * _SPACING * between
+    x = np.arange(-LENGTH / 2.0 + first, LENGTH / 2.0 - _CLEAR + 1e-9, _SPACING)
+    y = np.arange(-WIDTH / 2.0 + first, WIDTH / 2.0 - _CLEAR + 1e-9, _SPACING)
     grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     away = np.abs(grid[:, None, :] - np.array(_SHELVES)) - np.array(_SHELF) / 2.0
     free: Floats = grid[~(away < _CLEAR).all(axis=2).any(axis=1)]

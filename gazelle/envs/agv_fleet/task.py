@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
+from gazelle.engines.planar.columns import X0, X1, Y0, Y1
 from gazelle.envs.agv_fleet import hall
 from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
-from gazelle.envs.options import TaskOptions, TaskSettings, check_whole
+from gazelle.envs.floor_plan import FloorPlan
+from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_whole
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
 from gazelle.streams import Stream
@@ -26,6 +28,9 @@ REACH = 6.0
 ARRIVED = 0.5
 GOAL_REWARD, COLLISION_REWARD, STEP_REWARD, PROGRESS = 10.0, -10.0, -0.02, 1.0
 
+PLACES = ("training", "held-out")
+"""Where AGVs start and goals are: on a grid, or in the middles of its squares."""
+
 _STEPS = 4
 _TRIES = 24
 _FARTHEST = math.hypot(hall.LENGTH, hall.WIDTH)
@@ -36,6 +41,7 @@ class FleetOptions(TaskOptions, total=False):
 
     agents: int
     lidar_samples: int
+    places: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,17 +51,20 @@ class FleetSettings(TaskSettings):
     Attributes:
         agents: AGVs in each hall.
         lidar_samples: Ranges in the observation, 2 or more.
+        places: ``training`` or ``held-out``: where AGVs start and goals are.
     """
 
     engine: str = "planar"
     agents: int = 8
     lidar_samples: int = 24
+    places: str = "training"
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         TaskSettings.__post_init__(self)
         check_whole("agents", self.agents, 1)
         check_whole("lidar_samples", self.lidar_samples, 2)
+        check_name("kind of places", str(self.places), PLACES)
         if self.engine != "planar":
             raise TaskError(
                 f"AGVFleet runs in the plane, not with the engine '{self.engine}'",
@@ -63,8 +72,12 @@ class FleetSettings(TaskSettings):
             )
         if self.time_step is not None:
             raise TaskError(f"AGVFleet has a step of its own, {PERIOD / _STEPS:g} s")
-        if self.agents > len(hall.places()) // 4:
+        if self.agents > len(self.free_places()) // 4:
             raise TaskError(f"the hall is too small for {self.agents} AGVs")
+
+    def free_places(self) -> Floats:
+        """Where AGVs start and goals are [m], shape (n, 2)."""
+        return hall.places(between=self.places == "held-out")
 
 
 class AGVFleetTask(BatchedTask):
@@ -77,6 +90,8 @@ class AGVFleetTask(BatchedTask):
     Raises:
         TaskError: The number of AGVs does not fit.
     """
+
+    scenario_names = ("start_x", "start_y", "start_heading", "goal_x", "goal_y")
 
     def __init__(self, nworld: int, settings: FleetSettings) -> None:
         super().__init__(nworld, settings.max_episode_steps)
@@ -104,7 +119,8 @@ class AGVFleetTask(BatchedTask):
             Fan(0.0, step, settings.lidar_samples, REACH),
             [Mount(agent) for agent in range(self.agents)],
         )
-        self._places = hall.places()
+        self._places = settings.free_places()
+        self._start = np.zeros((nworld, 3))
         self._goal = np.zeros(nworld, np.intp)
         self._distance = np.zeros(nworld)
         self._reached = np.zeros(nworld, np.int64)
@@ -152,8 +168,13 @@ class AGVFleetTask(BatchedTask):
         # only those: cosines of the others' headings, taken again, could differ in the last bit
         poses = np.column_stack((self._places[where], yaw))
         self.fleet.put(poses, np.zeros(len(worlds)), worlds)
+        self._start[worlds] = poses
         self._goal[worlds] = where
         self._next_goals(worlds)
+
+    def scenario(self, worlds: Worlds) -> Floats:
+        """Start (x, y, heading) and first goal (x, y) of each AGV."""
+        return np.hstack((self._start[worlds], self.goals[worlds]))
 
     def _free_places(self, worlds: Worlds) -> Worlds:
         """Places [index] away from all others in the hall; drawn again where they are not."""
@@ -195,6 +216,12 @@ class AGVFleetTask(BatchedTask):
 
     def _release(self, worlds: Worlds, kept: Any) -> None:
         self._stream.counters[worlds] = kept
+
+    @property
+    def floor_plan(self) -> FloorPlan:  # type: ignore[override]  # not fixed there
+        """Walls and shelves, seen from above."""
+        rows = self.fleet.scene.table.rows
+        return FloorPlan(rows[:, [X0, Y0, X1, Y1]], np.zeros((0, 3)))
 
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         no = np.zeros(len(worlds), np.bool_)
@@ -244,6 +271,7 @@ class AGVFleetTask(BatchedTask):
             "is_success": arrived.copy(),
             "is_collision": crashed.copy(),
             "goal": self.goals[worlds],
+            "position": self.poses[worlds, :2],
             "goals_reached": self._reached[worlds],
         }
 

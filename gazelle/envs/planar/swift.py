@@ -172,6 +172,11 @@ class Swift:
         self._now[0] = self._simulation.clock.now
         kernels_drive.begin(worlds, self.starting)
 
+    def take_paths(self, worlds: Worlds) -> None:
+        """Take over from the plugins when the paths of some worlds began."""
+        for row, plugin in zip(self._epochs, self._paths.plugins, strict=True):
+            row[worlds] = plugin.state()["epoch"][worlds]
+
     def _flat_state(self) -> tuple[Floats, Floats, Any]:
         """Commands, velocities and stalls of the fleet, with one row a body of all worlds."""
         fleet = self.fleet

@@ -10,6 +10,7 @@ from gazelle.envs.options import (
     NavigationOptions,
     NavigationSettings,
     check_whole,
+    held_out_options,
     read_options,
 )
 from gazelle.envs.single_env import TaskEnv
@@ -113,8 +114,10 @@ class TurtleBot3Env(TaskEnv):
 
     ``is_success`` (a goal was reached in this step), ``is_collision``, ``distance`` [m],
     ``heading`` [rad] (as observed), ``goal`` (x, y) [m] (the one to go for next),
-    ``goals_reached`` (in this episode), and ``is_timeout`` where the environment counts the
-    steps itself: in the vector environment, or when made without ``gymnasium.make``.
+    ``position`` (x, y) [m] of the robot, ``goals_reached`` (in this episode), and ``is_timeout`` where the environment counts the
+    steps itself: in the vector environment, or when made without ``gymnasium.make``. Where an
+    episode begins, ``scenario`` is what sets it apart: start (x, y, heading), goal (x, y), and how
+    long ago [s] each obstacle began its way, if that was drawn.
 
     ## Arguments
 
@@ -129,11 +132,21 @@ class TurtleBot3Env(TaskEnv):
     ``lidar_samples``      24           rays in the observation, 2 or more
     ``world``              the stage's  world file or bundled name
     ``robot``              the burger   robot file or bundled name
-    ``goals``              the stage's  list of (x, y) [m]; drawn from, never one twice in a row
+    ``goals``              "published"  or a list of (x, y) [m], or "training" or "held-out"
+    ``starts``             "published"  or "training" or "held-out", see below
+    ``seen_goals``         None         list of (x, y) [m] that "held-out" goals keep away from
     ``respawn``            True         whether the episode goes on at a goal
     ``threads``            all          native threads; results do not depend on it
     ``time_step``          0.02         physics step [s]; must divide 0.2
     =====================  ===========  =========================================================
+
+    ``goals`` and ``starts`` other than as published are places in the free space of the world (of
+    yours too): those that the robot can get to from the stage's start, 0.3 m (goals) or 0.4 m
+    (starts) from all that stands, on a square lattice of 0.1 m or more. "training" takes the
+    points of the lattice, "held-out" the middles of its squares, away from the published goals
+    and from ``seen_goals``; so nothing held out was ever trained on. A robot then starts with any
+    heading, 0.5 m or more from its goal, with nothing within 0.35 m of its lidar, and moving
+    obstacles are anywhere on their way. Every episode has a goal of its own then.
 
     The step of 0.02 s is chosen by measurement: with random actions for 1 s the robot is then
     7 mm (median, at most 13 mm) from where steps of 0.001 s take it, having driven 150 mm; at
@@ -154,6 +167,7 @@ class TurtleBot3Env(TaskEnv):
     """
 
     continuous: ClassVar[bool] = False
+    evaluation_options = staticmethod(held_out_options)
 
     def __init__(self, stage: int = 1, **options: Unpack[NavigationOptions]) -> None:
         settings = read_options(NavigationSettings, options)
@@ -214,6 +228,7 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
     """
 
     continuous: ClassVar[bool] = False
+    evaluation_options = staticmethod(held_out_options)
 
     def __init__(
         self,

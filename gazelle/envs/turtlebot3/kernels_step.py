@@ -23,6 +23,7 @@ NOW, LAST = 0, 1
 SUCCESS, COLLISION, TIMEOUT, HOW = range(4)
 TERMINATED, TRUNCATED, DONE, ENDS = range(4)
 DISTANCE, HEADING, NUMBERS = range(3)
+POINTS = 4  # goal and robot, x and y of each
 
 
 @part
@@ -61,9 +62,10 @@ def distance_to_goal(b: int, pose: Floats, goals: Floats, place: int) -> float:
 
 
 @part
-def write_goal(points: Floats, w: int, goals: Floats, place: int) -> None:
-    """Let a place come out as a world's goal."""
+def write_points(points: Floats, w: int, goals: Floats, place: int, pose: Floats, b: int) -> None:
+    """Let a place come out as a world's goal, and where its robot is."""
     points[NOW, w, 0], points[NOW, w, 1] = goals[place, 0], goals[place, 1]
+    points[NOW, w, 2], points[NOW, w, 3] = pose[b, X], pose[b, Y]
 
 
 @part
@@ -74,7 +76,7 @@ def keep(w: int, over: bool, how: Flags, numbers: Floats, counts: Indices, point
     for k in range(NUMBERS):
         numbers[LAST, k, w] = numbers[NOW, k, w] if over else 0.0
     counts[LAST, w] = counts[NOW, w] if over else 0
-    for axis in range(2):
+    for axis in range(POINTS):
         points[LAST, w, axis] = points[NOW, w, axis] if over else 0.0
 
 
@@ -94,7 +96,7 @@ def conclude(
         if respawn:
             next_goal(w, goal, counts_of, successors, keys, counters)
             start_distance[w] = max(distance_to_goal(b, pose, goals, goal[w]), SHORTEST)
-    write_goal(points, w, goals, goal[w])
+    write_points(points, w, goals, goal[w], pose, b)
     over = ended or late
     how[NOW, SUCCESS, w], how[NOW, COLLISION, w] = arrived[w], crashed[w] and not arrived[w]
     how[NOW, TIMEOUT, w] = late and not ended
@@ -145,7 +147,7 @@ def step(
         how: Comes out, shape (2, HOW, nworld).
         numbers: Comes out, shape (2, NUMBERS, nworld).
         counts: Comes out, goals reached in the episode, shape (2, nworld).
-        points: Comes out, goals [m], shape (2, nworld, 2).
+        points: Comes out, goals and robots (x, y) [m], shape (2, nworld, POINTS).
         goes_on: Whether the next episode begins where one ended.
     """
     begin = fetch_add(tickets, _BLOCK)
@@ -173,7 +175,7 @@ def step(
             report(w, w + 1, *reporting)
             observe(w, w + 1, *observing)
             start_distance[w] = max(numbers[NOW, DISTANCE, w], SHORTEST)
-            write_goal(points, w, goals, goal[w])
+            write_points(points, w, goals, goal[w], pose, w * nbody + robot)
             for k in range(HOW):
                 how[NOW, k, w] = False
         begin = fetch_add(tickets, _BLOCK)

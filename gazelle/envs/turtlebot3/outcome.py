@@ -27,7 +27,7 @@ class Outcome:
         how: What ended episodes: success, collision, time-out.
         numbers: Distances to the goal [m] and headings of it [rad].
         counts: Goals reached in the episode.
-        points: Goals [m].
+        points: Goals and places of robots (x, y) [m].
     """
 
     def __init__(self, nworld: int, size: int) -> None:
@@ -38,7 +38,7 @@ class Outcome:
         self.how = np.zeros((2, k.HOW, nworld), np.bool_)
         self.numbers = np.zeros((2, k.NUMBERS, nworld))
         self.counts = np.zeros((2, nworld), np.int64)
-        self.points = np.zeros((2, nworld, 2))
+        self.points = np.zeros((2, nworld, k.POINTS))
 
     def step(self, *, timed: bool) -> Step:
         """What the last step brought; ``timed``: episodes have a step limit."""
@@ -59,7 +59,7 @@ class Outcome:
 
 
 def _info(
-    how: Bool, numbers: Float64, goal: Float64, reached: NDArray[np.int64], *, timed: bool
+    how: Bool, numbers: Float64, points: Float64, reached: NDArray[np.int64], *, timed: bool
 ) -> Info:
     """As ``TurtleBot3Task`` spells it."""
     info: Info = {
@@ -67,7 +67,8 @@ def _info(
         "is_collision": how[k.COLLISION],
         "distance": numbers[k.DISTANCE],
         "heading": numbers[k.HEADING],
-        "goal": goal,
+        "goal": points[:, :2],
+        "position": points[:, 2:],
         "goals_reached": reached,
     }
     return {**info, "is_timeout": how[k.TIMEOUT]} if timed else info

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import Float32, Info, Step, Transition, Worlds
+from gazelle.envs.batched_task import SCENARIO, Float32, Info, Step, Transition, Worlds
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.planar.swift import Swift
 from gazelle.envs.turtlebot3 import kernels_judge, kernels_step
@@ -42,6 +42,11 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         self._kept: tuple[object, tuple[Any, ...]] = (None, ())
 
     @property
+    def _draws_anew(self) -> bool:
+        """Whether a goal is drawn for each episode, and then for each one reached in it."""
+        return self.respawn and not self._keeps_goals
+
+    @property
     def swift(self) -> Swift | None:
         """What steps the simulation; None if it is stepped part by part."""
         return self._swift
@@ -67,6 +72,9 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
             return
         self._swift.begin(worlds)
         self._new_goals(worlds)
+        self._vary(worlds)
+        if self._starts is not None:
+            self._swift.take_paths(worlds)
 
     def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
         if self._swift is None:
@@ -87,9 +95,14 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
 
     def step(self, actions: ArrayLike) -> Step:
         """See `BatchedTask.step`."""
-        if self._swift is None:
+        if self._swift is None or self._starts is not None or self._draws_anew:
             return super().step(actions)
-        return self._run(self._swift, actions, goes_on=True)
+        step = self._run(self._swift, actions, goes_on=True)
+        if step.finals is not None:
+            scenario = self.scenario(step.finals.worlds)
+            step.transition.info[SCENARIO] = np.zeros((self.nworld, scenario.shape[1]))
+            step.transition.info[SCENARIO][step.finals.worlds] = scenario
+        return step
 
     def _run(self, swift: Swift, actions: ArrayLike, *, goes_on: bool) -> Step:
         """A control step in native code, with the next episodes where it goes on."""

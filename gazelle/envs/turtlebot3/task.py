@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
 from gazelle.envs.decimals import round2
+from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.options import NavigationSettings, check_name
 from gazelle.envs.pictures import mark_square
@@ -20,11 +21,13 @@ from gazelle.envs.turtlebot3.actions import (
     discrete_command,
     turn_index,
 )
+from gazelle.envs.turtlebot3.layout import Layout
 from gazelle.envs.turtlebot3.observations import Sight, observation, observation_space, sight
 from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
-from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules, stage_goals
+from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules
 from gazelle.envs.turtlebot3.scene import COMMAND, Scene
 from gazelle.envs.turtlebot3.terminations import collided, reached
+from gazelle.errors import TaskError
 from gazelle.rotations import yaw_of
 from gazelle.sensors import SensorModel, View, look_at
 from gazelle.simulation.seeing import Eye
@@ -54,11 +57,14 @@ class TurtleBot3Task(BatchedTask):
         super().__init__(nworld, settings.max_episode_steps)
         check_name("stage", str(stage), [str(known) for known in STAGES])
         self.rules = STAGES[stage]
-        self.goals = stage_goals(stage) if settings.goals is None else GoalTable(settings.goals)
         self.respawn = settings.respawn
         self.continuous = continuous
         self.control_period = self.rules.control_period
         self.scene = Scene(self.rules, settings, nworld)
+        self.layout = Layout(stage, settings)
+        self.goals = self.layout.goals()
+        self._starts = self.layout.starts(nworld)
+        self._keeps_goals = self.respawn and not self.layout.has_free_goals
         self.observation_space = observation_space(
             self.rules,
             settings.lidar_samples,
@@ -92,14 +98,47 @@ class TurtleBot3Task(BatchedTask):
         self.scene.restart(seed)
         self._stream = Stream(seed, "turtlebot3/goals", self.nworld)
         self._goal[:] = NO_GOAL
+        if self._starts is not None:
+            self._starts.seed(seed, self.scene.robot)
 
     def _begin(self, worlds: Worlds) -> None:
         self.scene.simulation.reset(worlds)
         self._new_goals(worlds)
+        self._vary(worlds)
+
+    def _vary(self, worlds: Worlds) -> None:
+        """Let robot and obstacles stand elsewhere than their files put them, if asked for."""
+        if self._starts is not None:
+            goals = self.goals.points[self._goal[worlds]]
+            self._starts.begin(worlds, goals, lambda some: self._see(some).nearest)
+
+    @property
+    def scenario_names(self) -> tuple[str, ...]:  # type: ignore[override]  # not fixed here
+        """Of the numbers that `scenario` gives."""
+        phases = 0 if self._starts is None else self._starts.phases.shape[1]
+        names = ("start_x", "start_y", "start_heading", "goal_x", "goal_y")
+        return (*names, *(f"phase_{number}" for number in range(phases)))
+
+    @property
+    def floor_plan(self) -> FloorPlan | None:  # type: ignore[override]  # made when asked for
+        """Walls and pillars, seen from above; None where they cannot be laid in the plane."""
+        try:
+            return self.layout.plan
+        except TaskError:
+            return None
+
+    def scenario(self, worlds: Worlds) -> NDArray[np.float64]:
+        """Start (x, y, heading), first goal (x, y), and how long ago scripts began, if varied."""
+        count = len(worlds)
+        start = np.broadcast_to((*self.rules.start, 0.0), (count, 3))
+        phases = np.zeros((count, 0))
+        if self._starts is not None:
+            start, phases = self._starts.poses[worlds], self._starts.phases[worlds]
+        return np.hstack((start, self.goals.points[self._goal[worlds]], phases))
 
     def _new_goals(self, worlds: Worlds) -> None:
         self._goals_reached[worlds] = 0
-        if self.respawn:
+        if self._keeps_goals:
             # As published: a goal stays until it is reached, over collisions and time-outs.
             fresh = worlds[self._goal[worlds] == NO_GOAL]
             self._goal[fresh] = self.goals.start
@@ -188,6 +227,7 @@ class TurtleBot3Task(BatchedTask):
             "distance": seen.distance,
             "heading": seen.heading,
             "goal": self.goals.points[self._goal[worlds]],
+            "position": self.scene.robot.placement(worlds).position[:, :2],
             "goals_reached": self._goals_reached[worlds],
         }
 
@@ -199,6 +239,7 @@ class TurtleBot3Task(BatchedTask):
             "goals_reached": self._goals_reached.copy(),
             "start_distance": self._start_distance.copy(),
             "simulation": self.scene.simulation.snapshot(),
+            **({} if self._starts is None else self._starts.get_state()),
         }
 
     def _set_state(self, state: dict[str, Any]) -> None:
@@ -208,6 +249,8 @@ class TurtleBot3Task(BatchedTask):
         self._goal[:] = state["goal"]
         self._goals_reached[:] = state["goals_reached"]
         self._start_distance[:] = state["start_distance"]
+        if self._starts is not None:
+            self._starts.set_state(state)
 
 
 def _action_space(*, continuous: bool) -> gym.Space[Any]:

@@ -1,0 +1,63 @@
+"""Episodes that failed, as a file: a table, JSON, or a picture of where they did."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gazelle.training import Evaluation
+
+_FORMS = (".csv", ".json", ".png")
+
+
+def failures_file(text: str) -> Path:
+    """The file of ``--failures``; its ending says the form."""
+    file = Path(text)
+    if file.suffix.lower() not in _FORMS:
+        raise argparse.ArgumentTypeError(f"expected a file that ends in {', '.join(_FORMS)}")
+    if not file.absolute().parent.is_dir():
+        raise argparse.ArgumentTypeError(f"there is no folder {file.parent}")
+    return file
+
+
+def save_failures(found: Evaluation, file: Path) -> None:
+    """Write the episodes that failed.
+
+    Raises:
+        TaskError: A picture is asked for, and the task tells no places.
+        OSError: The file cannot be written.
+    """
+    if file.suffix.lower() == ".png":
+        from PIL import Image
+
+        from gazelle.viewer.failures import draw_failures
+
+        Image.fromarray(draw_failures(found)).save(file)
+        return
+    rows = [record.to_row() for record in found.failures]
+    if file.suffix.lower() == ".json":
+        about = found.to_dict() | {"goals": _by_goal(found), "failures": rows}
+        file.write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
+        return
+    columns = list(dict.fromkeys(name for row in rows for name in row))
+    with file.open("w", newline="", encoding="utf-8") as table:
+        writer = csv.DictWriter(table, columns or ["outcome"], restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def _by_goal(found: Evaluation) -> list[dict[str, Any]]:
+    """How the last attempts at each goal ended, the worst goals first."""
+    goals: dict[tuple[float, ...], dict[str, int]] = {}
+    for record in found.records:
+        goal = record.info.get("goal")
+        if goal is not None and (record.failed or record.goals == 1):
+            counts = goals.setdefault(goal, {"tried": 0, "failed": 0})
+            counts["tried"] += 1
+            counts["failed"] += record.failed
+    worst = sorted(goals.items(), key=lambda item: (-item[1]["failed"], item[0]))
+    return [{"goal": list(goal), **counts} for goal, counts in worst]

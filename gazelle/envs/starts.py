@@ -1,0 +1,103 @@
+"""Starts of episodes that differ: where the robot is, how it looks, and how far scripts are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.errors import TaskError
+from gazelle.plugins.scripted_motion import ScriptedMotion
+from gazelle.simulation import Robot
+from gazelle.streams import Stream
+
+Floats = NDArray[np.float64]
+Worlds = NDArray[np.intp]
+
+APART = 0.5
+"""A robot starts farther than this from its goal [m]."""
+CLEAR = 0.35
+"""And with nothing nearer than this to its lidar, where there is such a place [m]."""
+
+_TRIES = 8
+
+
+class RandomStarts:
+    """Draws where episodes begin, one world knowing nothing of the others.
+
+    Args:
+        places: Where the robot may start (x, y) [m], shape (n, 2).
+        nworld: Number of worlds.
+
+    Attributes:
+        poses: x, y [m] and heading [rad] of the robot at its start, shape (nworld, 3).
+        phases: How long ago scripts began then [s], shape (nworld, scripts).
+
+    Raises:
+        TaskError: There is no place.
+    """
+
+    def __init__(self, places: Floats, nworld: int) -> None:
+        if not len(places):
+            raise TaskError(
+                "there is no free place to start from",
+                hint='leave the robot where it starts, with starts="published"',
+            )
+        self._places = places
+        self.poses = np.zeros((nworld, 3))
+        self.phases = np.zeros((nworld, 0))
+
+    def seed(self, seed: int, robot: Robot) -> None:
+        """Start over with a seed, in the simulation that this robot is in."""
+        entries = robot.simulation.plugins
+        self._robot = robot
+        self._scripts = [
+            entry.plugin for entry in entries if isinstance(entry.plugin, ScriptedMotion)
+        ]
+        nworld = len(self.poses)
+        self._stream = Stream(seed, "starts", nworld)
+        self.poses = np.zeros((nworld, 3))
+        self.phases = np.zeros((nworld, len(self._scripts)))
+
+    def begin(self, worlds: Worlds, goals: Floats, nearest: Callable[[Worlds], Floats]) -> None:
+        """Put robot and scripts somewhere, in worlds that were just reset.
+
+        Args:
+            worlds: Which ones, shape (n,).
+            goals: Where the robots will have to go (x, y) [m], shape (n, 2).
+            nearest: The shortest range that a lidar has in some worlds now [m].
+        """
+        scripts = len(self._scripts)
+        drawn = self._stream.uniform(1 + scripts + _TRIES, worlds)
+        for script, share in zip(self._scripts, range(1, 1 + scripts), strict=True):
+            elapsed = drawn[:, share] * script.period
+            self.phases[worlds, share - 1] = elapsed
+            script.begin_at(elapsed, worlds)
+        yaw = (2.0 * drawn[:, 0] - 1.0) * np.pi
+        choices = self._places[(drawn[:, 1 + scripts :] * len(self._places)).astype(np.intp)]
+        near_goal = np.hypot(*np.moveaxis(choices - goals[:, None, :], 2, 0)) <= APART
+        position = self._robot.placement(worlds).position
+        pending = np.arange(len(worlds))
+        for attempt in range(_TRIES):
+            position[pending, :2] = choices[pending, attempt]
+            some = worlds[pending]
+            self._robot.set_pose(position[pending], yaw=yaw[pending], worlds=some)
+            pending = pending[near_goal[pending, attempt] | (nearest(some) < CLEAR)]
+            if not len(pending):
+                break
+        self.poses[worlds] = np.column_stack((position[:, :2], yaw))
+
+    def get_state(self) -> dict[str, Any]:
+        """What a saved environment needs."""
+        return {
+            "start_draws": self._stream.counters.copy(),
+            "start_poses": self.poses.copy(),
+            "start_phases": self.phases.copy(),
+        }
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Go on from what ``get_state`` returned, after ``seed``."""
+        self._stream.counters[:] = state["start_draws"]
+        self.poses[:], self.phases[:] = state["start_poses"], state["start_phases"]

@@ -1,0 +1,126 @@
+"""Where starts and goals of a TurtleBot3 task are: as published, or anywhere in free space."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.engines.planar import PlanarEngine
+from gazelle.envs.floor_plan import FloorPlan
+from gazelle.envs.free_space import FreeSpace, floor_plan_of
+from gazelle.envs.goals import GoalTable
+from gazelle.envs.options import NavigationSettings
+from gazelle.envs.starts import RandomStarts
+from gazelle.envs.turtlebot3.rules import STAGES, stage_goals
+from gazelle.envs.turtlebot3.scene import Scene
+from gazelle.errors import Error, TaskError
+from gazelle.sensors import LidarModel
+
+Floats = NDArray[np.float64]
+
+_START_MARGIN, _GOAL_MARGIN = 0.4, 0.3  # from all that stands [m]
+_APART = 0.5  # of a goal from the one before, and of the first one from a fixed start [m]
+_UNSEEN = 0.2  # of held-out goals from those seen in training, where these leave the room [m]
+
+
+class Layout:
+    """Goals and starts that the settings ask for.
+
+    Places in free space are on a square lattice: those for training on its points, held-out
+    ones in the middles of its squares, so that no policy was trained on one.
+
+    Args:
+        stage: 1 to 4.
+        settings: What the user asks for.
+    """
+
+    def __init__(self, stage: int, settings: NavigationSettings) -> None:
+        self._stage = stage
+        self._settings = settings
+
+    def goals(self) -> GoalTable:
+        """The places of goals, and which may follow which.
+
+        Raises:
+            TaskError: The user's goals are no places, or no place is free.
+        """
+        asked, fixed = self._settings.goals, self._settings.starts == "published"
+        if asked is None or asked == "published":
+            return stage_goals(self._stage)
+        if not isinstance(asked, str):
+            return GoalTable(asked)
+        places = self.space.places(_GOAL_MARGIN, between=asked == "held-out")
+        if asked == "held-out":
+            places = _unseen(places, stage_goals(self._stage).points)
+            if self._settings.seen_goals is not None:
+                places = _unseen(places, GoalTable(self._settings.seen_goals).points)
+        if fixed:
+            places = places[np.hypot(*(places - self._start).T) > _APART]
+        if not len(places):
+            raise TaskError(
+                "there is no free place for a goal", hint="give goals of your own, with goals=..."
+            )
+        away = np.hypot(*np.moveaxis(places[:, None, :] - places[None, :, :], 2, 0)) > _APART
+        return GoalTable(places, away)
+
+    @property
+    def has_free_goals(self) -> bool:
+        """Whether goals are drawn from free space, and not from a list."""
+        return self._settings.goals in ("training", "held-out")
+
+    def starts(self, nworld: int) -> RandomStarts | None:
+        """Where the robot starts; None if always where the stage has it."""
+        asked = self._settings.starts
+        if asked == "published":
+            return None
+        places = self.space.places(_START_MARGIN, between=asked == "held-out")
+        return RandomStarts(places, nworld)
+
+    @functools.cached_property
+    def plan(self) -> FloorPlan:
+        """What stands in the world, seen from above.
+
+        Raises:
+            TaskError: The world or the robot cannot be laid in the plane.
+        """
+        flat = dataclasses.replace(self._settings, engine="planar", threads=1, time_step=None)
+        try:
+            scene = Scene(STAGES[self._stage], flat, 1)
+        except Error as error:
+            raise TaskError(
+                f"free space is looked for in the plane, where this does not go: {error}",
+                hint='give goals of your own, and starts="published"',
+            ) from error
+        with scene.simulation:
+            robot, engine = scene.robot, scene.simulation.engine
+            model = robot.sensors[scene.lidar.sensor].model
+            if not isinstance(engine, PlanarEngine) or not isinstance(model, LidarModel):
+                raise TaskError("the sensor of this task must be a lidar")
+            caster = engine.caster(model.link, model.origins, model.directions)
+            height = float(robot.position[0, 2] + caster.scanner.mounts[0].z)
+            return floor_plan_of(robot, height)
+
+    @functools.cached_property
+    def space(self) -> FreeSpace:
+        """Where the robot can get to from the stage's start."""
+        return FreeSpace(self.plan, self._start)
+
+    @property
+    def _start(self) -> tuple[float, float]:
+        return STAGES[self._stage].start
+
+
+def _unseen(places: Floats, seen: Floats) -> Floats:
+    """The places that are away from others: half as far as these are from each other, at most.
+
+    So a list that lies close, such as a grid, leaves what is between its points.
+    """
+    apart = np.hypot(*np.moveaxis(seen[:, None, :] - seen[None, :, :], 2, 0))
+    np.fill_diagonal(apart, np.inf)
+    least = min(_UNSEEN, 0.5 * float(apart.min()))
+    nearest = np.hypot(*np.moveaxis(places[:, None, :] - seen[None, :, :], 2, 0)).min(axis=1)
+    kept: Floats = places[nearest > least]
+    return kept

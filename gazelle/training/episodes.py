@@ -1,0 +1,79 @@
+"""How episodes ended, and what that says of a policy's attempts at its goals."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+Bools = npt.NDArray[np.bool_]
+Doubles = npt.NDArray[np.float64]
+Counts = npt.NDArray[np.int64]
+
+OUTCOMES = ("is_success", "is_collision", "is_timeout")
+"""The outcome of an episode, as boolean arrays in ``info["final_info"]``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Episodes:
+    """Episodes that ended in one step, in the order of their slots. Arrays have shape (k,).
+
+    An episode is a row of attempts at goals, one after the other. Each ends in one of four
+    ways: the goal is reached, there is a collision, time runs out, or the episode ends
+    otherwise. Where time runs out on the way from one goal to the next, the attempt is left
+    out, unless it took over half of the episode: then the robot was not on its way any more.
+    """
+
+    slots: npt.NDArray[np.intp]
+    """Which copies of the environment they ran in."""
+    returns: Doubles
+    """Sums of rewards."""
+    lengths: Counts
+    """Control steps."""
+    outcomes: dict[str, Bools]
+    """For each name in `OUTCOMES` that the environment reports: whether it holds at the end."""
+    goals: Counts
+    """Goals reached: ``goals_reached`` of the last info, else as often as ``is_success`` became
+    true. More than one where an episode goes on to the next goal."""
+    since_goal: Counts
+    """Control steps since the last goal on the way was reached, or since the start."""
+    truncated: Bools
+    """Whether the episode was cut off."""
+    scenarios: Doubles | None = None
+    """What the environment says of how they began, shape (k, size)."""
+    info: dict[str, Doubles] = field(default_factory=dict)
+    """Numbers of their last info, shapes (k,) or (k, few), if they were asked for."""
+
+    @functools.cached_property
+    def succeeded(self) -> Bools:
+        """Whether the last step reached a goal, or stayed at it."""
+        return self._told("is_success")
+
+    @functools.cached_property
+    def collisions(self) -> Bools:
+        """Whether the last attempt ended in a collision."""
+        return self._told("is_collision")
+
+    @functools.cached_property
+    def timeouts(self) -> Bools:
+        """Whether time ran out for the last attempt."""
+        late = self.outcomes.get("is_timeout", self.truncated)
+        on_the_way = (self.goals > 0) & (2 * self.since_goal <= self.lengths)
+        return late & ~self.collisions & ~self.succeeded & ~on_the_way
+
+    @functools.cached_property
+    def others(self) -> Bools:
+        """Whether the last attempt ended in no way that the environment has a name for."""
+        late = self.outcomes.get("is_timeout", self.truncated)
+        return ~late & ~self.collisions & ~self.succeeded
+
+    @functools.cached_property
+    def attempts(self) -> Counts:
+        """Goals that were tried, but for those that were left out."""
+        failed = self.collisions | self.timeouts | self.others
+        return self.goals + failed.astype(np.int64)
+
+    def _told(self, name: str) -> Bools:
+        return self.outcomes.get(name, np.zeros(len(self.slots), np.bool_))

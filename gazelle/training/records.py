@@ -1,0 +1,169 @@
+"""Each episode of an evaluation by itself, and which of them are the same."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gazelle.training.episodes import Episodes
+from gazelle.training.statistics import Rate, clustered_rate
+
+Keys = npt.NDArray[np.uint64]
+
+_ENDS = ("collisions", "timeouts", "others")
+_NAMES = {"collisions": "collision", "timeouts": "time-out", "others": "other"}
+_ODD = np.uint64(0x9E3779B97F4A7C15)
+
+
+@dataclass(frozen=True, slots=True)
+class EpisodeRecord:
+    """One episode."""
+
+    outcome: str
+    """How it ended: ``success``, ``collision``, ``time-out``, ``other``, or ``undecided`` where
+    time ran out on the way to one more goal."""
+    goals: int
+    """Goals that were reached."""
+    length: int
+    """Control steps."""
+    sum_of_rewards: float
+    """Its return."""
+    scenario: dict[str, float]
+    """How it began, as far as the environment tells."""
+    info: dict[str, tuple[float, ...]]
+    """The numbers of its last info, such as ``goal`` and ``position`` (x, y) [m]."""
+    ends: tuple[int, int, int]
+    """1 for a collision, a time-out or another end of the last attempt, else 0."""
+
+    @property
+    def failed(self) -> bool:
+        """Whether the last attempt failed."""
+        return any(self.ends)
+
+    def to_row(self) -> dict[str, Any]:
+        """One line of a table: plain values by column."""
+        numbers = {
+            name if len(values) == 1 else f"{name}_{_axis(axis, len(values))}": value
+            for name, values in self.info.items()
+            for axis, value in enumerate(values)
+        }
+        return {
+            "outcome": self.outcome,
+            "goals": self.goals,
+            "length": self.length,
+            "return": self.sum_of_rewards,
+            **self.scenario,
+            **{name: value for name, value in numbers.items() if not name.startswith("is_")},
+        }
+
+
+class Ledger:
+    """Keeps the first so many episodes of each copy, and no others.
+
+    Args:
+        episodes: How many in all.
+        copies: Of the environment.
+        names: Of the numbers of a scenario, as far as the environment gives them names.
+
+    Attributes:
+        left: Episodes that each copy still has to run, shape (copies,).
+        records: Those that ended.
+    """
+
+    def __init__(self, episodes: int, copies: int, names: tuple[str, ...] = ()) -> None:
+        share, rest = divmod(episodes, copies)
+        self.left = np.full(copies, share) + (np.arange(copies) < rest)
+        self.records: list[EpisodeRecord] = []
+        self._names = names
+        self._keys: list[bytes] = []
+        self._told: set[str] = set()
+
+    @property
+    def distinct(self) -> int:
+        """How many different episodes there are."""
+        return len(set(self._keys))
+
+    def tells(self, outcome: str) -> bool:
+        """Whether the environment tells this outcome."""
+        return outcome in self._told
+
+    def add(self, ended: Episodes, trails: Keys) -> None:
+        """Take in the episodes that ended in one step, with what tells their trails apart."""
+        self._told.update(ended.outcomes)
+        for row, slot in enumerate(ended.slots):
+            if not self.left[slot]:
+                continue
+            self.left[slot] -= 1
+            self.records.append(self._record(ended, row))
+            # Without a word on how it began, an episode is known by all that was seen in it.
+            told = ended.scenarios
+            self._keys.append(trails[row].tobytes() if told is None else told[row].tobytes())
+
+    def rate(self, what: str) -> Rate:
+        """How many of all attempts were ``goals``, or ended as `EpisodeRecord.ends` names."""
+        ends = np.array([record.ends for record in self.records], dtype=np.int64)
+        goals = np.array([record.goals for record in self.records], dtype=np.int64)
+        if not self.tells("is_success"):
+            goals = np.zeros_like(goals)
+        counts = goals if what == "goals" else ends[:, _ENDS.index(what)]
+        numbers = {key: number for number, key in enumerate(dict.fromkeys(self._keys))}
+        clusters = np.array([numbers[key] for key in self._keys], dtype=np.int64)
+        return clustered_rate(counts, goals + ends.sum(axis=1), clusters)
+
+    def _record(self, ended: Episodes, row: int) -> EpisodeRecord:
+        ends = tuple(int(getattr(ended, name)[row]) for name in _ENDS)
+        goals = int(ended.goals[row])
+        failed = [_NAMES[name] for name, end in zip(_ENDS, ends, strict=True) if end]
+        scenario = () if ended.scenarios is None else ended.scenarios[row].tolist()
+        return EpisodeRecord(
+            outcome=failed[0] if failed else "success" if ended.succeeded[row] else "undecided",
+            goals=goals,
+            length=int(ended.lengths[row]),
+            sum_of_rewards=float(ended.returns[row]),
+            scenario={self._name_of(i): value for i, value in enumerate(scenario)},
+            info={name: tuple(np.atleast_1d(v[row]).tolist()) for name, v in ended.info.items()},
+            ends=(ends[0], ends[1], ends[2]),
+        )
+
+    def _name_of(self, index: int) -> str:
+        return self._names[index] if index < len(self._names) else f"scenario_{index}"
+
+
+class Trail:
+    """Sums up all that was seen in each running episode in one number, so that equal ones are found.
+
+    Args:
+        copies: Of the environment.
+    """
+
+    def __init__(self, copies: int) -> None:
+        self._sums: Keys = np.zeros(copies, np.uint64)
+
+    def follow(self, obs: npt.NDArray[np.float32], where: npt.NDArray[np.bool_]) -> None:
+        """Take in what copies see, shape (copies, ...), where it is part of their episodes."""
+        self._sums = np.where(where, _mixed(self._sums, obs), self._sums)
+
+    def end(self, ended: Episodes, final_obs: npt.NDArray[np.float32]) -> Keys:
+        """The sums of episodes that ended with these last observations; they begin anew."""
+        sums = _mixed(self._sums[ended.slots], final_obs)
+        sums ^= ended.returns.view(np.uint64)
+        self._sums[ended.slots] = 0
+        return sums
+
+
+def _mixed(sums: Keys, obs: npt.NDArray[np.float32]) -> Keys:
+    """Sums that change with every bit of the observations (multiply and shift, modulo 2^64)."""
+    bits = np.ascontiguousarray(obs, np.float32).reshape(len(obs), -1).view(np.uint32)
+    odds = np.arange(1, 2 * bits.shape[1], 2, dtype=np.uint64) * _ODD
+    mixed = (sums + np.uint64(1)) * _ODD + (bits.astype(np.uint64) * odds).sum(axis=1)
+    mixed ^= mixed >> np.uint64(29)
+    result: Keys = mixed * _ODD
+    return result
+
+
+def _axis(index: int, size: int) -> str:
+    """``x``, ``y`` and ``z`` for places, numbers for more."""
+    return "xyz"[index] if size <= 3 else str(index)

@@ -1,0 +1,208 @@
+"""Starts and goals off the published ones."""
+
+from __future__ import annotations
+
+import gymnasium as gym
+import numpy as np
+import pytest
+
+import gazelle.envs  # noqa: F401  registers the environments
+from gazelle.envs.options import NavigationSettings, held_out_options
+from gazelle.envs.turtlebot3.layout import Layout
+from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
+from gazelle.envs.turtlebot3.swift_task import SwiftTurtleBot3Task
+from gazelle.envs.turtlebot3.task import TurtleBot3Task
+from gazelle.errors import TaskError
+from gazelle.plugins.scripted_motion import ScriptedMotion
+
+HELD_OUT = {"starts": "held-out", "goals": "held-out"}
+ENGINES = ["planar", "mujoco"]
+
+
+def many(stage, num_envs=32, engine="planar", **options):
+    return gym.make_vec(
+        f"gazelle/TurtleBot3Stage{stage}-v0",
+        num_envs=num_envs,
+        vectorization_mode="vector_entry_point",
+        engine=engine,
+        **options,
+    )
+
+
+def away(points, others):
+    """Of each point from the nearest of others [m]."""
+    return np.hypot(*np.moveaxis(points[:, None] - others[None], 2, 0)).min(axis=1)
+
+
+@pytest.mark.parametrize("stage", [1, 2, 3, 4])
+def test_held_out_goals_are_neither_published_nor_trained_on(stage):
+    held_out = Layout(stage, NavigationSettings(**HELD_OUT)).goals().points
+    trained = Layout(stage, NavigationSettings(goals="training")).goals().points
+    published = (plaza_goals() if stage == 4 else grid_goals()).points
+    assert away(held_out, trained).min() > 0.07
+    assert away(held_out, published).min() > (0.15 if stage == 4 else 0.07)
+    assert len(held_out) > 300
+
+
+def test_held_out_goals_keep_away_from_those_a_user_trained_on():
+    mine = [(1.05, 0.55), (-0.95, -1.25)]
+    options = held_out_options({"goals": mine, "lidar_samples": 12})
+    points = Layout(1, NavigationSettings(**options)).goals().points
+    assert away(points, np.array(mine)).min() > 0.2
+    assert len(points) > 300
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("stage", [1, 2, 3, 4])
+def test_nobody_starts_near_anything_or_at_the_goal(stage, engine):
+    env = many(stage, 48, engine, respawn=False, **HELD_OUT)
+    observation, info = env.reset(seed=3)
+    start, goal = info["scenario"][:, :2], info["scenario"][:, 3:5]
+    assert (np.hypot(*(start - goal).T) > 0.5).all()
+    # Noise of the lidar is a centimetre or so.
+    assert observation[:, :24].min() > 0.3
+    np.testing.assert_allclose(info["position"], start, atol=0.02)
+    np.testing.assert_allclose(info["goal"], goal)
+    env.close()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_episodes_differ_in_start_heading_goal_and_phases(engine):
+    env = many(4, 64, engine, respawn=False, max_episode_steps=3, **HELD_OUT)
+    seen = [env.reset(seed=0)[1]["scenario"]]
+    for _ in range(6):
+        *_, info = env.step(np.full(64, 2))
+        if "final_info" in info:
+            seen.append(info["scenario"])
+    scenarios = np.vstack([rows[rows.any(axis=1)] for rows in seen])
+    assert len(scenarios) >= 3 * 64
+    assert len(np.unique(scenarios, axis=0)) == len(scenarios)
+    assert env.unwrapped.scenario_names[-2:] == ("phase_0", "phase_1")
+    for column, (low, high) in {2: (-np.pi, np.pi), 5: (0, 158.6), 6: (0, 145.9)}.items():
+        shares = (scenarios[:, column] - low) / (high - low)
+        assert np.abs(np.histogram(shares, 4, (0, 1))[0] / len(shares) - 0.25).max() < 0.13
+    env.close()
+
+
+def test_both_engines_have_the_same_episodes():
+    firsts = []
+    for engine in ENGINES:
+        env = many(4, 16, engine, respawn=False, **HELD_OUT)
+        observation, info = env.reset(seed=8)
+        firsts.append((info["scenario"], observation))
+        env.close()
+    np.testing.assert_array_equal(firsts[0][0], firsts[1][0])
+    np.testing.assert_allclose(firsts[0][1][:, 24:26], firsts[1][1][:, 24:26], atol=0.03)
+    assert np.median(np.abs(firsts[0][1][:, :24] - firsts[1][1][:, :24])) < 0.03
+
+
+def test_obstacles_stand_where_their_phase_says():
+    settings = NavigationSettings(engine="planar", seed=2, **HELD_OUT)
+    task = SwiftTurtleBot3Task(3, 8, continuous=False, settings=settings)
+    task.begin(np.arange(8))
+    phases = task.scenario(np.arange(8))[:, 5]
+    plugins = [entry.plugin for entry in task.scene.simulation.plugins]
+    script = next(plugin for plugin in plugins if isinstance(plugin, ScriptedMotion))
+    for _ in range(3):
+        turn = np.angle(np.exp(1j * (script.robot.yaw - script.spin[2] * phases)))
+        np.testing.assert_allclose(turn, turn[0], atol=1e-9)
+        task.advance(np.full(8, 2))
+    task.close()
+
+
+@pytest.mark.parametrize("stage", [3, 4])
+def test_the_swift_task_begins_as_the_slow_one(stage):
+    settings = NavigationSettings(
+        engine="planar", seed=5, threads=1, respawn=False, max_episode_steps=25, **HELD_OUT
+    )
+    slow, swift = (
+        kind(stage, 16, continuous=False, settings=settings)
+        for kind in (TurtleBot3Task, SwiftTurtleBot3Task)
+    )
+    assert swift.swift is not None
+    everywhere = np.arange(16)
+    np.testing.assert_allclose(swift.begin(everywhere)[0], slow.begin(everywhere)[0], atol=1e-5)
+    generator = np.random.default_rng(stage)
+    begun = 0
+    for _ in range(60):
+        actions = generator.integers(0, 5, 16)
+        wanted, got = slow.step(actions), swift.step(actions)
+        np.testing.assert_allclose(
+            got.transition.observation, wanted.transition.observation, atol=1e-5
+        )
+        assert list(got.transition.info) == list(wanted.transition.info)
+        for name, values in wanted.transition.info.items():
+            np.testing.assert_allclose(got.transition.info[name], values, atol=1e-9)
+        begun += 0 if wanted.finals is None else len(wanted.finals.worlds)
+    assert begun >= 32
+    for task in (slow, swift):
+        task.close()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_saved_environment_goes_on_with_the_same_bits(engine):
+    env = many(4, 4, engine, respawn=False, max_episode_steps=8, **HELD_OUT)
+    env.reset(seed=1)
+    for _ in range(5):
+        env.step(np.full(4, 1))
+    state = env.get_state()
+    first = [env.step(np.full(4, 3)) for _ in range(12)]
+    other = many(4, 4, engine, respawn=False, max_episode_steps=8, **HELD_OUT)
+    other.reset(seed=7)
+    other.set_state(state)
+    for wanted in first:
+        got = other.step(np.full(4, 3))
+        np.testing.assert_array_equal(got[0], wanted[0])
+        if "scenario" in wanted[4]:
+            np.testing.assert_array_equal(got[4]["scenario"], wanted[4]["scenario"])
+    env.close()
+    other.close()
+
+
+def test_worlds_know_nothing_of_each_other():
+    few, lots = many(4, 3, **HELD_OUT), many(4, 20, **HELD_OUT)
+    one = gym.make("gazelle/TurtleBot3Stage4-v0", engine="planar", **HELD_OUT)
+    first = lots.reset(seed=4)[1]["scenario"]
+    np.testing.assert_array_equal(few.reset(seed=4)[1]["scenario"], first[:3])
+    np.testing.assert_array_equal(one.reset(seed=4)[1]["scenario"], first[0])
+    for env in (few, lots, one):
+        env.close()
+
+
+def test_published_starts_are_the_default():
+    env = many(4, 3)
+    _, info = env.reset(seed=4)
+    np.testing.assert_array_equal(info["scenario"], [[-0.7, 0.0, 0.0, 0.6, 0.0]] * 3)
+    env.close()
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [({"goals": "heldout"}, "held-out"), ({"starts": "trainig"}, "training")],
+)
+def test_a_near_miss_is_named(options, text):
+    with pytest.raises(TaskError) as raised:
+        many(1, 1, **options)
+    assert text in str(raised.value.hint)
+
+
+def test_a_world_of_ones_own_has_places_too():
+    layout = Layout(1, NavigationSettings(world="furnished_room", **HELD_OUT))
+    assert len(layout.goals().points) > 100
+
+
+def test_a_start_in_an_obstacle_says_what_to_do():
+    settings = NavigationSettings(world="turtlebot3_world", **HELD_OUT)
+    with pytest.raises(TaskError, match=r"within 0\.2 m of something") as raised:
+        Layout(1, settings).goals()
+    assert "goals of your own" in str(raised.value.hint)
+
+
+@pytest.mark.parametrize("starts", ["published", "held-out"])
+def test_goals_in_free_space_are_drawn_anew_for_each_episode(starts):
+    """Also where episodes go on at a goal: one that cannot be reached would come up for ever."""
+    env = many(4, 16, goals="training", starts=starts, respawn=True, max_episode_steps=2)
+    goals = [env.reset(seed=0)[1]["goal"]]
+    goals += [env.step(np.full(16, 2))[4]["goal"] for _ in range(8)]
+    assert len(np.unique(np.vstack(goals), axis=0)) > 50
+    env.close()
