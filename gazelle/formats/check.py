@@ -11,8 +11,11 @@ from gazelle.description import Source
 from gazelle.errors import Error
 from gazelle.formats.judge import Finding, judge
 from gazelle.formats.loader import PathLike, find_file, read_path
-from gazelle.formats.reading import Reading
+from gazelle.formats.reading import Note, Reading
 from gazelle.formats.resolve import Resolver
+
+TOLERATED = "tolerated"
+"""Rule of the faults that a load goes on with, as Gazebo does."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +23,8 @@ class Problem:
     """One finding.
 
     Attributes:
-        severity: An error stops the load, or a plugin; a warning does not.
+        severity: An error stops the load or a plugin, or is a fault that the load goes on with
+            as Gazebo does (rule ``tolerated``); a warning is neither.
         message: What is wrong.
         file: File it is in.
         line: Line in that file, counted from 1.
@@ -64,8 +68,12 @@ def check(
         problems.append(
             Problem("error", error.message, file, error.line, error.element, error.hint)
         )
-    problems += [_warning(f"'{m.uri}' is not found", m.source, m.looked) for m in reading.misses]
-    problems += [_warning(note.message, note.source, note.hint) for note in reading.notes]
+    problems += [_noted(note) for note in reading.notes if note.severity == "error"]
+    problems += [
+        _noted(Note(f"'{miss.uri}' is not found", miss.source, miss.looked))
+        for miss in reading.misses
+    ]
+    problems += [_noted(note) for note in reading.notes if note.severity == "warning"]
     return problems + judged
 
 
@@ -83,6 +91,9 @@ def _judged(finding: Finding) -> Problem:
     )
 
 
-def _warning(message: str, source: Source | None, hint: str | None) -> Problem:
-    place = source or Source()
-    return Problem("warning", message, place.file, place.line, place.element, hint)
+def _noted(note: Note) -> Problem:
+    place = note.source or Source()
+    rule = TOLERATED if note.severity == "error" else None
+    return Problem(
+        note.severity, note.message, place.file, place.line, place.element, note.hint, rule=rule
+    )

@@ -19,6 +19,7 @@ PathLike = str | os.PathLike[str]
 
 _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
+_EXPANDED = {"robot", "sdf", "gazebo"}
 _MAP_SUFFIXES = (".yaml", ".yml")
 
 
@@ -93,8 +94,8 @@ def load_string(
         world = stage.read_stage(data, name, reading)
         reading.report(strict=strict)
         return world
-    root = xml.parse(text, name=name)
-    if root.tag == "robot" and xacro.is_xacro(root):
+    root = xml.parse(text, name=name, report=reading.misread)
+    if root.tag in _EXPANDED and xacro.is_xacro(root):
         root = xacro.expand_text(text, name, reading)
     world = read_root(root, reading)
     reading.report(strict=strict)
@@ -215,8 +216,8 @@ def read_path(file: Path, reading: Reading) -> World:
         data = xml.read_bytes(file)
         if stage.is_stage(data, file.suffix):
             return stage.read_stage(data, str(file), reading)
-        root = xml.parse(data, name=str(file))
-        if root.tag == "robot" and xacro.is_xacro(root):
+        root = xml.parse(data, name=str(file), report=reading.misread)
+        if root.tag in _EXPANDED and xacro.is_xacro(root):
             root = xacro.expand(file, reading)
         return read_root(root, reading)
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError, FormatWarning, ResolveError, describe
 from gazelle.formats.resolve import Resolver
 
 MAX_INCLUDES = 32
+
+_NAMES_AND_NUMBERS = re.compile(r"'[^']*'|[-+]?\d[\d.eE+-]*")
+_LINES_NAMED = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +37,19 @@ class Miss:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A remark about the file, that becomes a warning when the load is done."""
+    """A remark about the file, that becomes a warning when the load is done.
+
+    Attributes:
+        message: What is the case, and what was made of it.
+        source: Where.
+        hint: What to do about it.
+        severity: An error is what the format does not allow, and Gazebo goes on with.
+    """
 
     message: str
     source: Source | None = None
     hint: str | None = None
+    severity: Literal["error", "warning"] = "warning"
 
 
 @dataclass(slots=True)
@@ -48,7 +61,7 @@ class Reading:
         folder: Folder that relative names start from.
         xacro_args: Arguments for xacro files.
         misses: What was not found.
-        notes: What is valid but not done as written.
+        notes: What is not done as written, in the order of finding it.
         including: Files being read, outermost first.
     """
 
@@ -56,7 +69,7 @@ class Reading:
     folder: Path | None = None
     xacro_args: Mapping[str, str] = field(default_factory=dict)
     misses: list[Miss] = field(default_factory=list)
-    notes: list[Note] = field(default_factory=list)
+    notes: dict[Note, None] = field(default_factory=dict)
     including: list[Path] = field(default_factory=list)
 
     def find(self, uri: str, node: Parameters, *, required: bool = True) -> Path | None:
@@ -72,9 +85,29 @@ class Reading:
 
     def remark(self, message: str, source: Source | None, hint: str | None = None) -> None:
         """Record a remark, once for each place."""
-        note = Note(message, source, hint)
-        if note not in self.notes:
-            self.notes.append(note)
+        self._keep(Note(message, source, hint))
+
+    def fault(self, message: str, node: Parameters, hint: str | None = None) -> None:
+        """Record what is wrong with an element, and what was taken for it.
+
+        For what the format does not allow, and Gazebo or libsdformat go on with all the same:
+        a load warns of it, a check counts it as an error.
+        """
+        self._keep(Note(message, node.source, hint, "error"))
+
+    def tolerate(self, error: FormatError, taken: str) -> None:
+        """Record an error as a fault that the load goes on with, and what was taken."""
+        source = Source(error.file, error.line, error.element)
+        self._keep(Note(f"{error.message}: {taken}", source, error.hint, "error"))
+
+    def misread(
+        self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
+    ) -> None:
+        """Record what is wrong with the text of a file, as ``xml.parse`` finds it."""
+        self._keep(Note(message, source, severity=severity))
+
+    def _keep(self, note: Note) -> None:
+        self.notes.setdefault(note)
 
     @contextmanager
     def inside(self, file: Path, node: Parameters | None = None) -> Iterator[None]:
@@ -104,8 +137,8 @@ class Reading:
         Raises:
             ResolveError: Something was not found, and ``strict`` is set.
         """
-        for note in self.notes:
-            warnings.warn(note_text(note), FormatWarning, stacklevel=4)
+        for text in grouped(self.notes):
+            warnings.warn(text, FormatWarning, stacklevel=4)
         if not self.misses:
             return
         if strict:
@@ -115,6 +148,26 @@ class Reading:
         if place is not None:
             text = describe(text, file=place.file, line=place.line, element=place.element)
         warnings.warn(text, FormatWarning, stacklevel=4)
+
+
+def grouped(notes: Iterable[Note]) -> list[str]:
+    """Remarks as lines of text, those that differ only in names and numbers in one."""
+    kinds: dict[tuple[str, str | None], list[Note]] = {}
+    for note in notes:
+        file = None if note.source is None else note.source.file
+        kinds.setdefault((_NAMES_AND_NUMBERS.sub("", note.message), file), []).append(note)
+    return [note_text(alike[0]) + _others(alike[1:]) for alike in kinds.values()]
+
+
+def _others(notes: list[Note]) -> str:
+    """How many more remarks of a kind there are, and where."""
+    if not notes:
+        return ""
+    lines = [str(note.source.line) for note in notes if note.source and note.source.line]
+    named = ", ".join(dict.fromkeys(lines[:_LINES_NAMED]))
+    more = ", ..." if len(lines) > _LINES_NAMED else ""
+    where = f" (lines {named}{more})" if lines else ""
+    return f"; and {len(notes)} more like this{where}"
 
 
 def note_text(note: Note) -> str:

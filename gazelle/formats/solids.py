@@ -35,6 +35,9 @@ from gazelle.formats.polygon import convex_polygons
 
 Floats = NDArray[np.float64]
 
+WATER = 1000.0
+"""The density that SDF takes where a file gives none [kg/m³]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Solid:

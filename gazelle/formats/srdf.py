@@ -69,7 +69,7 @@ def load_srdf(
         raise ResolveError("there is no such file", file=os.fspath(path))
     reading = Reading(Resolver(paths, file=file), xacro_args=dict(xacro_args or {}))
     with reading.inside(file):
-        root = xml.read_file(file)
+        root = xml.read_file(file, reading.misread)
         if xacro.is_xacro(root):
             root = xacro.expand(file, reading)
         semantics = read_semantics(root, reading)
@@ -84,7 +84,7 @@ def load_srdf_string(text: str | bytes, *, name: str = "string") -> Semantics:
         FormatError: The text cannot be read, or says something that cannot be.
     """
     reading = Reading(Resolver())
-    root = xml.parse(text, name=name)
+    root = xml.parse(text, name=name, report=reading.misread)
     if xacro.is_xacro(root):
         root = xacro.expand_text(text, name, reading)
     semantics = read_semantics(root, reading)

@@ -120,7 +120,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
         engine.init_stacks(name)
         _made.count = 0
         try:
-            document = _parse(data, name)
+            document = _parse(data, name, reading)
             engine.process_doc(document, mappings=dict(reading.xacro_args))
         except RecursionError:
             raise FormatError("the macros call each other without end", file=name) from None
@@ -149,10 +149,10 @@ class _Builder(expatbuilder.ExpatBuilderNS):
         element.place = (self._file, self.getParser().CurrentLineNumber)
 
 
-def _parse(data: bytes, name: str) -> Any:
+def _parse(data: bytes, name: str, reading: Reading) -> Any:
     """A DOM whose elements know their lines; entities are refused as elsewhere."""
-    xml.parse(data, name=name)
-    return _Builder(name).parseString(data)
+    _, text = xml.parsed(data, name=name, report=reading.misread)
+    return _Builder(name).parseString(text)
 
 
 @contextlib.contextmanager
@@ -171,7 +171,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def parse(given: Any, filename: str | None = None) -> Any:
         if given is not None or filename is None:
             return given
-        return _parse(xml.read_bytes(_checked(filename)), filename)
+        return _parse(xml.read_bytes(_checked(filename)), filename, reading)
 
     def _checked(filename: str) -> Path:
         path = Path(filename)

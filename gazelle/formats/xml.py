@@ -12,10 +12,13 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
+from typing import Literal, Protocol
 from xml.parsers import expat
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
+from gazelle.formats import blanks
+from gazelle.formats.wellformed import well_formed
 
 MAX_BYTES = 64 * 2**20
 MAX_DEPTH = 256
@@ -25,7 +28,18 @@ _NAMED = ("name", "reference", "filename")
 _BLANK = b" \t\r\n\xef\xbb\xbf\xff\xfe\x00"
 _FIRST = {b"<"}
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_COMMENT_TEXT = re.compile("<!--.*?-->", re.DOTALL)
+_UNUSUAL_BLANKS = tuple(blank.encode() for blank in blanks.UNUSUAL)
 _NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
+
+
+class Report(Protocol):
+    """Takes what is wrong with the text of a file."""
+
+    def __call__(
+        self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
+    ) -> None:
+        """One fault, and where it is."""
 
 
 def read_bytes(path: Path) -> bytes:
@@ -44,22 +58,77 @@ def read_bytes(path: Path) -> bytes:
         raise FormatError(f"the file cannot be read: {error}", file=str(path)) from error
 
 
-def read_file(path: Path) -> Parameters:
-    """The root element of an XML file.
+def read_file(path: Path, report: Report | None = None) -> Parameters:
+    """The root element of an XML file; ``report`` as for ``parse``.
 
     Raises:
         FormatError: The file cannot be read, or is not well-formed XML.
     """
-    return parse(read_bytes(path), name=str(path))
+    return parse(read_bytes(path), name=str(path), report=report)
 
 
-def parse(text: str | bytes, *, name: str) -> Parameters:
-    """The root element of XML text; ``name`` stands for the file in errors.
+def parse(text: str | bytes, *, name: str, report: Report | None = None) -> Parameters:
+    """The root element of XML text.
+
+    Args:
+        text: The text, or its bytes.
+        name: Stands for the file in errors.
+        report: Takes what is wrong with text that is not well-formed and that Gazebo's parsers
+            go on with; without it such text is an error.
 
     Raises:
         FormatError: The text is not well-formed XML, or exceeds a limit.
     """
+    return parsed(text, name=name, report=report)[0]
+
+
+def parsed(
+    text: str | bytes, *, name: str, report: Report | None = None
+) -> tuple[Parameters, bytes]:
+    """The root element, and the well-formed text that it was read from; as ``parse``."""
     data = text.encode() if isinstance(text, str) else text
+    if report is not None:
+        data = _with_plain_blanks(data, name, report)
+    try:
+        return _parsed(data, name, is_text=isinstance(text, str))
+    except FormatError as error:
+        mended = well_formed(data) if report is not None else None
+        if report is None or mended is None:
+            raise
+        try:
+            result = _parsed(mended[0].encode(), name, is_text=True)
+        except FormatError:
+            raise _with_quotes_named(error, data) from None
+        for line, message in mended[1]:
+            report(f"this is not well-formed XML: {message}", Source(name, line))
+        return result
+
+
+def _with_plain_blanks(data: bytes, name: str, report: Report) -> bytes:
+    """No-break spaces and the like, which come with text from web pages, as plain blanks."""
+    if all(blank not in data for blank in _UNUSUAL_BLANKS):
+        return data
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:  # another encoding, in which those bytes are something else
+        return data
+    plain, line = blanks.plain(text, _COMMENT_TEXT)
+    if line is not None:
+        report(blanks.MESSAGE, Source(name, line), "warning")
+    return plain.encode()
+
+
+def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:
+    """The error, with a hint if it is of a line with a curly quote."""
+    lines = data.decode(errors="replace").splitlines()
+    at = (error.line or 1) - 1
+    hint = blanks.curly_hint(lines[at]) if at < len(lines) else None
+    return FormatError(
+        error.message, file=error.file, line=error.line, element=error.element, hint=hint
+    )
+
+
+def _parsed(data: bytes, name: str, *, is_text: bool) -> tuple[Parameters, bytes]:
     if len(data) > MAX_BYTES:
         raise FormatError(f"the XML is larger than {MAX_BYTES} bytes", file=name)
     if not data.strip():
@@ -67,8 +136,8 @@ def parse(text: str | bytes, *, name: str) -> Parameters:
     if data.lstrip(_BLANK)[:1] not in _FIRST:
         raise FormatError("this is not XML: it does not begin with '<'", file=name, line=1)
     data = _declaration_first(data.removeprefix(codecs.BOM_UTF8))
-    builder = _Builder(name, encoding="utf-8" if isinstance(text, str) else None)
-    return builder.read(data)
+    builder = _Builder(name, encoding="utf-8" if is_text else None)
+    return builder.read(data), data
 
 
 def _declaration_first(data: bytes) -> bytes:

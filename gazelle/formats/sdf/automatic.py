@@ -10,10 +10,7 @@ from gazelle.description import Collision, Inertial, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.inertial import read_inertial
-from gazelle.formats.solids import Solid, inertial_of, joined, solid_of
-
-WATER = 1000.0
-"""The schema's default density [kg/m³]."""
+from gazelle.formats.solids import WATER, Solid, inertial_of, joined, solid_of
 
 
 def is_automatic(node: Parameters) -> bool:

@@ -14,6 +14,8 @@ from gazelle.description import Model, Parameters, Pose
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.build import with_attributes
+from gazelle.formats.sdf.duplicates import MODEL_PARTS, free_name, with_own_names
 from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, Entry, Scope
 from gazelle.formats.sdf.merge import is_merge, with_merges
 from gazelle.formats.sdf.pose import frame_of, read_pose
@@ -68,9 +70,10 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
     """The draft of a ``<model>`` and all models in it.
 
     Raises:
-        FormatError: Two frames have one name, or a name is missing.
+        FormatError: A name is missing, or one that SDF keeps for itself.
     """
     node = with_merges(node, version, reading, include)
+    node = with_own_names(node, MODEL_PARTS, reading)
     pose = node.find("pose")
     draft = Draft(
         node,
@@ -79,6 +82,7 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
         read_pose(pose),
         frame_of(pose),
         node.attributes.get("placement_frame", ""),
+        scope=Scope(MODEL, reading=reading),
     )
     for child in node.children:
         draft_part(child, draft.scope)
@@ -91,11 +95,24 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
             if inner is None:
                 draft.scope.missing |= missing_names(child)
             else:
+                _rename_second(inner, draft, reading)
                 draft.nested.append(inner)
                 add_model(draft.scope, inner)
-    draft.scope.canonical = _canonical(draft)
+    draft.scope.canonical = _canonical(draft, reading)
     draft.scope.name = draft.name
     return draft
+
+
+def _rename_second(inner: Draft, outer: Draft, reading: Reading) -> None:
+    """Another model of one name: Gazebo loads both."""
+    names = {other.name for other in outer.nested}
+    if inner.name in names:
+        free = free_name(inner.name, names)
+        reading.fault(
+            f"there is already a model named '{inner.name}': this one is called '{free}'",
+            inner.node,
+        )
+        inner.name = free
 
 
 def missing_names(node: Parameters) -> set[str]:
@@ -119,14 +136,23 @@ def draft_part(node: Parameters, scope: Scope) -> None:
     """
     drafter = _DRAFTERS.get(node.tag)
     if drafter is not None:
-        _refuse_reserved(node)
+        _note_reserved(node, scope)
         drafter(node, scope)
 
 
-def _refuse_reserved(node: Parameters) -> None:
+def _note_reserved(node: Parameters, scope: Scope) -> None:
+    """SDF keeps some names for itself, and Gazebo takes them; but not for two frames at once.
+
+    Raises:
+        FormatError: It is the name of the model's own frame.
+    """
     name = values.attribute(node, "name")
-    if name == WORLD or (len(name) > 4 and name.startswith("__") and name.endswith("__")):
-        raise values.fail(node, f"SDF keeps the name '{name}' for itself")
+    if name != WORLD and not (len(name) > 4 and name.startswith("__") and name.endswith("__")):
+        return
+    message = f"SDF keeps the name '{name}' for itself"
+    if scope.reading is None or name == MODEL:
+        raise values.fail(node, message)
+    scope.reading.fault(f"{message}: it was taken", node)
 
 
 def draft_link(node: Parameters, scope: Scope) -> None:
@@ -173,16 +199,17 @@ _DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {
 }
 
 
-def _canonical(draft: Draft) -> str:
+def _canonical(draft: Draft, reading: Reading) -> str:
     named = draft.node.attributes.get("canonical_link", "")
-    if named:
-        if not draft.scope.has(named) and not draft.scope.lacks(named):
-            raise values.fail(
-                draft.node,
-                f"the canonical link '{named}' is not there",
-                hint=did_you_mean(named, draft.scope.entries),
-            )
+    if named and (draft.scope.has(named) or draft.scope.lacks(named)):
         return named
+    if named:
+        reading.fault(
+            f"the canonical link '{named}' is not there: the first link was taken",
+            draft.node,
+            did_you_mean(named, draft.scope.entries),
+        )
+        draft.node = with_attributes(draft.node, canonical_link="")
     first = draft.node.find("link")
     if first is not None:
         return first.attributes.get("name", "")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from gazelle.description import Parameters, Pose
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
+from gazelle.formats.reading import Reading
 
 MODEL = "__model__"
 WORLD = "world"
@@ -46,6 +47,8 @@ class Scope:
         owner: Word for the scope's own frame: ``__model__`` or ``world``.
         canonical: The link that stands for the scope, scoped by ``::``.
         name: Of the model.
+        reading: Takes faults, such as a pose in a frame that is not there; without one these
+            are errors.
         missing: Names of included models that were not found; an empty one where the
             include gives no name, so that it could be any; ``ANY`` where it would have
             been merged, so that any name could be of it.
@@ -55,6 +58,7 @@ class Scope:
     owner: str
     canonical: str = ""
     name: str = ""
+    reading: Reading | None = None
     missing: set[str] = field(default_factory=set)
     entries: dict[str, Entry] = field(default_factory=dict)
     _resolved: dict[str, Pose] = field(default_factory=dict)
@@ -83,7 +87,8 @@ class Scope:
         """The pose of a frame in the frame of this scope.
 
         Raises:
-            FormatError: There is no such frame, or its poses lead in a circle.
+            FormatError: Its poses lead in a circle; without a reading also when there is no such
+            frame.
         """
         chain: list[tuple[str, Entry]] = []
         try:
@@ -123,11 +128,13 @@ class Scope:
             if outer is not None and outer.scope is not None:
                 inner = outer.scope.pose("::".join(parts[count:]), node)
                 return self.pose("::".join(parts[:count]), node) * inner
-        raise values.fail(
-            node,
-            f"there is no frame '{name}' here",
-            hint=did_you_mean(name, self.entries),
-        )
+        message = f"there is no frame '{name}' here"
+        hint = did_you_mean(name, self.entries)
+        if self.reading is None:
+            raise values.fail(node, message, hint=hint)
+        own = "world" if self.owner == WORLD else "model"
+        self.reading.fault(f"{message}: that of the {own} was taken", node, hint)
+        return _IDENTITY
 
     def lacks(self, name: str) -> bool:
         """Whether the name leads into an included model that was not found."""
@@ -141,6 +148,8 @@ class Scope:
 
     def own(self, name: str) -> str:
         """The name without that of this model before it, which old files write."""
+        if name in self.entries:
+            return name
         head, separator, rest = name.partition("::")
         return rest if separator and head == self.name and head not in self.entries else name
 
@@ -178,7 +187,7 @@ class Scope:
             entry = self.entries.get(name)
             if entry is None:
                 self.pose(name, node)
-                return self._inner_link(name, node)
+                return self._inner_link(name, node) if self.has(name) else ""
             if entry.node.tag not in {"frame", "joint"}:
                 return name
             name = entry.attached_to

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 from gazelle.description import (
@@ -20,8 +19,10 @@ from gazelle.description import (
     Plane,
     Polyline,
     Sphere,
+    Vector3,
 )
 from gazelle.formats import values
+from gazelle.formats.extent import extent
 from gazelle.formats.reading import Reading
 
 
@@ -46,44 +47,44 @@ def _polylines(nodes: list[Parameters], reading: Reading) -> Polyline:
     return Polyline(tuple(s.outlines[0] for s in shapes), shapes[0].height)
 
 
-def _size(node: Parameters, path: str, default: float) -> float:
-    return values.positive(node, values.real(node, path, default), f"<{path}>")
+def _size(node: Parameters, path: str, default: float, reading: Reading) -> float:
+    return extent(node, values.real(node, path, default), f"<{path}>", reading)
 
 
-def read_box(node: Parameters, _: Reading) -> Box:
+def _sides(node: Parameters, path: str, reading: Reading) -> Vector3:
+    sides = values.vector(node, path, (1.0, 1.0, 1.0))
+    x, y, z = (extent(node, side, f"<{path}>", reading) for side in sides)
+    return (x, y, z)
+
+
+def read_box(node: Parameters, reading: Reading) -> Box:
     """``<box><size>``."""
-    x, y, z = values.vector(node, "size", (1.0, 1.0, 1.0))
-    if not (min(x, y, z) > 0.0 and math.isfinite(x + y + z)):
-        raise values.fail(node, f"the size of a box must be greater than zero, found {x} {y} {z}")
-    return Box((x, y, z))
+    return Box(_sides(node, "size", reading))
 
 
-def read_sphere(node: Parameters, _: Reading) -> Sphere:
+def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """``<sphere><radius>``."""
-    return Sphere(_size(node, "radius", 1.0))
+    return Sphere(_size(node, "radius", 1.0, reading))
 
 
-def read_cylinder(node: Parameters, _: Reading) -> Cylinder:
+def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
     """``<cylinder><radius><length>``."""
-    return Cylinder(_size(node, "radius", 1.0), _size(node, "length", 1.0))
+    return Cylinder(_size(node, "radius", 1.0, reading), _size(node, "length", 1.0, reading))
 
 
-def read_capsule(node: Parameters, _: Reading) -> Capsule:
+def read_capsule(node: Parameters, reading: Reading) -> Capsule:
     """``<capsule><radius><length>``."""
-    return Capsule(_size(node, "radius", 0.5), _size(node, "length", 1.0))
+    return Capsule(_size(node, "radius", 0.5, reading), _size(node, "length", 1.0, reading))
 
 
-def read_cone(node: Parameters, _: Reading) -> Cone:
+def read_cone(node: Parameters, reading: Reading) -> Cone:
     """``<cone><radius><length>``."""
-    return Cone(_size(node, "radius", 1.0), _size(node, "length", 1.0))
+    return Cone(_size(node, "radius", 1.0, reading), _size(node, "length", 1.0, reading))
 
 
-def read_ellipsoid(node: Parameters, _: Reading) -> Ellipsoid:
+def read_ellipsoid(node: Parameters, reading: Reading) -> Ellipsoid:
     """``<ellipsoid><radii>``."""
-    x, y, z = values.vector(node, "radii", (1.0, 1.0, 1.0))
-    if not (min(x, y, z) > 0.0 and math.isfinite(x + y + z)):
-        raise values.fail(node, f"the radii must be greater than zero, found {x} {y} {z}")
-    return Ellipsoid((x, y, z))
+    return Ellipsoid(_sides(node, "radii", reading))
 
 
 def read_plane(node: Parameters, _: Reading) -> Plane:

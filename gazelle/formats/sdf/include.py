@@ -33,11 +33,12 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
     """The element that an include names; None when its file is not found.
 
     Raises:
-        FormatError: It names no file, or a file that holds nothing to include.
+        FormatError: It names a file that holds nothing to include.
     """
     uri = values.word(node, "uri")
     if not uri:
-        raise values.fail(node, "an <include> needs a <uri>")
+        reading.fault("an <include> needs a <uri>: it is left out", node)
+        return None
     found = reading.find(uri, node.find("uri") or node)
     if found is None:
         return None
@@ -46,7 +47,7 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
         reading.misses.append(Miss(uri, node.source, f"the folder {found} names no model file"))
         return None
     with reading.inside(file, node):
-        root = xml.read_file(file)
+        root = xml.read_file(file, reading.misread)
         if root.tag == "robot":
             model = urdf.read_robot(root, reading)
             return Included(root, file, (1, 11), model)
@@ -54,7 +55,7 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
             raise values.fail(root, f"expected <sdf> or <robot>, found <{root.tag}>")
         version = version_of(root, reading)
         root = upgraded(root, version)
-        schema.check(root, "root", reading)
+        root = schema.checked(root, "root", reading)
         for child in root.children:
             if child.tag in KINDS:
                 return Included(child if child.tag != "actor" else as_model(child), file, version)

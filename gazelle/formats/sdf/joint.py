@@ -15,8 +15,9 @@ from gazelle.description import (
     Pose,
     Vector3,
 )
-from gazelle.errors import did_you_mean
+from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
+from gazelle.formats.axis import direction, travel
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.frames import MODEL, WORLD, Scope
 from gazelle.formats.sdf.own import own_safety
@@ -37,29 +38,51 @@ _AXES: dict[str, int] = {
 def read_joints(
     node: Parameters, scope: Scope, version: tuple[int, int], reading: Reading
 ) -> tuple[Joint, ...]:
-    """The joints of a model or world; those of an include that was not found are left out."""
+    """The joints of a model or world, without those that Gazebo cannot make.
+
+    These are of an unknown type, or of a link that is not there.
+
+    Raises:
+        FormatError: A value of a joint makes no sense.
+    """
     joints = []
     for child in node.find_all("joint"):
         ends = (values.word(child, "parent"), values.word(child, "child"))
         lost = next((end for end in ends if scope.lacks(end)), None)
-        if lost is None:
-            joints.append(read_joint(child, scope, version))
-        else:
+        if lost is not None:
             reading.note(f"'{lost}' is of a model that was not found: the joint is left out", child)
+            continue
+        try:
+            frame = _joined(child, scope)
+        except FormatError as error:
+            reading.tolerate(error, "the joint is left out")
+            continue
+        joints.append(read_joint(child, frame, scope, version, reading))
     return tuple(joints)
 
 
-def read_joint(node: Parameters, scope: Scope, version: tuple[int, int]) -> Joint:
-    """A joint, its pose and axes turned into the child link's and its own frame.
+def _joined(node: Parameters, scope: Scope) -> tuple[JointType, str, str]:
+    """The type of a joint and the links that it joins.
 
     Raises:
-        FormatError: It names no link that is there, an unknown type, or itself.
+        FormatError: It names no link that is there, an unknown type, or one link twice.
     """
-    name = values.attribute(node, "name")
-    kind = joint_type(node)
     parent, child = (body(node, tag, scope) for tag in ("parent", "child"))
     if parent == child:
         raise values.fail(node, f"the joint holds the link '{child}' to itself")
+    return joint_type(node), parent, child
+
+
+def read_joint(
+    node: Parameters,
+    joined: tuple[JointType, str, str],
+    scope: Scope,
+    version: tuple[int, int],
+    reading: Reading,
+) -> Joint:
+    """A joint, its pose and axes turned into the child link's and its own frame."""
+    name = values.attribute(node, "name")
+    kind, parent, child = joined
     pose = _pose_in_child(node, name, child, scope)
     return Joint(
         name=name,
@@ -67,7 +90,7 @@ def read_joint(node: Parameters, scope: Scope, version: tuple[int, int]) -> Join
         parent=parent,
         child=child,
         pose=pose,
-        axes=tuple(read_axis(axis, name, scope, version) for axis in _axes(node, kind)),
+        axes=tuple(read_axis(axis, name, scope, version, reading) for axis in _axes(node, kind)),
         thread_pitch=_thread_pitch(node),
         gearbox_ratio=values.real(node, "gearbox_ratio", 1.0),
         gearbox_reference_body=values.word(node, "gearbox_reference_body"),
@@ -136,11 +159,13 @@ def _pose_in_child(node: Parameters, name: str, child: str, scope: Scope) -> Pos
     return scope.pose(child, node).inverse() * scope.pose(name, node)
 
 
-def read_axis(node: Parameters, joint: str, scope: Scope, version: tuple[int, int]) -> JointAxis:
+def read_axis(
+    node: Parameters, joint: str, scope: Scope, version: tuple[int, int], reading: Reading
+) -> JointAxis:
     """``<axis>`` or ``<axis2>``, its direction turned into the joint frame."""
-    lower, upper = _travel(node)
+    lower, upper = _travel(node, reading)
     return JointAxis(
-        xyz=_direction(node, joint, scope, version),
+        xyz=_direction(node, joint, scope, version, reading),
         lower=lower,
         upper=upper,
         effort=_or_endless(node, "limit/effort"),
@@ -155,15 +180,10 @@ def read_axis(node: Parameters, joint: str, scope: Scope, version: tuple[int, in
     )
 
 
-def _travel(node: Parameters) -> tuple[float, float]:
+def _travel(node: Parameters, reading: Reading) -> tuple[float, float]:
     lower = values.limit(node, "limit/lower", -math.inf)
     upper = values.limit(node, "limit/upper", math.inf)
-    if lower > upper:
-        raise values.fail(
-            node.find("limit") or node,
-            f"the lower limit {lower:g} is greater than the upper limit {upper:g}",
-        )
-    return lower, upper
+    return travel(lower, upper, node.find("limit") or node, reading)
 
 
 def _or_endless(node: Parameters, path: str) -> float:
@@ -171,14 +191,16 @@ def _or_endless(node: Parameters, path: str) -> float:
     return math.inf if value < 0.0 else value
 
 
-def _direction(node: Parameters, joint: str, scope: Scope, version: tuple[int, int]) -> Vector3:
+def _direction(
+    node: Parameters, joint: str, scope: Scope, version: tuple[int, int], reading: Reading
+) -> Vector3:
     """The axis in the joint frame.
 
     Up to SDF 1.4 it is written in the model frame; in 1.5 and 1.6
     ``<use_parent_model_frame>`` says so; since 1.7 ``expressed_in`` names the frame.
     """
     place = node.find("xyz")
-    written = values.unit(place or node, values.vector(node, "xyz", (0.0, 0.0, 1.0)))
+    written = direction(values.vector(node, "xyz", (0.0, 0.0, 1.0)), place or node, reading)
     frame = "" if place is None else place.attributes.get("expressed_in", "")
     in_model = values.flag(node, "use_parent_model_frame", default=version <= (1, 4))
     if in_model and version <= (1, 6):

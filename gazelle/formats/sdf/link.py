@@ -7,6 +7,7 @@ from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.automatic import automatic_inertial, is_automatic
+from gazelle.formats.sdf.duplicates import LINK_PARTS, with_own_names
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.geometry import read_geometry
 from gazelle.formats.sdf.inertial import read_inertial
@@ -16,6 +17,7 @@ from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.sdf.surface import read_surface
+from gazelle.formats.sound import is_sound, sound_inertial
 
 _EXTRAS = (
     "audio_sink", "audio_source", "battery", "must_be_base_link", "particle_emitter", "projector",
@@ -27,18 +29,21 @@ def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool 
 
     In a static model an inertia that cannot be is noted and left out: it does not matter.
     """
+    node = with_own_names(node, LINK_PARTS, reading)
     name = values.attribute(node, "name")
     place = placer(name, scope)
     self_collide = node.find("self_collide")
-    collisions = tuple(read_collision(child, place, reading) for child in _named(node, "collision"))
+    collisions = tuple(
+        read_collision(child, place, reading) for child in node.find_all("collision")
+    )
     return Link(
         name=name,
         pose=scope.pose(name, node),
         inertial=_inertial(node, collisions, reading, static=static),
         collisions=collisions,
-        visuals=tuple(read_visual(child, place, reading) for child in _named(node, "visual")),
-        sensors=tuple(read_sensor(child, place) for child in _named(node, "sensor")),
-        lights=tuple(read_light(child, place(child)) for child in _named(node, "light")),
+        visuals=tuple(read_visual(child, place, reading) for child in node.find_all("visual")),
+        sensors=tuple(read_sensor(child, place) for child in node.find_all("sensor")),
+        lights=tuple(read_light(child, place(child)) for child in node.find_all("light")),
         gravity=values.flag(node, "gravity", default=True),
         enable_wind=values.flag(node, "enable_wind", default=False),
         self_collide=None
@@ -59,12 +64,18 @@ def _inertial(
     try:
         if node is not None and is_automatic(node):
             return automatic_inertial(link, collisions, reading)
-        return read_inertial(node)
+        inertial = read_inertial(node)
     except FormatError as error:
         if not static or node is None:
             raise
         reading.note(f"{error.message}; the model is static, so it was ignored", node)
         return None
+    if node is None or inertial is None or (static and is_sound(inertial)):
+        return inertial
+    if static:
+        reading.note("no body has this inertial; the model is static, so it was ignored", node)
+        return None
+    return sound_inertial(inertial, collisions, node, reading)
 
 
 def placer(link: str, scope: Scope) -> Placer:
@@ -79,24 +90,6 @@ def placer(link: str, scope: Scope) -> Placer:
         return scope.pose(link, part).inverse() * scope.pose(frame, node) * pose
 
     return place
-
-
-def _named(node: Parameters, tag: str) -> list[Parameters]:
-    """The children with a tag, whose names must differ.
-
-    Raises:
-        FormatError: Two have the same name.
-    """
-    children = list(node.find_all(tag))
-    seen: dict[str, Parameters] = {}
-    for child in children:
-        name = child.attributes.get("name", "")
-        if name in seen:
-            raise values.fail(
-                child, f"there is already a <{tag}> named '{name}' in this <{node.tag}>"
-            )
-        seen[name] = child
-    return children
 
 
 def read_collision(node: Parameters, place: Placer, reading: Reading) -> Collision:

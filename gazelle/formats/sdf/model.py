@@ -40,7 +40,7 @@ def _content(draft: Draft, reading: Reading) -> Model:
     node, scope = draft.node, draft.scope
     static = values.flag(node, "static", default=False) or draft.static is True
     if not (static or scope.canonical or scope.missing or _holds_static(draft)):
-        raise values.fail(node, f"the model '{draft.name}' has no link")
+        reading.fault(f"the model '{draft.name}' has no link", node)
     return Model(
         name=draft.name,
         static=static,
@@ -55,7 +55,7 @@ def _content(draft: Draft, reading: Reading) -> Model:
         models=tuple(read_model(inner, scope, reading) for inner in draft.nested),
         frames=tuple(read_frame(child, scope) for child in node.find_all("frame")),
         plugins=read_plugins(node),
-        transmissions=own_transmissions(node),
+        transmissions=own_transmissions(node, reading),
         extras=tuple(child for child in node.children if child.tag in _EXTRAS),
         source=node.source,
     )

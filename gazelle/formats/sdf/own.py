@@ -6,6 +6,7 @@ SDF lets elements with a prefix stand anywhere; other programs pass over them.
 from __future__ import annotations
 
 from gazelle.description import Parameters, SafetyController, Transmission
+from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.joint import read_safety
 from gazelle.formats.urdf.transmission import read_transmission
 
@@ -14,9 +15,9 @@ TRANSMISSION = f"{PREFIX}:transmission"
 SAFETY = f"{PREFIX}:safety_controller"
 
 
-def own_transmissions(node: Parameters) -> tuple[Transmission, ...]:
+def own_transmissions(node: Parameters, reading: Reading) -> tuple[Transmission, ...]:
     """The transmissions of a model."""
-    return tuple(map(read_transmission, node.find_all(TRANSMISSION)))
+    return tuple(read_transmission(child, reading) for child in node.find_all(TRANSMISSION))
 
 
 def own_safety(node: Parameters) -> SafetyController | None:

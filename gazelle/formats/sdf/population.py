@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gazelle.description import Parameters, Pose
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
+from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import pose_element, with_attributes, with_child
 from gazelle.formats.sdf.pose import read_pose
 
@@ -61,7 +62,7 @@ class Region:
         return points * self.size
 
 
-def expanded(node: Parameters) -> Iterator[Parameters]:
+def expanded(node: Parameters, reading: Reading) -> Iterator[Parameters]:
     """The models of a population, named ``NAME_clone_0`` and so on.
 
     Chance is seeded with the population's name: the same file gives the same places.
@@ -75,18 +76,18 @@ def expanded(node: Parameters) -> Iterator[Parameters]:
         raise values.fail(node, "a <population> needs a <model>")
     name = values.attribute(model, "name")
     stand = read_pose(node.find("pose"))
-    middle, offsets = _places(node)
+    middle, offsets = _places(node, reading)
     for number, offset in enumerate(offsets.tolist()):
         x, y, z = np.add(stand.position, stand.rotate(offset)) - middle
         clone = with_attributes(model, name=f"{name}_clone_{number}")
         yield with_child(clone, pose_element(Pose(float(x), float(y), float(z)), node))
 
 
-def _places(node: Parameters) -> tuple[Floats, Floats]:
+def _places(node: Parameters, reading: Reading) -> tuple[Floats, Floats]:
     """The middle of the region seen from its least corner, and places seen from there."""
     kind = values.word(node, "distribution/type", "random")
     if kind == "grid":
-        return _grid(node)
+        return _grid(node, reading)
     spread = _SPREADS.get(kind)
     if spread is None:
         known = [*_SPREADS, "grid"]
@@ -99,14 +100,16 @@ def _places(node: Parameters) -> tuple[Floats, Floats]:
     if region.round and kind not in _ROUND:
         raise values.fail(node, f"the distribution '{kind}' needs a <box>")
     chance = np.random.default_rng(zlib.crc32(node.attributes.get("name", "").encode()))
-    count = _count(node, values.whole(node, "model_count", 1))
+    count = _count(node, values.whole(node, "model_count", 1), reading)
     return region.middle, spread(region, count, chance)
 
 
-def _count(node: Parameters, count: int) -> int:
-    if not 0 <= count <= MAX_MODELS:
+def _count(node: Parameters, count: int, reading: Reading) -> int:
+    if count > MAX_MODELS:
         raise values.fail(node, f"a population has 0 to {MAX_MODELS} models, found {count}")
-    return count
+    if count < 0:
+        reading.fault(f"a population has 0 to {MAX_MODELS} models, found {count}: none", node)
+    return max(count, 0)
 
 
 def _region(node: Parameters) -> Region:
@@ -123,10 +126,10 @@ def _region(node: Parameters) -> Region:
     return Region((2.0 * radius, 2.0 * radius, length), round=True)
 
 
-def _grid(node: Parameters) -> tuple[Floats, Floats]:
+def _grid(node: Parameters, reading: Reading) -> tuple[Floats, Floats]:
     rows = values.whole(node, "distribution/rows", 1)
     columns = values.whole(node, "distribution/cols", 1)
-    _count(node, max(rows, 0) * max(columns, 0))
+    _count(node, max(rows, 0) * max(columns, 0), reading)
     x, y, _ = values.vector(node, "distribution/step", (0.5, 0.5, 0.0))
     places = [(c * x, r * y, 0.0) for r in range(rows) for c in range(columns)]
     middle = np.array([x * (columns - 1) / 2.0, y * (rows - 1) / 2.0, 0.0])

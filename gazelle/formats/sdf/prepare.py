@@ -10,35 +10,38 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from gazelle.description import Parameters
+from gazelle.formats.reading import Reading
 from gazelle.formats.sdf import actor, population
 
 _CHANGES = ("insertions", "deletions")
 
 
-def prepared(world: Parameters) -> Parameters:
+def prepared(world: Parameters, reading: Reading) -> Parameters:
     """The world as plain elements.
 
     Raises:
         FormatError: An actor or a population makes no sense.
     """
-    children = tuple(_plain(world.children))
+    children = tuple(_plain(world.children, reading))
     state = world.find("state")
     if state is not None and any(tag in state for tag in _CHANGES):
-        children = tuple(_changed(children, state))
+        children = tuple(_changed(children, state, reading))
     return world if children == world.children else replace(world, children=children)
 
 
-def _plain(nodes: tuple[Parameters, ...]) -> Iterator[Parameters]:
+def _plain(nodes: tuple[Parameters, ...], reading: Reading) -> Iterator[Parameters]:
     for node in nodes:
         if node.tag == "actor":
             yield actor.as_model(node)
         elif node.tag == "population":
-            yield from population.expanded(node)
+            yield from population.expanded(node, reading)
         else:
             yield node
 
 
-def _changed(children: tuple[Parameters, ...], state: Parameters) -> Iterator[Parameters]:
+def _changed(
+    children: tuple[Parameters, ...], state: Parameters, reading: Reading
+) -> Iterator[Parameters]:
     """The children after the state's deletions and insertions, which it then no longer names."""
     gone = {name.text for part in state.find_all("deletions") for name in part.find_all("name")}
     own = {(node.tag, node.attributes.get("name", "")) for node in children}
@@ -49,7 +52,7 @@ def _changed(children: tuple[Parameters, ...], state: Parameters) -> Iterator[Pa
         elif node.tag not in {"model", "light"} or node.attributes.get("name") not in gone:
             yield node
     for part in state.find_all("insertions"):
-        for node in _plain(part.children):
+        for node in _plain(part.children, reading):
             # Gazebo's logs repeat what was there from the start
             if (node.tag, node.attributes.get("name", "")) not in own:
                 yield node

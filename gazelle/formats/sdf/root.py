@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from gazelle.description import Model, Parameters, World
-from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf import schema
 from gazelle.formats.sdf.actor import as_model
@@ -25,18 +26,14 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
     """
     version = version_of(root, reading)
     root = upgraded(root, version)
-    schema.check(root, "root", reading)
+    root = schema.checked(root, "root", reading)
     worlds = list(root.find_all("world"))
     if len(worlds) > 1:
         reading.note(f"the file has {len(worlds)} worlds: only the first is used", worlds[1])
     if worlds:
         return read_world(worlds[0], version, reading)
     return World(
-        models=tuple(
-            _model(as_model(node) if node.tag == "actor" else node, version, reading)
-            for node in root.children
-            if node.tag in {"actor", "model"}
-        ),
+        models=tuple(_models(root, version, reading)),
         lights=tuple(
             read_light(node, read_pose(node.find("pose"))) for node in root.find_all("light")
         ),
@@ -44,8 +41,20 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
     )
 
 
+def _models(root: Parameters, version: Version, reading: Reading) -> Iterator[Model]:
+    names = set()
+    for node in root.children:
+        if node.tag in {"actor", "model"}:
+            model = _model(as_model(node) if node.tag == "actor" else node, version, reading)
+            if model.name in names:
+                reading.fault(
+                    f"there is already a model named '{model.name}': this one is left out", node
+                )
+                continue
+            names.add(model.name)
+            yield model
+
+
 def _model(node: Parameters, version: Version, reading: Reading) -> Model:
     draft = draft_model(node, version, reading, include_model)
-    if draft.relative_to:
-        raise values.fail(node, f"there is no frame '{draft.relative_to}' outside of the model")
-    return read_model(draft, Scope(WORLD), reading)
+    return read_model(draft, Scope(WORLD, reading=reading), reading)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -16,9 +17,13 @@ from gazelle.description import Parameters
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf import lenient
 
 _OPAQUE = {"plugin", "actor", "gui", "state", "population", "include", "pose", "model_state"}
 """Kept whole, or read by code that knows more than the schema does."""
+
+_HOLDERS = {"insertions", "population"}
+"""Elements of those that hold whole models."""
 
 
 @cache
@@ -29,41 +34,74 @@ def types() -> dict[str, dict[str, Any]]:
     return loaded
 
 
-def check(node: Parameters, kind: str, reading: Reading) -> None:
-    """Judge an element and all below it.
+def checked(node: Parameters, kind: str, reading: Reading) -> Parameters:
+    """An element with all below it, values that are not of their type as Gazebo takes them.
 
-    Unknown elements become notes of the reading.
+    Unknown elements and such values become notes of the reading.
 
     Raises:
-        FormatError: A value has the wrong type, or a required attribute is missing.
+        FormatError: A value cannot be made sense of, or a required attribute is missing.
     """
     entry = types().get(kind)
     if entry is None:
-        return
+        return node
+    node = _with_attributes(node, entry, reading)
+    read = _VALUES.get(entry["type"])
+    if read is not None and node.text:
+        text = read(node, node.text, f"<{node.tag}>", reading)
+        node = node if text is node.text else replace(node, text=text)
+    return with_children(node, lambda child: _child(child, node, entry["children"], reading))
+
+
+def with_children(node: Parameters, change: Callable[[Parameters], Parameters]) -> Parameters:
+    """The element with its children changed; the same object where none is."""
+    children = tuple(map(change, node.children))
+    same = all(new is old for new, old in zip(children, node.children, strict=True))
+    return node if same else replace(node, children=children)
+
+
+def _with_attributes(node: Parameters, entry: dict[str, Any], reading: Reading) -> Parameters:
+    changed = {}
     for name, (type_name, required) in entry["attributes"].items():
         if required and name not in node.attributes:
             raise values.fail(node, f"the attribute '{name}' is required in <{node.tag}>")
         text = node.attributes.get(name, "")
-        if text and type_name in _CHECKS:
-            _CHECKS[type_name](node, text, f"attribute '{name}'")
-    checker = _CHECKS.get(entry["type"])
-    if checker is not None and node.text:
-        checker(node, node.text, f"<{node.tag}>")
-    _check_children(node, entry, reading)
+        if text and type_name in _VALUES:
+            taken = _VALUES[type_name](node, text, f"attribute '{name}'", reading)
+            if taken is not text:
+                changed[name] = taken
+    return replace(node, attributes={**node.attributes, **changed}) if changed else node
 
 
-def _check_children(node: Parameters, entry: dict[str, Any], reading: Reading) -> None:
-    allowed = entry["children"]
-    for child in node.children:
-        known = allowed.get(child.tag)
-        if known is None:
-            _note_unknown(child, node, allowed, reading)
-        elif known[0] == "inertial":
-            # read where it is known whether the model is static, and it does not matter
-            with suppress(FormatError):
-                check(child, known[0], reading)
-        elif known[0] not in _OPAQUE:
-            check(child, known[0], reading)
+def _child(
+    child: Parameters, node: Parameters, allowed: dict[str, Any], reading: Reading
+) -> Parameters:
+    known = allowed.get(child.tag)
+    if known is None:
+        _note_unknown(child, node, allowed, reading)
+        return child
+    kind = known[0]
+    if kind == "inertial":
+        # read where it is known whether the model is static, and it does not matter
+        with suppress(FormatError):
+            return checked(child, kind, reading)
+        return child
+    return _opaque(child, reading) if kind in _OPAQUE else checked(child, kind, reading)
+
+
+def _opaque(node: Parameters, reading: Reading) -> Parameters:
+    """An element that the schema does not judge: only the poses and models in it."""
+    if node.tag == "plugin":
+        return node
+    if node.tag == "pose":
+        return lenient.pose(node, reading)
+    whole = {"model", "light"} if node.tag in _HOLDERS else set()
+    return with_children(
+        node,
+        lambda child: (
+            checked(child, child.tag, reading) if child.tag in whole else _opaque(child, reading)
+        ),
+    )
 
 
 def _note_unknown(
@@ -78,21 +116,13 @@ def _note_unknown(
     )
 
 
-def _vector(node: Parameters, text: str, what: str) -> None:
-    values.parse_reals(node, text, what, 3)
-
-
-def _pair(node: Parameters, text: str, what: str) -> None:
-    values.parse_reals(node, text, what, 2)
-
-
-_CHECKS: dict[str, Callable[[Parameters, str, str], object]] = {
-    "double": values.parse_real,
-    "float": values.parse_real,
-    "int": values.parse_integer,
-    "unsigned int": values.parse_integer,
-    "bool": values.parse_flag,
-    "vector3": _vector,
-    "vector2d": _pair,
-    "color": lambda node, text, _: values.parse_color(node, text),
+_VALUES: dict[str, Callable[[Parameters, str, str, Reading], str]] = {
+    "double": lenient.real,
+    "float": lenient.real,
+    "int": lenient.integer,
+    "unsigned int": lenient.integer,
+    "bool": lenient.flag,
+    "vector3": lenient.vector(3),
+    "vector2d": lenient.vector(2),
+    "color": lenient.color,
 }

@@ -52,14 +52,14 @@ _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
 class _Contents:
     """Models and lights of a world, those of includes too, in file order."""
 
-    scope: Scope = field(default_factory=lambda: Scope(WORLD))
+    scope: Scope
     drafts: list[Draft] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
 
 
 def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     """A world with everything in it; the first ``<state>`` is applied."""
-    node = with_merges(prepared(node), version, reading, include_model)
+    node = with_merges(prepared(node, reading), version, reading, include_model)
     contents = _collect(node, version, reading)
     scope = contents.scope
     camera = node.find("gui/camera")
@@ -88,14 +88,14 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
 
 
 def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
-    contents = _Contents()
+    contents = _Contents(Scope(WORLD, reading=reading))
     for child in node.find_all("frame"):
         draft_frame(child, contents.scope)
     for child in node.find_all("joint"):
         draft_joint(child, contents.scope)
     for child in node.children:
         if child.tag == "model":
-            _keep(contents, draft_model(child, version, reading, include_model))
+            _keep(contents, draft_model(child, version, reading, include_model), reading)
         elif child.tag == "include":
             included = open_include(child, reading)
             if included is None:
@@ -107,7 +107,12 @@ def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
     return contents
 
 
-def _keep(contents: _Contents, draft: Draft) -> None:
+def _keep(contents: _Contents, draft: Draft, reading: Reading) -> None:
+    if any(other.name == draft.name for other in contents.drafts):
+        reading.fault(
+            f"there is already a model named '{draft.name}': this one is left out", draft.node
+        )
+        return
     contents.drafts.append(draft)
     add_model(contents.scope, draft)
 
@@ -120,7 +125,7 @@ def _keep_included(
         place = node.find("pose") or inner.find("pose")
         contents.lights.append(read_light(inner, read_pose(place)))
     else:
-        _keep(contents, draft_included(node, included, reading))
+        _keep(contents, draft_included(node, included, reading), reading)
 
 
 def _light(node: Parameters, scope: Scope) -> Light:

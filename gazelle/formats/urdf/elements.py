@@ -22,6 +22,7 @@ from gazelle.description import (
 )
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
+from gazelle.formats.extent import extent
 from gazelle.formats.reading import Reading
 
 _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -64,31 +65,30 @@ def read_inertial(node: Parameters | None) -> Inertial | None:
     return Inertial(mass, read_origin(node.find("origin")), Inertia(*moments), node.source)
 
 
-def _size(node: Parameters, name: str) -> float:
-    return values.positive(node, values.attribute_real(node, name), f"the {name}")
+def _size(node: Parameters, name: str, reading: Reading) -> float:
+    return extent(node, values.attribute_real(node, name), f"the {name}", reading)
 
 
-def read_box(node: Parameters, _: Reading) -> Box:
+def read_box(node: Parameters, reading: Reading) -> Box:
     """``<box size>``."""
-    x, y, z = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
-    for length in (x, y, z):
-        values.positive(node, length, "the size of a box")
+    sides = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
+    x, y, z = (extent(node, side, "the size of a box", reading) for side in sides)
     return Box((x, y, z))
 
 
-def read_sphere(node: Parameters, _: Reading) -> Sphere:
+def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """``<sphere radius>``."""
-    return Sphere(_size(node, "radius"))
+    return Sphere(_size(node, "radius", reading))
 
 
-def read_cylinder(node: Parameters, _: Reading) -> Cylinder:
+def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
     """``<cylinder radius length>``."""
-    return Cylinder(_size(node, "radius"), _size(node, "length"))
+    return Cylinder(_size(node, "radius", reading), _size(node, "length", reading))
 
 
-def read_capsule(node: Parameters, _: Reading) -> Capsule:
+def read_capsule(node: Parameters, reading: Reading) -> Capsule:
     """``<capsule radius length>``, of URDF 1.2."""
-    return Capsule(_size(node, "radius"), _size(node, "length"))
+    return Capsule(_size(node, "radius", reading), _size(node, "length", reading))
 
 
 def read_mesh(node: Parameters, reading: Reading) -> Mesh:

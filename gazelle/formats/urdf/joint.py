@@ -16,6 +16,7 @@ from gazelle.description import (
 )
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
+from gazelle.formats.axis import direction
 from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.elements import read_origin
 
@@ -95,7 +96,7 @@ def read_axis(node: Parameters, kind: JointType, reading: Reading) -> JointAxis:
     dynamics = node.find("dynamics")
     lower, upper = _travel(limit, kind, reading)
     return JointAxis(
-        xyz=values.unit(axis or node, xyz),
+        xyz=direction(xyz, axis or node, reading),
         lower=lower,
         upper=upper,
         effort=_endless(limit, "effort"),
@@ -111,7 +112,7 @@ def _travel(limit: Parameters | None, kind: JointType, reading: Reading) -> tupl
         return (-math.inf, math.inf)
     lower, upper = (_reach(values.attribute_real(limit, name, 0.0)) for name in ("lower", "upper"))
     if lower > upper:
-        reading.note(
+        reading.fault(
             f"the lower limit {lower:g} is greater than the upper {upper:g}: they were swapped",
             limit,
         )

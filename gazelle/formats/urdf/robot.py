@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from gazelle.description import (
+    Collision,
     Frame,
+    Inertial,
     Joint,
     JointAxis,
     JointPhysics,
@@ -22,6 +24,7 @@ from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
+from gazelle.formats.sound import sound_inertial
 from gazelle.formats.urdf.elements import Paint, read_origin, read_paint
 from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, note_unused, read_extensions
 from gazelle.formats.urdf.lump import body_inertial
@@ -60,7 +63,9 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
         links=tuple(_link(body, robot) for body in kept),
         joints=tuple(_joint(body, robot) for body in kept if body.joint is not None),
         frames=tuple(frame for body in kept for frame in _frames(body)),
-        transmissions=tuple(map(read_transmission, root.find_all("transmission"))),
+        transmissions=tuple(
+            read_transmission(node, reading) for node in root.find_all("transmission")
+        ),
         source=root.source,
     )
     return _with_model_extensions(model, robot)
@@ -124,11 +129,12 @@ def _link(body: Body, robot: Robot) -> Link:
         own = extensions.yes(name, "selfCollide")
         self_collide = self_collide if own is None else own
         damping = extensions.real(name, "dampingFactor", damping)
+    collisions = read_collisions(body, robot)
     return Link(
         name=body.name,
         pose=body.pose,
-        inertial=body_inertial(body),
-        collisions=read_collisions(body, robot),
+        inertial=_inertial(body, collisions, robot.reading),
+        collisions=collisions,
         visuals=read_visuals(body, robot),
         sensors=read_sensors(body, robot),
         lights=read_lights(body, robot),
@@ -141,6 +147,14 @@ def _link(body: Body, robot: Robot) -> Link:
         extras=tuple(child for child in sdf.children if child.tag in _LINK_EXTRAS),
         source=body.link.node.source,
     )
+
+
+def _inertial(body: Body, collisions: tuple[Collision, ...], reading: Reading) -> Inertial | None:
+    inertial = body_inertial(body)
+    if inertial is None:
+        return None
+    node = body.link.node.find("inertial") or body.link.node
+    return sound_inertial(inertial, collisions, node, reading)
 
 
 def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters, Transmission
+from gazelle.errors import FormatError
 from gazelle.formats import values
+from gazelle.formats.reading import Reading
 
 
-def read_transmission(node: Parameters) -> Transmission:
+def read_transmission(node: Parameters, reading: Reading) -> Transmission:
     """One transmission; old files write its type and reduction in other places."""
-    reduction = values.real(node, "mechanicalReduction", 1.0)
+    reduction = _reduction(node, 1.0, reading)
     return Transmission(
         name=node.attributes.get("name", ""),
         type=values.word(node, "type") or node.attributes.get("type", ""),
@@ -22,9 +24,18 @@ def read_transmission(node: Parameters) -> Transmission:
         actuators=tuple(
             (
                 values.attribute(actuator, "name"),
-                values.real(actuator, "mechanicalReduction", reduction),
+                _reduction(actuator, reduction, reading),
             )
             for actuator in node.find_all("actuator")
         ),
         source=node.source,
     )
+
+
+def _reduction(node: Parameters, default: float, reading: Reading) -> float:
+    """A reduction; Gazebo reads a URDF with another text, for it reads no transmissions."""
+    try:
+        return values.real(node, "mechanicalReduction", default)
+    except FormatError as error:
+        reading.tolerate(error, f"{default:g} was taken")
+        return default

@@ -14,7 +14,7 @@ from gazelle.description import (
 from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.materials import STANDARD, is_standard, script_colors
-from gazelle.formats.sdf.inertial import check_inertia
+from gazelle.formats.sound import check_inertia
 from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf
 from gazelle.formats.write.sdf.geometry import write_geometry
 from gazelle.formats.write.sdf.plugin import write_plugin

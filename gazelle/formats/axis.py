@@ -1,0 +1,36 @@
+"""Axes and limits of joints that make no sense, as Gazebo's ODE takes them."""
+
+from __future__ import annotations
+
+import math
+
+from gazelle.description import Parameters, Vector3
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+
+_FALLBACK = (1.0, 0.0, 0.0)
+"""What ODE makes of a vector of length zero (``dSafeNormalize3``)."""
+
+
+def direction(xyz: Vector3, node: Parameters, reading: Reading) -> Vector3:
+    """The vector at length one; x for one that has no length.
+
+    Raises:
+        FormatError: It is not finite.
+    """
+    if any(xyz):
+        return values.unit(node, xyz)
+    reading.fault(f"<{node.tag}> must be a vector of some length, found 0 0 0: x was taken", node)
+    return _FALLBACK
+
+
+def travel(lower: float, upper: float, node: Parameters, reading: Reading) -> tuple[float, float]:
+    """The limits of a joint; ODE heeds none where the lower one is above the upper."""
+    if lower <= upper:
+        return lower, upper
+    reading.fault(
+        f"the lower limit {lower:g} is greater than the upper limit {upper:g}: the joint has none",
+        node,
+        "swap the two limits, or leave them out",
+    )
+    return -math.inf, math.inf

@@ -1,0 +1,137 @@
+"""Masses and inertias that no body can have, made those of one that can.
+
+Gazebo classic goes on with them: ODE cannot invert such an inertia and takes the identity for
+its inverse, that is 1 kg m² about every axis, whatever the link weighs. Here the inertia becomes
+the nearest one that a body can have. Its second moments of mass, ``s = tr(I) / 2 - I`` about the
+principal axes, must be positive (Wensing, Kim and Slotine, "Linear matrix inequalities for
+physically consistent inertial parameter identification", IEEE RA-L 3, 2018); those that are not
+are raised to those of a ball of water as heavy as the link. Where the file says that the whole
+inertia is zero, it is that of the link's shapes, filled evenly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from gazelle.description import Collision, Inertia, Inertial, Parameters
+from gazelle.errors import FormatError
+from gazelle.formats import values
+from gazelle.formats.reading import Reading
+from gazelle.formats.solids import WATER, Floats, joined, solid_of
+
+_WRONG = "the inertia is not positive definite"
+_HINT = "the diagonal must be positive and outweigh the products of inertia"
+
+_ROUNDING = 1e-9
+"""Second moments in this proportion are still positive when they are written down."""
+
+LEAST_MASS = 1e-3
+"""For a mass that is not positive [kg]."""
+
+
+def sound_inertial(
+    inertial: Inertial, collisions: Iterable[Collision], node: Parameters, reading: Reading
+) -> Inertial:
+    """The inertial, or one that a body can have, with a fault that says which.
+
+    An inertia that breaks only the triangle inequality stays: it can be inverted, and ODE takes
+    it as it is.
+
+    Args:
+        inertial: As the file says, in the link's frame.
+        collisions: Of the link.
+        node: Its element, for the fault.
+        reading: Takes the fault.
+    """
+    mass = inertial.mass
+    if not (mass > 0.0 and math.isfinite(mass)):
+        reading.fault(
+            f"the mass must be greater than zero, found {mass:g}: {LEAST_MASS:g} kg was taken",
+            node.find("mass") or node,
+        )
+        mass = LEAST_MASS
+        inertial = replace(inertial, mass=mass)
+    given = inertial.inertia
+    if _is_positive(given):
+        return inertial
+    tensor = _sound_tensor(given.matrix(), mass, collisions)
+    taken = Inertia.from_matrix(tensor)
+    reading.fault(
+        f"{_WRONG} ({_numbers(given)}): {_numbers(taken)} was taken",
+        node.find("inertia") or node,
+        _HINT,
+    )
+    return replace(inertial, inertia=taken)
+
+
+def is_sound(inertial: Inertial) -> bool:
+    """Whether the mass is positive and the inertia positive definite."""
+    mass = inertial.mass
+    return mass > 0.0 and math.isfinite(mass) and _is_positive(inertial.inertia)
+
+
+def check_inertia(inertia: Inertia, node: Parameters) -> None:
+    """Refuse a tensor that is not positive definite.
+
+    Raises:
+        FormatError: It is not.
+    """
+    if not _is_positive(inertia):
+        raise values.fail(node, f"{_WRONG} ({_numbers(inertia)})", hint=_HINT)
+
+
+def _is_positive(i: Inertia) -> bool:
+    """Whether a tensor is positive definite (Sylvester's criterion)."""
+    minor = i.ixx * i.iyy - i.ixy * i.ixy
+    whole = (
+        i.izz * minor
+        - i.iyz * (i.ixx * i.iyz - i.ixy * i.ixz)
+        + i.ixz * (i.ixy * i.iyz - i.iyy * i.ixz)
+    )
+    return min(i.ixx, i.iyy, i.izz) > 0.0 and minor > 0.0 and whole > 0.0
+
+
+def _sound_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) -> Floats:
+    if not np.isfinite(tensor).all():
+        tensor = np.zeros((3, 3))
+    if not tensor.any():
+        filled = _of_shapes(mass, collisions)
+        if filled is not None:
+            return filled
+    moments, axes = np.linalg.eigh(tensor)
+    second = moments.sum() / 2.0 - moments
+    second = np.maximum(second, max(_ball_of_water(mass) / 2.0, _ROUNDING * np.abs(second).max()))
+    sound: Floats = (axes * (second.sum() - second)) @ axes.T
+    return (sound + sound.T) / 2.0
+
+
+def _of_shapes(mass: float, collisions: Iterable[Collision]) -> Floats | None:
+    """The tensor of the shapes with a mass spread over them evenly; None without a volume."""
+    parts = []
+    for collision in collisions:
+        try:
+            solid = solid_of(collision.geometry)
+        except FormatError:  # a mesh that cannot be read is reported where it is needed
+            continue
+        if solid is not None:
+            parts.append(solid.placed(collision.pose))
+    whole = joined(parts)
+    if whole is None or not whole.is_body():
+        return None
+    tensor = whole.scaled(mass / whole.volume).inertia
+    return tensor if np.linalg.eigvalsh(tensor)[0] > 0.0 else None
+
+
+def _ball_of_water(mass: float) -> float:
+    """The moment of inertia of a ball of water [kg m²]."""
+    radius: float = (3.0 * mass / (4.0 * math.pi * WATER)) ** (1.0 / 3.0)
+    return 0.4 * mass * radius**2
+
+
+def _numbers(inertia: Inertia) -> str:
+    names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    return ", ".join(f"{name} {getattr(inertia, name):.6g}" for name in names)
