@@ -52,9 +52,11 @@ def run(args: argparse.Namespace) -> int:
 def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
     """The findings about one file."""
     from gazelle.formats import check
+    from gazelle.formats.check import TOLERATED
 
     found = check(file)
-    if not args.files_only and not any(each.severity == "error" for each in found):
+    stopped = any(each.severity == "error" and each.rule != TOLERATED for each in found)
+    if not args.files_only and not stopped:
         found += _build(file, args.engine)
     return found
 

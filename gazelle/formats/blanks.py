@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from typing import Literal, Protocol
+
+from gazelle.description import Source
 
 MESSAGE = "there is a no-break space or another unusual blank, which was taken as a space"
 
@@ -12,9 +15,41 @@ _WITHOUT_WIDTH = "\u200b\u2060\ufeff"
 UNUSUAL = _WIDE + _WITHOUT_WIDTH
 """Blanks that nobody types."""
 
+_BYTES = tuple(blank.encode() for blank in UNUSUAL)
+
 _BLANK = re.compile(f"[{_WIDE}]")
 _NOTHING = re.compile(f"(?<!\\A)[{_WITHOUT_WIDTH}]")
 _CURLY = re.compile("[\u2018-\u201f]")
+
+
+class Report(Protocol):
+    """Takes what is wrong with the text of a file."""
+
+    def __call__(
+        self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
+    ) -> None:
+        """One fault, and where it is."""
+
+
+def plain_bytes(data: bytes, name: str, comment: re.Pattern[str], report: Report) -> bytes:
+    """The text of a file with plain blanks; unusual ones are one warning.
+
+    Args:
+        data: What is in the file; it stays as it is where it is not UTF-8.
+        name: The file.
+        comment: What a comment looks like: nothing is said of blanks in it.
+        report: Takes the warning.
+    """
+    if all(blank not in data for blank in _BYTES):
+        return data
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:  # another encoding, in which those bytes are something else
+        return data
+    clean, line = plain(text, comment)
+    if line is not None:
+        report(MESSAGE, Source(name, line), "warning")
+    return clean.encode()
 
 
 def plain(text: str, comment: re.Pattern[str]) -> tuple[str, int | None]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from gazelle.description import Pose, Source
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import FormatError, ResolveError, did_you_mean
-from gazelle.formats import xml
+from gazelle.formats import blanks, xml
 from gazelle.formats.picture import Bytes, read_picture
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -33,6 +34,7 @@ Mode = Literal["trinary", "scale", "raw"]
 
 MAX_BYTES = 2**16
 
+_COMMENT = re.compile("#[^\r\n]*")
 _REQUIRED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _KEYS = (*_REQUIRED, "mode")
 _MODES: tuple[Mode, ...] = get_args(Mode)
@@ -81,7 +83,7 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
     settings = _read_settings(nodes)
     picture = reading.resolver.find(settings.image, file.parent)
     if picture is None or not picture.is_file():
-        looked = reading.resolver.looked_in(settings.image)
+        looked = blanks.curly_hint(settings.image) or reading.resolver.looked_in(settings.image)
         raise nodes["image"].fail(
             f"the picture '{settings.image}' is not found", ResolveError, looked
         )
@@ -184,7 +186,7 @@ class _Node:
 
 def _read_nodes(data: bytes, name: str, reading: Reading) -> dict[str, _Node]:
     """The values of the YAML file by key; all that are required are there."""
-    root = _parse(data, name)
+    root = _parse(blanks.plain_bytes(data, name, _COMMENT, reading.misread), name)
     nodes: dict[str, _Node] = {}
     for key_node, value in root.value:
         key = str(key_node.value)

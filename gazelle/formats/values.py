@@ -11,6 +11,7 @@ import re
 
 from gazelle.description import Color, Parameters, Vector3
 from gazelle.errors import FormatError
+from gazelle.formats.blanks import curly_hint
 
 INFINITE = 1e16
 """SDF writes "no limit" as a number at least this large."""
@@ -34,7 +35,7 @@ def parse_real(node: Parameters, text: str, what: str) -> float:
     """Text as a number; ``what`` names it in the error."""
     word = text.strip()
     if not _NUMBER.fullmatch(word):
-        raise fail(node, f"expected a number in {what}, found '{word}'")
+        raise fail(node, f"expected a number in {what}, found '{word}'", hint=curly_hint(word))
     return float(word)
 
 

@@ -159,8 +159,8 @@ _KINDS = (
 
 
 def _characters(work: _Mending, text: str, at: int) -> None:
-    new = _CONTROL.sub(" ", _ENTITY.sub("&amp;", text)).replace("<", "&lt;")
-    work.put(text, new, at, "'&', '<' and control characters cannot stand in text")
+    new = _CONTROL.sub(" ", _ENTITY.sub("&amp;", text))
+    work.put(text, new, at, "'&' and control characters cannot stand in text")
 
 
 def _tag(work: _Mending, piece: str, at: int) -> int:

@@ -12,12 +12,12 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Literal, Protocol
 from xml.parsers import expat
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import blanks
+from gazelle.formats.blanks import Report
 from gazelle.formats.wellformed import well_formed
 
 MAX_BYTES = 64 * 2**20
@@ -29,17 +29,7 @@ _BLANK = b" \t\r\n\xef\xbb\xbf\xff\xfe\x00"
 _FIRST = {b"<"}
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _COMMENT_TEXT = re.compile("<!--.*?-->", re.DOTALL)
-_UNUSUAL_BLANKS = tuple(blank.encode() for blank in blanks.UNUSUAL)
 _NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
-
-
-class Report(Protocol):
-    """Takes what is wrong with the text of a file."""
-
-    def __call__(
-        self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
-    ) -> None:
-        """One fault, and where it is."""
 
 
 def read_bytes(path: Path) -> bytes:
@@ -88,7 +78,7 @@ def parsed(
     """The root element, and the well-formed text that it was read from; as ``parse``."""
     data = text.encode() if isinstance(text, str) else text
     if report is not None:
-        data = _with_plain_blanks(data, name, report)
+        data = blanks.plain_bytes(data, name, _COMMENT_TEXT, report)
     try:
         return _parsed(data, name, is_text=isinstance(text, str))
     except FormatError as error:
@@ -102,20 +92,6 @@ def parsed(
         for line, message in mended[1]:
             report(f"this is not well-formed XML: {message}", Source(name, line))
         return result
-
-
-def _with_plain_blanks(data: bytes, name: str, report: Report) -> bytes:
-    """No-break spaces and the like, which come with text from web pages, as plain blanks."""
-    if all(blank not in data for blank in _UNUSUAL_BLANKS):
-        return data
-    try:
-        text = data.decode()
-    except UnicodeDecodeError:  # another encoding, in which those bytes are something else
-        return data
-    plain, line = blanks.plain(text, _COMMENT_TEXT)
-    if line is not None:
-        report(blanks.MESSAGE, Source(name, line), "warning")
-    return plain.encode()
 
 
 def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:

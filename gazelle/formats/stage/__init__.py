@@ -14,8 +14,7 @@ from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.stage.building import no_garbage
-from gazelle.formats.stage.lexer import Script
-from gazelle.formats.stage.parser import decode
+from gazelle.formats.stage.parser import script_of
 from gazelle.formats.stage.scene import scene_of
 from gazelle.formats.stage.world import read_world
 
@@ -63,7 +62,7 @@ def load_stage(
         raise ResolveError("there is no such file", file=os.fspath(path))
     reading = Reading(Resolver(paths, file=file))
     with reading.inside(file), no_garbage():
-        script = Script(str(file), decode(xml.read_bytes(file)))
+        script = script_of(str(file), xml.read_bytes(file), reading)
         world = read_world(script, reading, file.parent)
     reading.report(strict=False)
     return world
@@ -82,5 +81,5 @@ def read_stage(data: bytes, name: str, reading: Reading) -> World:
         ResolveError: A file that it names is not there.
     """
     with no_garbage():
-        stage = read_world(Script(name, decode(data)), reading, reading.folder)
+        stage = read_world(script_of(name, data, reading), reading, reading.folder)
         return scene_of(stage, reading)

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from gazelle.description import Source
 from gazelle.errors import FormatError
+from gazelle.formats.blanks import curly_hint
 
 Value = float | str | tuple[float | str, ...]
 
@@ -117,7 +118,11 @@ def _unexpected(script: Script, token: Token) -> FormatError:
         )
     if token.text in "+-.0123456789":
         return script.fail(f"'{rest.split()[0]}' is no number", token.offset)
-    return script.fail(f"'{token.text}' has no meaning in a Stage file", token.offset)
+    return script.fail(
+        f"'{token.text}' has no meaning in a Stage file",
+        token.offset,
+        hint=curly_hint(token.text),
+    )
 
 
 def parse_value(script: Script, token: Token) -> Value:
@@ -138,6 +143,8 @@ def parse_value(script: Script, token: Token) -> Value:
             items.append(match[2][1:-1])
         elif match.lastindex == 3:
             raise script.fail(
-                f"a tuple may hold numbers and strings, found '{token.text}'", token.offset
+                f"a tuple may hold numbers and strings, found '{token.text}'",
+                token.offset,
+                hint=curly_hint(token.text),
             )
     return tuple(items)

@@ -9,10 +9,11 @@ PROPERTY VALUE
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from gazelle.errors import FormatError, ResolveError
-from gazelle.formats import xml
+from gazelle.formats import blanks, xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.stage.entity import Entity, Property
 from gazelle.formats.stage.lexer import Kind, Script, Token, parse_value, tokenize
@@ -20,6 +21,7 @@ from gazelle.formats.stage.lexer import Kind, Script, Token, parse_value, tokeni
 MAX_DEPTH = 64
 """Entities in each other, macros in macros."""
 MAX_ENTITIES = 1_000_000
+_COMMENT = re.compile("#[^\r\n]*")
 SEARCH_VARIABLE = "STAGEPATH"
 
 _VALUES = {Kind.NUMBER, Kind.STRING, Kind.TUPLE}
@@ -45,12 +47,13 @@ def parse(
     return world, macros
 
 
-def decode(data: bytes) -> str:
-    """Text of a file; what is not UTF-8 is read as Latin-1, as old files are."""
+def script_of(name: str, data: bytes, reading: Reading) -> Script:
+    """The text of a file; what is not UTF-8 is read as Latin-1, as old files are."""
+    data = blanks.plain_bytes(data, name, _COMMENT, reading.misread)
     try:
-        return data.decode("utf-8-sig")
+        return Script(name, data.decode("utf-8-sig"))
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        return Script(name, data.decode("latin-1"))
 
 
 class _Parser:
@@ -175,7 +178,7 @@ class _Parser:
                 hint=looked(uri, self._reading),
             )
         with self._reading.inside(path):
-            script = Script(str(path), decode(xml.read_bytes(path)))
+            script = script_of(str(path), xml.read_bytes(path), self._reading)
             _Parser(self._world, self._reading, self._folder, self._macros).read(script)
 
 
