@@ -10,7 +10,7 @@ import scenes
 
 from gazelle.description import Bounce, Friction, Pose, Surface
 from gazelle.engines import make_engine
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 
 ELSEWHERE = """
 <mujoco>
@@ -71,7 +71,9 @@ def test_somebody_elses_callback_is_not_taken_away():
     try:
         with pytest.raises(EngineError, match="mjcb_control"):
             make_engine("mujoco", bouncing())
-        make_engine("mujoco", scenes.world(scenes.ground(), scenes.box()))
+        with pytest.warns(EngineWarning, match="what slides hops"):
+            make_engine("mujoco", scenes.world(scenes.ground(), scenes.box()))
+        make_engine("mujoco", scenes.world(scenes.ground(0.0), scenes.box(mu=0.0)))
     finally:
         mujoco.set_mjcb_control(present)
 

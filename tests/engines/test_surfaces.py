@@ -81,11 +81,16 @@ def test_what_moves_only_when_told_to_asks_for_no_cone():
     assert engine._batch.model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
-def test_between_its_corners_a_pyramid_holds_down_to_seven_tenths():
-    mu = 0.5
+@pytest.mark.parametrize("mu", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("heading", [0.0, 0.3, math.pi / 4.0])
+def test_a_pyramid_holds_and_slides_alike_in_every_direction(mu, heading):
+    """Its sides are turned to the slip; else it would give way at 0.71 mu at 45 degrees."""
     model = "pyramid_model"
-    assert slid(scenes.rubber(mu), math.atan(0.69 * mu), math.pi / 4.0, model=model) < 0.002
-    assert slid(scenes.rubber(mu), math.atan(0.73 * mu), math.pi / 4.0, model=model) > 0.02
+    assert slid(scenes.rubber(mu), math.atan(0.95 * mu), heading, model=model) < 0.002
+    steep = math.atan(1.1 * mu)
+    pull = G * (math.sin(steep) - mu * math.cos(steep))
+    far = slid(scenes.rubber(mu), steep, heading, model=model)
+    assert far == pytest.approx(pull * (1.1**2 - 0.1**2) / 2.0, rel=0.01)
 
 
 @pytest.mark.parametrize(("mu", "mu2"), [(0.5, 0.1), (0.1, 0.5)])

@@ -13,8 +13,16 @@ import mujoco
 import numpy as np
 
 from gazelle.description import Collision, Inertial, Model, Pose, World
+from gazelle.engines.mujoco.askew import straight_pose
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
-from gazelle.engines.mujoco.contacts import Solid, Spring, add_pairs, tune_springs
+from gazelle.engines.mujoco.contacts import (
+    Solid,
+    Spring,
+    add_pairs,
+    ask_for_cone,
+    may_slide,
+    tune_springs,
+)
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
@@ -25,11 +33,10 @@ from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
-    friction_of,
     friction_ranks,
-    needs_cone,
     surface_options,
 )
+from gazelle.engines.mujoco.treads import possible_treads
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
 from gazelle.errors import EngineError, EngineWarning
@@ -172,11 +179,10 @@ def draft_world(recipe: Recipe) -> Draft:
     add_motors(spec, recipe.motors.values(), recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
     hold_tyres(spec, slips, recipe.time_step)
-    if _needs_cone(builder.solids):
+    if ask_for_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_losses(bodies.values(), slips)
-    gravity = math.hypot(*recipe.world.gravity)
-    pairs = add_pairs(spec, builder.solids, recipe.time_step, gravity)
+    pairs = add_pairs(spec, builder.solids, recipe.time_step, math.hypot(*recipe.world.gravity))
     if pairs.springs or pairs.bounces or pairs.rubs:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
         # and bounce with what bounces; its sides do not turn.
@@ -184,21 +190,17 @@ def draft_world(recipe: Recipe) -> Draft:
     if pairs.springs:
         spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     closures = [closure for tree in trees.values() for closure in tree.closures]
+    slides = may_slide(builder.solids)
     extras = Extras(
         bounces=pairs.bounces,
         rubs=pairs.rubs,
         tumbling=tumbling(recipe.world, bodies),
         motors=motor_count(recipe.motors),
+        slides=slides,
+        treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
     )
     return Draft(
         spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras, slips
-    )
-
-
-def _needs_cone(solids: list[Solid]) -> bool:
-    frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
-    return needs_cone(
-        (mu for mu, moves in frictions if moves), (mu for mu, moves in frictions if not moves)
     )
 
 
@@ -215,6 +217,7 @@ class _Builder:
         self._spec = spec
         self._time_step = recipe.time_step
         self._bodies = bodies
+        self._by_name = {body.name: body for parts in bodies.values() for body in parts}
         self._tyres = tyres
         self.shapes = ShapeBuilder(spec)
         self.geoms: dict[str, list[str]] = {}
@@ -262,7 +265,7 @@ class _Builder:
         """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
             surface = surface_options(collision, self._time_step, self._ranks)
-            placed = pose * collision.pose
+            placed = pose * straight_pose(collision, body, self._by_name)
             names = self.geoms.setdefault(f"{body.name}::{collision.name}", [])
             for shape in self.shapes.options(collision.geometry, placed, collision.source):
                 names.append(f"{body.name}::{collision.name}#{len(names)}")

@@ -24,7 +24,12 @@ import mujoco
 from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere
 from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
 from gazelle.engines.mujoco.laws.extras import Rub
-from gazelle.engines.mujoco.surfaces import rigid_terms, torsional_friction_of
+from gazelle.engines.mujoco.surfaces import (
+    friction_of,
+    needs_cone,
+    rigid_terms,
+    torsional_friction_of,
+)
 from gazelle.errors import EngineWarning
 
 # Above this speed no file means its bounce threshold seriously [m/s]; SDF's default is 1e5.
@@ -145,6 +150,19 @@ def add_pairs(
             geomname1=first.geom, geomname2=second.geom, **_friction_terms(first, second), **terms
         )
     return Pairs(springs, bounces, _rubs_of(everything) if directional else {})
+
+
+def ask_for_cone(solids: Iterable[Solid]) -> bool:
+    """Whether some contact may have more friction than a pyramid bears."""
+    frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
+    return needs_cone(
+        (mu for mu, moves in frictions if moves), (mu for mu, moves in frictions if not moves)
+    )
+
+
+def may_slide(solids: Iterable[Solid]) -> bool:
+    """Whether something that moves rubs."""
+    return any(friction_of(each.collision) and math.isfinite(each.mass) for each in solids)
 
 
 def _rubs_of(solids: Iterable[Solid]) -> dict[str, Rub]:

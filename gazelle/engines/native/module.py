@@ -147,10 +147,13 @@ def _flat(kinds: tuple[Kind, ...]) -> list[str]:
 
 
 def _check_result(native: Native, result: Kind | None) -> None:
-    """Refuse what words have no room for, and results of what is compiled on its own."""
+    """Refuse what words have no room for, and what C functions do not return.
+
+    C gets the result of a kernel that is compiled on its own; other kernels do not.
+    """
     parts = result.parts if isinstance(result, Group) else (result,)
-    if native.whole and result is not None:
-        message = "a kernel that others call as it is must return nothing"
+    if native.whole and isinstance(result, Group):
+        message = "a kernel that others call as it is returns one number at most"
     elif len(parts) > RESULTS or any(isinstance(part, Group) for part in parts):
         message = f"kernels hand at most {RESULTS} numbers to Python"
     else:

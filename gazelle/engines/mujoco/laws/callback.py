@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import lru_cache
 from typing import Any
 
@@ -9,23 +10,29 @@ import mujoco
 
 from gazelle.engines.mujoco.laws.kernel import apply
 from gazelle.engines.native import c_function
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 
 
-def install() -> None:
+def install(*, vital: bool) -> None:
     """Let MuJoCo call it, from now on.
 
+    Args:
+        vital: Whether there is need of more than that what slides stays down.
+
     Raises:
-        EngineError: Another program in this process has MuJoCo's callback.
+        EngineError: Another program in this process has MuJoCo's callback, and it is vital.
     """
     mine, present = _function(), mujoco.get_mjcb_control()
     if present is None:
         mujoco.set_mjcb_control(mine)
     elif present is not mine:
-        raise EngineError(
-            "something else in this process uses MuJoCo's callback mjcb_control",
-            hint="motors, bounces, friction by direction and bodies that tumble need it",
-        )
+        what = "something else in this process uses MuJoCo's callback mjcb_control"
+        if vital:
+            raise EngineError(
+                what,
+                hint="motors, bounces, friction by direction and bodies that tumble need it",
+            )
+        warnings.warn(EngineWarning(f"{what}: what slides hops"), stacklevel=2)
 
 
 @lru_cache(maxsize=1)

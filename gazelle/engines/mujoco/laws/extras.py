@@ -8,6 +8,16 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
+from gazelle.engines.mujoco.laws.numbers import (
+    BY_THE_NORMAL,
+    GEOM_NUMBERS,
+    HEAD,
+    ITS_OWN,
+    MARK,
+    MIDDLE,
+    TREAD,
+)
+from gazelle.engines.mujoco.treads import middle_of
 from gazelle.rotations import conjugate, rotate
 
 Direction = tuple[float, float, float]
@@ -38,16 +48,25 @@ class Extras:
         rubs: Geoms that rub by direction, by name.
         tumbling: Names of loose bodies that tumble freely.
         motors: How many motors hold a velocity.
+        slides: Whether something that moves rubs.
+        treads: Joints of wheels by what may be their treads, a geom.
     """
 
     bounces: bool = False
     rubs: Mapping[str, Rub] = field(default_factory=dict)
     tumbling: Sequence[str] = ()
     motors: int = 0
+    slides: bool = False
+    treads: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def any(self) -> bool:
         """Whether there is need of any."""
+        return self.slides or self.vital
+
+    @property
+    def vital(self) -> bool:
+        """Whether there is need of one without which the world would move quite differently."""
         return bool(self.bounces or self.rubs or self.tumbling or self.motors)
 
 
@@ -55,11 +74,9 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
     """Make room in a model for what ``finish`` writes."""
     if not extras.any:
         return
-    from gazelle.engines.mujoco.laws.kernel import GEOM_NUMBERS, HEAD  # the compiler
-
     size = HEAD + 2 * len(extras.tumbling)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
-    if extras.rubs:
+    if extras.rubs or extras.treads:
         spec.nuser_geom = GEOM_NUMBERS
 
 
@@ -69,19 +86,27 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
     Raises:
         EngineError: Another program in this process has MuJoCo's callback.
     """
+    kinds = {int(kind) for kind in model.geom_type}
+    if {int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_CYLINDER)} <= kinds:
+        from gazelle.engines.mujoco.laws.cylinders import stand_upright  # the compiler
+
+        stand_upright()
     if not extras.any:
         return
     from gazelle.engines.mujoco.laws.callback import install  # the compiler
-    from gazelle.engines.mujoco.laws.kernel import (
-        BY_THE_NORMAL,
-        HEAD,
-        ITS_OWN,
-        MARK,
-    )
 
     # The first of the custom numbers: nothing else here adds any.
     numbers = model.numeric_data
-    numbers[:HEAD] = MARK, mujoco.mj_isSparse(model), len(extras.tumbling), extras.motors
+    treads = _write_treads(model, extras.treads)
+    numbers[:HEAD] = (
+        MARK,
+        mujoco.mj_isSparse(model),
+        len(extras.tumbling),
+        extras.motors,
+        bool(extras.rubs),
+        treads,
+        extras.slides,
+    )
     for place, name in enumerate(extras.tumbling):
         body = model.body(name)
         numbers[HEAD + 2 * place :][:2] = body.id, body.dofadr[0]
@@ -91,5 +116,17 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         w, x, y, z = model.geom_quat[geom]
         local = rotate(conjugate(np.array([x, y, z, w])), along)
         kind = BY_THE_NORMAL if rub.along is None else ITS_OWN
-        model.geom_user[geom] = kind, *local, rub.coefficient
-    install()
+        model.geom_user[geom, :TREAD] = kind, *local, rub.coefficient
+    install(vital=extras.vital)
+
+
+def _write_treads(model: mujoco.MjModel, treads: Mapping[str, str]) -> bool:
+    """Mark the geoms that are treads; returns whether there are any."""
+    found = False
+    for name, on in treads.items():
+        geom, joint = model.geom(name).id, model.joint(on).id
+        middle = middle_of(model, geom, joint)
+        if middle is not None:
+            model.geom_user[geom, [TREAD, MIDDLE]] = joint + 1, middle
+            found = True
+    return found

@@ -14,14 +14,21 @@ from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.laws.layouts import offsets
 from gazelle.engines.mujoco.laws.motors import drive_motors
+from gazelle.engines.mujoco.laws.numbers import (
+    BY_THE_NORMAL,
+    GEOM_NUMBERS,
+    HEAD,
+    ITS_OWN,
+    MARK,
+    NO_DIRECTION,
+)
+from gazelle.engines.mujoco.laws.sliding import stay_down
+from gazelle.engines.mujoco.laws.treads import stand_in_the_middle
 from gazelle.engines.native import floats, integers, long_at, part, whole
 
 Floats: TypeAlias = NDArray[np.float64]
 
 AT = offsets()
-
-# What the first number of a model says that the laws hold for.
-MARK = 7.0131e57
 
 # An impact that gravity makes in so many steps is no bounce but rest.
 _STEPS_TO_REST = 2.0
@@ -37,15 +44,6 @@ _NOT_YET = -1e9
 
 _FREE = 0  # mjJNT_FREE
 _ELLIPTIC = 1  # mjCONE_ELLIPTIC
-
-# Numbers of a geom: whether it has a direction, which, and how much it rubs along it.
-GEOM_NUMBERS = 5
-NO_DIRECTION, ITS_OWN, BY_THE_NORMAL = 0.0, 1.0, 2.0
-
-# Numbers before those of the tumbling bodies: the mark, whether Jacobians are sparse, how many
-# bodies tumble, and how many motors there are. Each that tumbles has its body and the first of
-# its six velocities.
-HEAD = 4
 
 _ROUNDS = 8
 
@@ -71,12 +69,22 @@ def apply(model: int, data: int) -> None:
     for index in range(integers(data + AT.ncon, 1)[0]):
         contact = contacts + index * AT.contact_size
         row = integers(contact + AT.contact_address, 1)[0]
-        if row < 0:
-            continue
-        if long_at(model + AT.model_nuser_geom) == GEOM_NUMBERS:
-            _direct(model, data, contact, row, head[1])
-        if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
-            _bounce(model, data, contact, row)
+        if row >= 0:
+            _correct(model, data, contact, row)
+
+
+@part
+def _correct(model: int, data: int, contact: int, row: int) -> None:
+    """Change the rows of a contact."""
+    head = floats(long_at(model + AT.model_numeric), HEAD)
+    if head[4] > 0.0:
+        _direct(model, data, contact, row, head[1])
+    if head[5] > 0.0:
+        stand_in_the_middle(model, data, contact, row, head[1])
+    if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
+        _bounce(model, data, contact, row)
+    if head[6] > 0.0:
+        stay_down(model, data, contact, row, head[1])
 
 
 @part

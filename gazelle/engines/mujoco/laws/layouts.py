@@ -50,17 +50,25 @@ class Offsets(NamedTuple):
     userdata: int
     rownnz: int
     rowadr: int
+    colind: int
     jacobian: int
     velocity: int
     reference: int
     qvel: int
+    warmstart: int
     passive: int
     xmat: int
     geom_xmat: int
+    geom_xpos: int
+    xaxis: int
+    cdof: int
+    terms: int
     contact_size: int
     contact_dist: int
     contact_frame: int
     contact_margin: int
+    contact_pos: int
+    contact_friction: int
     contact_solref: int
     contact_solreffriction: int
     contact_dim: int
@@ -75,6 +83,10 @@ class Offsets(NamedTuple):
     model_cone: int
     model_bodyid: int
     model_rootid: int
+    model_parentid: int
+    model_dofnum: int
+    model_dofadr: int
+    model_dof_parentid: int
     model_jntadr: int
     model_jntnum: int
     model_jnt_type: int
@@ -85,6 +97,7 @@ class Offsets(NamedTuple):
     model_gravcomp: int
     model_nuser_geom: int
     model_geom_user: int
+    model_geom_size: int
 
 
 @lru_cache(maxsize=1)
@@ -108,17 +121,25 @@ def offsets() -> Offsets:
         userdata=data.userdata.offset,
         rownnz=data.efc_J_rownnz.offset,
         rowadr=data.efc_J_rowadr.offset,
+        colind=data.efc_J_colind.offset,
         jacobian=data.efc_J.offset,
         velocity=data.efc_vel.offset,
         reference=data.efc_aref.offset,
         qvel=data.qvel.offset,
+        warmstart=data.qacc_warmstart.offset,
         passive=data.qfrc_passive.offset,
         xmat=data.xmat.offset,
         geom_xmat=data.geom_xmat.offset,
+        geom_xpos=data.geom_xpos.offset,
+        xaxis=data.xaxis.offset,
+        cdof=data.cdof.offset,
+        terms=data.efc_KBIP.offset,
         contact_size=ctypes.sizeof(contact),
         contact_dist=contact.dist.offset,
         contact_frame=contact.frame.offset,
         contact_margin=contact.includemargin.offset,
+        contact_pos=contact.pos.offset,
+        contact_friction=contact.friction.offset,
         contact_solref=contact.solref.offset,
         contact_solreffriction=contact.solreffriction.offset,
         contact_dim=contact.dim.offset,
@@ -133,6 +154,10 @@ def offsets() -> Offsets:
         model_cone=model.opt.offset + option.cone.offset,
         model_bodyid=model.geom_bodyid.offset,
         model_rootid=model.body_rootid.offset,
+        model_parentid=model.body_parentid.offset,
+        model_dofnum=model.body_dofnum.offset,
+        model_dofadr=model.body_dofadr.offset,
+        model_dof_parentid=model.dof_parentid.offset,
         model_jntadr=model.body_jntadr.offset,
         model_jntnum=model.body_jntnum.offset,
         model_jnt_type=model.jnt_type.offset,
@@ -143,6 +168,7 @@ def offsets() -> Offsets:
         model_gravcomp=model.body_gravcomp.offset,
         model_nuser_geom=model.nuser_geom.offset,
         model_geom_user=model.geom_user.offset,
+        model_geom_size=model.geom_size.offset,
     )
     _verify(found)
     return found
@@ -207,8 +233,16 @@ def _verify(found: Offsets) -> None:
         (there + found.userdata, data.userdata),
         (there + found.reference, data.efc_aref),
         (there + found.jacobian, data.efc_J),
+        (there + found.warmstart, data.qacc_warmstart),
         (here + found.model_numeric, model.numeric_data),
         (here + found.model_geom_user, model.geom_user),
+        (here + found.model_geom_size, model.geom_size),
+        (there + found.geom_xpos, data.geom_xpos),
+        (there + found.cdof, data.cdof),
+        (there + found.xaxis, data.xaxis),
+        (there + found.terms, data.efc_KBIP),
+        (here + found.model_dof_parentid, model.dof_parentid),
+        (there + found.geom_xmat, data.geom_xmat),
         (here + found.model_inertia, model.body_inertia),
     ]
     right = all(

@@ -1,0 +1,62 @@
+"""Shapes that a file puts askew by rounding are straight.
+
+"1.57" for a quarter of a turn leaves a box on two of its corners, a dozen micrometres below the
+others: a caster then brakes on one side, and the robot veers when it speeds up. ODE has a surface
+layer, within which all corners bear; rigid contacts have none. So a shape that stands askew in the
+frame of what carries it, by less at its ends than a tenth of ODE's layer, is put straight. Links
+and joints stay where the file has them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from gazelle.description import Box, Capsule, Collision, Cylinder, Geometry, Pose
+from gazelle.engines.mujoco.tree import Body
+
+# A tenth of ODE's surface layer [m].
+_LAYER = 1e-4
+
+
+def straight_pose(collision: Collision, body: Body, bodies: Mapping[str, Body]) -> Pose:
+    """The pose of a collision in its link, put straight if it is askew by rounding.
+
+    Args:
+        collision: Of the link.
+        body: The link.
+        bodies: All of its model, by name, at least.
+    """
+    reach = _reach(collision.geometry)
+    if reach is None or body.root == "static":
+        return collision.pose
+    carrier = _in_carrier(body, bodies)
+    turn = (carrier * collision.pose).matrix()[:3, :3]
+    straight = np.rint(turn)
+    if not np.array_equal(straight @ straight.T, np.eye(3)) or np.linalg.det(straight) < 0.0:
+        return collision.pose
+    off = math.sqrt(max(0.0, float(np.square(turn - straight).sum()) / 2.0))  # the angle
+    if off * reach > _LAYER or off < 1e-9:
+        return collision.pose
+    put = Pose.from_matrix(carrier.matrix()[:3, :3].T @ straight)
+    return Pose.from_quaternion(collision.pose.position, put.quaternion)
+
+
+def _in_carrier(body: Body, bodies: Mapping[str, Body]) -> Pose:
+    """The pose of a link in the first above it that a joint moves, or that nothing carries."""
+    pose = Pose()
+    while body.joint is not None and body.joint.type == "fixed" and body.parent is not None:
+        pose = body.pose * pose
+        body = bodies[body.parent]
+    return pose
+
+
+def _reach(shape: Geometry) -> float | None:
+    """How far a shape's points are from its centre; None if its corners cannot be told [m]."""
+    if isinstance(shape, Box):
+        return math.hypot(*shape.size) / 2.0
+    if isinstance(shape, Cylinder | Capsule):
+        return math.hypot(shape.radius, shape.length / 2.0)
+    return None

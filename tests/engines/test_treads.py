@@ -1,0 +1,163 @@
+"""Wheels stand on the middle of their treads, and shapes askew by rounding are straight."""
+
+import math
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+import scenes
+
+from gazelle.description import (
+    Box,
+    Collision,
+    Cylinder,
+    Inertia,
+    Inertial,
+    Joint,
+    JointAxis,
+    Link,
+    Model,
+    Pose,
+    Sphere,
+)
+from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
+
+MODELS = ("cone_model", "pyramid_model")
+TRACK, RADIUS = 0.5, 0.1
+
+
+def cart(width, mu=1.0, roll=-1.57, drag=0.3, caster=None, name="cart"):
+    """Two driven wheels, so wide and on axles turned so, and a caster behind."""
+    caster = caster or Collision("caster", Sphere(0.02), Pose(-0.3, 0.0, 0.02))
+    rubbing = replace(caster, surface=scenes.rubber(drag))
+    base = Link(
+        "base",
+        inertial=Inertial(5.0, Pose(x=-0.1, z=0.1), Inertia(0.05, 0.08, 0.1)),
+        collisions=(rubbing,),
+    )
+
+    def wheel(side, y):
+        shape = Collision("c", Cylinder(RADIUS, width), surface=scenes.rubber(mu))
+        moments = Inertia(0.003, 0.003, 0.005)
+        pose = Pose(y=y, z=RADIUS, roll=roll)
+        return Link(side, pose=pose, inertial=Inertial(0.5, inertia=moments), collisions=(shape,))
+
+    joints = tuple(
+        Joint(f"{side}_joint", "continuous", "base", side, axes=(JointAxis(),))
+        for side in ("left", "right")
+    )
+    links = (base, wheel("left", TRACK / 2.0), wheel("right", -TRACK / 2.0))
+    return Model(name, links=links, joints=joints)
+
+
+def drive(model, left, right, seconds, friction, step=0.001):
+    """Where a cart is, and how far it has turned."""
+    world = scenes.world(scenes.ground(), model, step=step)
+    ode = replace(world.profile.ode, friction_model=friction)
+    engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
+    for side, speed in (("left", left), ("right", right)):
+        engine.add_motor(f"cart::{side}_joint", 50.0)
+        engine.set_motor_velocity(f"cart::{side}_joint", speed)
+    turned, before = 0.0, 0.0
+    for _ in range(round(seconds / 0.1)):
+        engine.step(round(0.1 / step))
+        x, y, z, w = engine.link_placement("cart::base").quaternion[0]
+        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        turned += math.remainder(yaw - before, 2.0 * math.pi)
+        before = yaw
+    return engine.link_placement("cart::base").position[0], turned
+
+
+@pytest.mark.parametrize("friction", MODELS)
+@pytest.mark.parametrize(("width", "mu"), [(0.02, 0.3), (0.1, 0.3), (0.1, 1.0), (0.2, 0.5)])
+@pytest.mark.parametrize("step", [0.001, 0.005])
+def test_a_cart_on_wheels_of_any_width_goes_straight(width, mu, friction, step):
+    """Its wheels slip as it sets off; axles turned by 1.57 stand on one edge each."""
+    where, turned = drive(cart(width, mu), 5.0, 5.0, 4.0, friction, step)
+    assert where[0] > 1.7
+    assert abs(turned) < 1e-3
+    assert abs(where[1]) < 2e-3
+
+
+@pytest.mark.parametrize("friction", MODELS)
+@pytest.mark.parametrize("mu", [0.5, 1.0, 100.0, 1e5])
+@pytest.mark.parametrize("width", [0.02, 0.1, 0.2])
+def test_a_cart_on_wheels_of_any_width_turns_in_place_as_kinematics_say(width, mu, friction):
+    rate, seconds = 1.0, 5.0
+    speed = rate * TRACK / 2.0 / RADIUS
+    # On axles at right angles, so that the wheels bear with both edges.
+    level = cart(width, mu, roll=-math.pi / 2.0, drag=0.1)
+    _, turned = drive(level, speed, -speed, seconds, friction)
+    # The wheels turn about z, which points to the left of the cart.
+    assert abs(turned) == pytest.approx(rate * seconds, rel=0.01)
+
+
+def test_a_roller_alone_stands_and_what_leans_stands_on_its_edge():
+    """The middle bears as long as the edges are level; then the lower one does."""
+    for lean, falls in ((0.0, False), (0.05, False), (0.6, True)):
+        axle = Link("axle", inertial=Inertial(0.2, inertia=Inertia(0.001, 0.001, 0.001)))
+        drum = Link(
+            "drum",
+            inertial=Inertial(2.0, inertia=Inertia(0.01, 0.01, 0.01)),
+            collisions=(Collision("c", Cylinder(0.1, 0.1)),),
+        )
+        joint = Joint("turns", "continuous", "axle", "drum", axes=(JointAxis(),))
+        height = 0.1 * math.cos(lean) + 0.05 * math.sin(lean)
+        pose = Pose(z=height + 1e-4, roll=math.pi / 2.0 + lean)
+        model = Model("roller", links=(axle, drum), joints=(joint,), pose=pose)
+        engine = make_engine("mujoco", scenes.world(scenes.ground(), model))
+        engine.step(2000)
+        x, y, _, _ = engine.link_placement("roller::axle").quaternion[0]
+        level = abs(1.0 - 2.0 * (x * x + y * y))
+        assert (level > 0.5) == falls, lean
+
+
+def test_a_caster_that_is_askew_by_rounding_brakes_in_the_middle():
+    block = Collision("caster", Box((0.03, 0.03, 0.04)), Pose(-0.3, 0.0, 0.015, roll=-1.57))
+    where, turned = drive(cart(0.02, 0.3, caster=block), 5.0, 5.0, 4.0, "cone_model")
+    assert abs(turned) < 1e-3
+    assert abs(where[1]) < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("size", "turn", "straight"),
+    [
+        ((0.1, 0.2, 0.1), Pose(roll=1.57), True),
+        ((0.1, 0.2, 0.1), Pose(roll=-1.57, yaw=1.5708), True),
+        ((0.1, 0.1, 0.1), Pose(pitch=3.1416), True),
+        ((0.1, 0.2, 0.1), Pose(roll=1.56), False),
+        ((4.0, 0.2, 0.1), Pose(yaw=1.57), False),
+        ((0.1, 0.2, 0.1), Pose(), True),
+        ((0.1, 0.2, 0.1), Pose(roll=0.3), False),
+    ],
+)
+def test_only_what_is_askew_by_rounding_is_put_straight(size, turn, straight):
+    shape = Collision("c", Box(size), turn)
+    link = Link("l", inertial=Inertial(1.0, inertia=Inertia(1, 1, 1)), collisions=(shape,))
+    engine = make_engine("mujoco", scenes.world(Model("m", links=(link,))))
+    axes = np.zeros(9)
+    mujoco.mju_quat2Mat(axes, engine._batch.model.geom_quat[0])
+    off = np.abs(axes - np.rint(axes)).max()
+    assert (off < 1e-12) == straight
+    if not straight:
+        wanted = turn.matrix()[:3, :3]
+        np.testing.assert_allclose(axes.reshape(3, 3), wanted, atol=1e-12)
+    np.testing.assert_array_equal(engine.link_placement("m::l").quaternion[0], [0, 0, 0, 1])
+
+
+def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
+    shape = Collision("c", Box((0.1, 0.1, 0.2)))
+    base = Link("base", inertial=Inertial(1.0, inertia=Inertia(1, 1, 1)))
+    arm = replace(base, name="arm", pose=Pose(x=0.2, roll=1.57), collisions=(shape,))
+    joint = Joint("j", "fixed", "base", "arm")
+    world = scenes.world(Model("m", links=(base, arm), joints=(joint,)))
+    engine = make_engine("mujoco", world)
+    data = mujoco.MjData(engine._batch.model)
+    mujoco.mj_forward(engine._batch.model, data)
+    axes = data.geom_xmat[0]
+    np.testing.assert_allclose(axes, np.rint(axes), atol=1e-12)
+    # The link itself is where the file has it.
+    x, _, _, w = engine.link_placement("m::arm").quaternion[0]
+    assert 2.0 * math.atan2(x, w) == pytest.approx(1.57, abs=1e-12)
