@@ -8,10 +8,12 @@ import scenes
 from second_engine import mechanisms
 
 from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
 from gazelle.errors import EngineError
 from gazelle.simulation import Simulation
 
 ANGLES = ("drive", "knee", "foot")
+SWING = {"shoulder": 2.0, "elbow": -1.0}
 
 
 def loop(integrator, step=0.001):
@@ -32,8 +34,28 @@ def test_a_four_bar_is_right_to_5_mrad_after_3_s_with_rk4_and_not_with_euler():
     assert np.abs(angles("euler", 0.001) - exact).max() > 0.05
 
 
-def test_euler_is_the_default_and_an_integrator_can_be_chosen_in_a_run():
-    np.testing.assert_array_equal(angles(None, 0.001), angles("euler", 0.001))
+def test_of_a_double_pendulum_the_default_is_ten_times_nearer():
+    def after(integrator, step):
+        world = scenes.world(mechanisms.double_pendulum(), step=step)
+        world = with_profile(world, replace(world.profile, integrator=integrator))
+        engine = make_engine("mujoco", world)
+        for name, angle in SWING.items():
+            engine.set_joint_position(f"m::{name}", angle)
+        engine.step(round(2.0 / step))
+        return np.array([engine.joint_position(f"m::{name}")[0, 0] for name in SWING])
+
+    exact = after("rk4", 0.0002)
+    off, eulers = (np.abs(after(name, 0.001) - exact).max() for name in (None, "euler"))
+    assert off < 0.15 * eulers
+
+
+def test_the_default_is_nearer_to_the_limit_of_small_steps_than_euler():
+    exact = angles("rk4", 0.00025)
+    off, eulers = (np.abs(angles(name, 0.001) - exact).max() for name in (None, "euler"))
+    assert off < 0.75 * eulers
+
+
+def test_an_integrator_can_be_chosen_in_a_run():
     with Simulation(loop(None)) as sim:
         sim.run(seconds=0.5)
         before = sim.robots["m"].joints["drive"].position

@@ -68,9 +68,10 @@ _SCALES = {"mm": 1000.0, "mrad": 1000.0, "rad/s": 1.0}
 
 
 def compare(scene: Scene, step: float) -> list[Outcome]:
-    """The outcome of each measure, at a physics step [s]."""
+    """The outcome of each measure, at a physics step [s], both engines being plain Euler."""
     world = scene.make()
-    world = replace(world, physics=(replace(world.profile, max_step_size=step),))
+    profile = replace(world.profile, max_step_size=step, integrator="euler")
+    world = replace(world, physics=(profile,))
     ours = trajectory(scene, make_engine("mujoco", world), step)
     theirs = trajectory(scene, Bullet(world), step)
     return [

@@ -26,7 +26,7 @@ from gazelle.engines.mujoco.contacts import (
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
-from gazelle.engines.mujoco.loose import tumbling
+from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, set_options
 from gazelle.engines.mujoco.shapes import ShapeBuilder
@@ -198,6 +198,7 @@ def draft_world(recipe: Recipe) -> Draft:
         motors=motor_count(recipe.motors),
         slides=slides,
         treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
+        swings=swings(recipe.world, bodies),
     )
     return Draft(
         spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras, slips

@@ -6,6 +6,7 @@ stepped one step at a time; where none does, which is nearly always, nothing is 
 
 from __future__ import annotations
 
+import warnings
 from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,12 +16,18 @@ from mujoco.batch import SimulationError
 
 from gazelle.description import World
 from gazelle.engines.engine import Floats
+from gazelle.engines.mujoco.laws import spun
 from gazelle.engines.mujoco.reactions import ForceAccess
+from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.wind import wind_strength
+from gazelle.errors import EngineWarning
 
 
 class ForcedSteps(ForceAccess):
     """The part of ``gazelle.engines.engine.Engine`` that steps."""
+
+    _spun = False
+    """Whether it was said that something turns too fast."""
 
     @property
     @abstractmethod
@@ -42,11 +49,33 @@ class ForcedSteps(ForceAccess):
         return self._layout.limits.govern(self._state) or self._is_windy()
 
     def _step_batch(self, count: int) -> set[int]:
+        failed: set[int] = set()
         try:
             self._batch.step(nstep=count)
         except SimulationError as error:
-            return {int(world) for world in error.ids}
-        return set()
+            failed = {int(world) for world in error.ids}
+        if spun[0]:
+            spun[0] = 0.0
+            if not failed and not np.count_nonzero(self._state.faults):
+                self._warn_of_spin()
+        return failed
+
+    def _warn_of_spin(self) -> None:
+        """Say once that the physics step is too long for how fast something turns."""
+        if self._spun:
+            return
+        self._spun = True
+        world = int(np.abs(self._state.qvel).max(axis=1).argmax())
+        states = self._batch.state
+        who = suspect(self._layout, self._state, states, states[world])
+        warnings.warn(
+            EngineWarning(
+                f"something turns more than a quarter of a radian in a physics step of "
+                f"{self.time_step:g} s (fastest: {who}); it precesses more than 1 % too slowly. "
+                "Take a smaller step"
+            ),
+            stacklevel=5,
+        )
 
     @contextmanager
     def _forced(self) -> Iterator[None]:

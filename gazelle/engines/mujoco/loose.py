@@ -91,16 +91,13 @@ def keep_awake(model: mujoco.MjModel, world: World) -> None:
 
 
 def tumbling(world: World, bodies: Mapping[str, Sequence[Body]]) -> list[str]:
-    """Loose links of a world without gravity that turn about changing axes.
-
-    What gravity pulls does not tumble long. Over minutes Euler's method would add to the spin
-    of such a link.
+    """Loose links that turn about changing axes, to whose spin Euler's method would add.
 
     Args:
         world: The description.
         bodies: Of its models, by name.
     """
-    if world.profile.integrator is not None or any(world.gravity):
+    if world.profile.integrator is not None:
         return []
     carriers = {body.parent for parts in bodies.values() for body in parts}
     return [
@@ -109,6 +106,22 @@ def tumbling(world: World, bodies: Mapping[str, Sequence[Body]]) -> list[str]:
         for body in parts
         if body.root == "free" and body.name not in carriers and not _is_round(body)
     ]
+
+
+def swings(world: World, bodies: Mapping[str, Sequence[Body]]) -> bool:
+    """Whether there are joints, to whose swing Euler's method would add.
+
+    Args:
+        world: The description.
+        bodies: Of its models, by name.
+    """
+    if world.profile.integrator is not None:
+        return False
+    return any(
+        body.joint is not None and body.joint.type != "fixed"
+        for parts in bodies.values()
+        for body in parts
+    )
 
 
 def _is_round(body: Body) -> bool:

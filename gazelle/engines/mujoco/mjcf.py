@@ -53,7 +53,7 @@ def _warn_of(draft: Draft) -> None:
     lacking = {
         "bounces are less exact": extras.bounces,
         "friction differs along world y and x, not along fdir1": extras.rubs,
-        "bodies that tumble freely drift": extras.tumbling,
+        "bodies that tumble freely drift": extras.tumbling and not any(draft.spec.option.gravity),
         "tyres that slip wander off their wheels": draft.slips,
     }
     found = [words for words, present in lacking.items() if present]

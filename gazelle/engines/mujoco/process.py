@@ -27,6 +27,13 @@ def settle() -> None:
         _stop_timing()
 
 
+@functools.cache
+def address_of(name: str) -> int:
+    """Where a function of MuJoCo's C library is, for compiled code that calls it."""
+    library = ctypes.CDLL(sys.modules[mujoco.set_mjcb_time.__module__].__file__)
+    return ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0
+
+
 def _stop_timing() -> None:
     """Take away the clock, which the Python module has no function for.
 

@@ -29,11 +29,11 @@ What differs from Python, by design:
 from gazelle.engines.native.calls import each, fetch_add, fused, lesser
 from gazelle.engines.native.decorators import Function, inner, kernel, part, whole
 from gazelle.engines.native.function import Native
-from gazelle.engines.native.memory import floats, integers, long_at
+from gazelle.engines.native.memory import call_c, floats, integers, long_at
 from gazelle.engines.native.outside import c_function
 from gazelle.engines.native.tape import Call, Tape
 
 __all__ = [
-    "Call", "Function", "Native", "Tape", "c_function", "each", "fetch_add", "floats", "fused",
+    "Call", "Function", "Native", "Tape", "c_function", "call_c", "each", "fetch_add", "floats", "fused",
     "inner", "integers", "kernel", "lesser", "long_at", "part", "whole",
 ]  # fmt: skip

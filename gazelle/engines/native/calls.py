@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.engines.native.code import Code, constant, rebuilt, words
 from gazelle.engines.native.kinds import BITS, REAL, TRUTH, WHOLE, Array, Value, flat, joined
-from gazelle.engines.native.memory import call_at, floats, integers, long_at
+from gazelle.engines.native.memory import call_at, call_c, floats, integers, long_at
 from gazelle.engines.native.operators import compared
 from gazelle.errors import EngineError
 
@@ -201,6 +201,14 @@ def _call_at(code: Code, function: Value, words: Value) -> Value:
     return constant(0)
 
 
+def _call_c(code: Code, function: Value, *words: Value) -> Value:
+    if not all(each.kind == WHOLE for each in (function, *words)):
+        raise EngineError("C functions take addresses and whole numbers here")
+    place = code.get(WHOLE, f"inttoptr i64 {function.text} to ptr").text
+    code.do(f"call void {place}({', '.join(f'i64 {each.text}' for each in words)})")
+    return constant(0)
+
+
 def _fetch_add(code: Code, numbers: Value, amount: Value) -> Value:
     if numbers.kind != Array("int64", 1) or amount.kind != WHOLE:
         raise EngineError("fetch_add takes an array of int64 with one axis, and a whole number")
@@ -221,5 +229,5 @@ _CALLS: Final[dict[Any, Callable[..., Value]]] = {
     np.int64: _whole, np.uint64: _bits, math.isnan: _is_nan, math.isfinite: _is_finite,
     len: _length, fused: _fused, lesser: _lesser, np.float64: Code.real, np.empty: _empty, np.zeros: _zeros,
     floats: _floats, integers: _integers, long_at: _long_at, fetch_add: _fetch_add,
-    call_at: _call_at,
+    call_at: _call_at, call_c: _call_c,
 }  # fmt: skip

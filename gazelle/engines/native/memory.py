@@ -26,6 +26,11 @@ def long_at(address: int) -> int:
     return ctypes.c_int64.from_address(address).value
 
 
+def call_c(function: int, *words: int) -> None:
+    """Call a C function at an address with whole numbers or addresses; what it gives is lost."""
+    ctypes.CFUNCTYPE(None, *[ctypes.c_int64] * len(words))(function)(*words)
+
+
 def call_at(function: int, words: int) -> None:
     """Call the entry of a kernel with words, both at an address."""
     ENTRY(function)(words)

@@ -1,12 +1,12 @@
 """What MuJoCo is told in the middle of a step, by compiled code that it calls.
 
-Three laws need more than MuJoCo's terms can say: bounces that reach e² of the height whatever
-part of a step the impact falls in, friction by directions that turn with their surfaces, and
-the gyroscopic torque of what tumbles freely. MuJoCo calls one function of the process,
+These laws need more than MuJoCo's terms can say: motors that hold a velocity, bounces that reach
+e² of the height whatever part of a step the impact falls in, friction by directions that turn
+with their surfaces, and the forces of what turns about changing axes. MuJoCo calls one function of the process,
 ``mjcb_control``, in every step of every model; this one looks for a mark in the model and does
 nothing where there is none. It is compiled when a world first needs it.
 """
 
-from gazelle.engines.mujoco.laws.extras import Extras, finish, prepare
+from gazelle.engines.mujoco.laws.extras import Extras, finish, prepare, spun
 
-__all__ = ["Extras", "finish", "prepare"]
+__all__ = ["Extras", "finish", "prepare", "spun"]

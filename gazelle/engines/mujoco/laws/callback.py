@@ -30,9 +30,11 @@ def install(*, vital: bool) -> None:
         if vital:
             raise EngineError(
                 what,
-                hint="motors, bounces, friction by direction and bodies that tumble need it",
+                hint="motors, bounces and friction by direction need it",
             )
-        warnings.warn(EngineWarning(f"{what}: what slides hops"), stacklevel=2)
+        warnings.warn(
+            EngineWarning(f"{what}: what slides hops, and what spins gains energy"), stacklevel=2
+        )
 
 
 @lru_cache(maxsize=1)

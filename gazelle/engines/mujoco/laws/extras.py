@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
+from gazelle.engines.mujoco.balance import unbalanced_dofs
 from gazelle.engines.mujoco.laws.numbers import (
+    BIAS_HEAD,
     BY_THE_NORMAL,
     GEOM_NUMBERS,
     HEAD,
@@ -17,10 +19,15 @@ from gazelle.engines.mujoco.laws.numbers import (
     MIDDLE,
     TREAD,
 )
+from gazelle.engines.mujoco.process import address_of
 from gazelle.engines.mujoco.treads import middle_of
 from gazelle.rotations import conjugate, rotate
 
 Direction = tuple[float, float, float]
+
+# Becomes one when a step of any model is too long for a spin. It lives as long as the process:
+# models have its address.
+spun = np.zeros(1)
 
 # Name of the custom numbers of a model that say what holds for it.
 _NAME = "gazelle_laws"
@@ -50,6 +57,7 @@ class Extras:
         motors: How many motors hold a velocity.
         slides: Whether something that moves rubs.
         treads: Joints of wheels by what may be their treads, a geom.
+        swings: Whether joints get their bias forces at the middle of a step.
     """
 
     bounces: bool = False
@@ -58,16 +66,17 @@ class Extras:
     motors: int = 0
     slides: bool = False
     treads: Mapping[str, str] = field(default_factory=dict)
+    swings: bool = False
 
     @property
     def any(self) -> bool:
         """Whether there is need of any."""
-        return self.slides or self.vital
+        return self.slides or bool(self.tumbling) or self.swings or self.vital
 
     @property
     def vital(self) -> bool:
         """Whether there is need of one without which the world would move quite differently."""
-        return bool(self.bounces or self.rubs or self.tumbling or self.motors)
+        return bool(self.bounces or self.rubs or self.motors)
 
 
 def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
@@ -75,6 +84,8 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
     if not extras.any:
         return
     size = HEAD + 2 * len(extras.tumbling)
+    if extras.swings:
+        size += BIAS_HEAD + 3 * len(spec.joints)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
     if extras.rubs or extras.treads:
         spec.nuser_geom = GEOM_NUMBERS
@@ -98,6 +109,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
     # The first of the custom numbers: nothing else here adds any.
     numbers = model.numeric_data
     treads = _write_treads(model, extras.treads)
+    hinges, spins = unbalanced_dofs(model) if extras.swings else ([], [])
+    swinging = hinges + spins
     numbers[:HEAD] = (
         MARK,
         mujoco.mj_isSparse(model),
@@ -106,7 +119,14 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         bool(extras.rubs),
         treads,
         extras.slides,
+        len(swinging),
+        spun.ctypes.data,
     )
+    if swinging:
+        after = HEAD + 2 * len(extras.tumbling)
+        functions = [address_of(name) for name in ("mj_comVel", "mj_rne", "mj_solveM")]
+        values = [*functions, len(swinging), len(hinges), *swinging]
+        numbers[after : after + len(values)] = values
     for place, name in enumerate(extras.tumbling):
         body = model.body(name)
         numbers[HEAD + 2 * place :][:2] = body.id, body.dofadr[0]

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
 from gazelle.engines.mujoco.laws.layouts import offsets
 from gazelle.engines.mujoco.laws.motors import drive_motors
 from gazelle.engines.mujoco.laws.numbers import (
@@ -45,6 +46,9 @@ _NOT_YET = -1e9
 _FREE = 0  # mjJNT_FREE
 _ELLIPTIC = 1  # mjCONE_ELLIPTIC
 
+# What turns so slowly gains no energy that could be seen: h w² [rad²/s].
+_AT_REST = 1e-8
+
 _ROUNDS = 8
 
 
@@ -61,8 +65,12 @@ def apply(model: int, data: int) -> None:
     head = floats(long_at(model + AT.model_numeric), HEAD)
     if head[0] != MARK:
         return
-    if head[2] > 0.0:
-        _keep_turning(model, data, int(head[2]))
+    midway = False
+    if head[7] > 0.0:
+        place = long_at(model + AT.model_numeric) + 8 * (HEAD + 2 * int(head[2]))
+        midway = take_bias_midway(model, data, place, int(head[8]))
+    if head[2] > 0.0 and not midway:
+        _keep_turning(model, data, int(head[2]), int(head[8]))
     if head[3] > 0.0:
         drive_motors(model, data, int(head[3]))
     contacts = long_at(data + AT.contact)
@@ -206,7 +214,7 @@ def _first_direction(model: int, data: int, contact: int, found: Floats) -> None
 
 
 @part
-def _keep_turning(model: int, data: int, count: int) -> None:
+def _keep_turning(model: int, data: int, count: int, told: int) -> None:
     """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
     step = floats(model + AT.model_timestep, 1)[0]
     numbers = floats(long_at(model + AT.model_numeric), HEAD + 2 * count)
@@ -214,6 +222,11 @@ def _keep_turning(model: int, data: int, count: int) -> None:
     for place in range(count):
         body, dof = int(numbers[HEAD + 2 * place]), int(numbers[HEAD + 2 * place + 1])
         velocity = floats(long_at(data + AT.qvel) + 8 * (dof + 3), 3)
+        fast = velocity[0] ** 2 + velocity[1] ** 2 + velocity[2] ** 2
+        if fast * step < _AT_REST:
+            continue
+        if fast * step * step > MOST_A_STEP * MOST_A_STEP:
+            floats(told, 1)[0] = 1.0
         moments = floats(long_at(model + AT.model_inertia) + 24 * body, 3)
         axes = floats(long_at(model + AT.model_iquat) + 32 * body, 4)
         _rotate(axes, velocity, -1.0, spin)

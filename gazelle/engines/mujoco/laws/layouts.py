@@ -48,6 +48,11 @@ class Offsets(NamedTuple):
     softness: int
     frictionloss: int
     userdata: int
+    bias: int
+    applied: int
+    constraint: int
+    smooth: int
+    acceleration: int
     rownnz: int
     rowadr: int
     colind: int
@@ -119,6 +124,11 @@ def offsets() -> Offsets:
         softness=data.efc_R.offset,
         frictionloss=data.efc_frictionloss.offset,
         userdata=data.userdata.offset,
+        bias=data.qfrc_bias.offset,
+        applied=data.qfrc_applied.offset,
+        constraint=data.qfrc_constraint.offset,
+        smooth=data.qfrc_smooth.offset,
+        acceleration=data.qacc_smooth.offset,
         rownnz=data.efc_J_rownnz.offset,
         rowadr=data.efc_J_rowadr.offset,
         colind=data.efc_J_colind.offset,
@@ -231,6 +241,11 @@ def _verify(found: Offsets) -> None:
         (there + found.softness, data.efc_R),
         (there + found.frictionloss, data.efc_frictionloss),
         (there + found.userdata, data.userdata),
+        (there + found.bias, data.qfrc_bias),
+        (there + found.applied, data.qfrc_applied),
+        (there + found.constraint, data.qfrc_constraint),
+        (there + found.smooth, data.qfrc_smooth),
+        (there + found.acceleration, data.qacc_smooth),
         (there + found.reference, data.efc_aref),
         (there + found.jacobian, data.efc_J),
         (there + found.warmstart, data.qacc_warmstart),

@@ -4,9 +4,16 @@
 MARK = 7.0131e57
 
 # Numbers before those of the tumbling bodies: the mark, whether Jacobians are sparse, how many
-# bodies tumble, how many motors there are, and whether something rubs by direction, there
-# are wheels, something slides. Each that tumbles has its body and the first of its six velocities.
-HEAD = 7
+# bodies tumble, how many motors there are, whether something rubs by direction, there are
+# wheels, something slides, how many velocities of joints to look at, and the address of what is
+# told of spins. Each body that tumbles has its index and the first of its six velocities.
+HEAD = 9
+
+# Numbers after those, where velocities of joints are looked at: of MuJoCo's functions the
+# addresses, and how many velocities there are, and how many of them are of hinges, which come
+# first. The velocities follow.
+COM_VEL, RNE, SOLVE_M, COUNT, HINGES = 0, 1, 2, 3, 4
+BIAS_HEAD = 5
 
 # Numbers of a geom: whether it has a direction, which, and how much it rubs along it; as a
 # wheel's tread, one more than its joint, and how far its middle is off along the axle [m].

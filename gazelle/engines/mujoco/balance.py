@@ -1,0 +1,57 @@
+"""Which velocities make Coriolis and gyroscopic forces that matter, of trees of bodies."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+_FREE = int(mujoco.mjtJoint.mjJNT_FREE)
+_BALL = int(mujoco.mjtJoint.mjJNT_BALL)
+_HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
+
+# How far a wheel may be from a body of revolution about its axle: shares of its moments.
+_TOLERANCE = 0.02
+
+
+def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
+    """Angular velocities of trees with joints: of hinges but balanced wheels, and of spins.
+
+    A wheel may turn as fast as it likes: it is the same from all sides, and what it does to
+    the body that carries it depends on how fast that turns. A tree of one axis has no such
+    forces at all, and a loose body of one link is looked after apart.
+    """
+    hinges: list[int] = []
+    spins: list[int] = []
+    for tree in range(model.ntree):
+        bodies = np.flatnonzero(model.body_treeid == tree)
+        joints = [joint for joint in range(model.njnt) if model.jnt_bodyid[joint] in bodies]
+        kinds = [int(model.jnt_type[joint]) for joint in joints]
+        if len(joints) == 1 and kinds[0] != _BALL:
+            continue
+        for joint, kind in zip(joints, kinds, strict=True):
+            dof = int(model.jnt_dofadr[joint])
+            if kind in (_FREE, _BALL):
+                first = dof + 3 if kind == _FREE else dof
+                spins += range(first, first + 3)
+            elif kind == _HINGE and not _is_wheel(model, joint):
+                hinges.append(dof)
+    return hinges, spins
+
+
+def _is_wheel(model: mujoco.MjModel, joint: int) -> bool:
+    """Whether a hinge carries nothing but a body of revolution about its axis."""
+    body = int(model.jnt_bodyid[joint])
+    if (model.body_parentid == body).any() or model.body_jntnum[body] != 1:
+        return False
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[body])
+    axis = turn.reshape(3, 3).T @ model.jnt_axis[joint]  # along the principal axes
+    moments = model.body_inertia[body]
+    about = float(axis**2 @ moments)
+    tilt = np.linalg.norm(moments * axis - about * axis)
+    others = float(moments.sum() - about) / 2.0
+    spread = np.sqrt(max(0.0, (moments**2).sum() - about**2 - 2.0 * others**2))
+    arm = model.body_ipos[body] - model.jnt_pos[joint]
+    off = arm - (arm @ model.jnt_axis[joint]) * model.jnt_axis[joint]
+    eccentric = float(model.body_mass[body] * off @ off)
+    return bool(max(tilt, spread, eccentric) <= _TOLERANCE * about)
