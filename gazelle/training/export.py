@@ -19,7 +19,7 @@ Floats = npt.NDArray[np.float32]
 def export_actor(policy: Any) -> Actor:
     """Copy the acting part of a policy into numpy arrays.
 
-    The fixed scaling of observations is folded into the first layer.
+    The scaling of observations, as it is now, is folded into the first layer.
 
     Args:
         policy: The ``policy`` of a Stable-Baselines3 PPO, DQN, SAC, TD3 or DDPG

@@ -15,7 +15,7 @@ from gazelle.errors import TaskError
 from gazelle.training.ppo import FastPPO
 from gazelle.training.recipes import OffPolicySettings, PPOSettings, Recipe
 from gazelle.training.replay import MaskedReplayBuffer
-from gazelle.training.scaling import ScaledObservations
+from gazelle.training.scaling import ObservationScale, ScaledObservations
 from gazelle.training.vecenv import VectorEnvAdapter
 
 Learner = Any
@@ -35,14 +35,46 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         fitting = "ppo or dqn" if discrete else "ppo, sac, td3 or ddpg"
         kind = type(env.action_space).__name__
         raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
-    return ALGORITHMS[recipe.algo](recipe, env, seed)
+    learner = ALGORITHMS[recipe.algo](recipe, env, seed)
+    learner.scale = learner.policy_kwargs["features_extractor_kwargs"]["scale"]
+    env.on_observations = learner.scale.observe
+    return learner
+
+
+class _Rescaled:
+    """An algorithm with a replay memory that scales observations anew before it learns.
+
+    The memory holds them as they were, so all that is learnt from is scaled alike.
+    """
+
+    scale: ObservationScale
+
+    def train(self, *arguments: Any, **options: Any) -> None:
+        self.scale.refresh()
+        super().train(*arguments, **options)  # type: ignore[misc]  # of the algorithm
+
+
+class _DQN(_Rescaled, DQN):  # type: ignore[misc]  # untyped base
+    pass
+
+
+class _SAC(_Rescaled, SAC):  # type: ignore[misc]  # untyped base
+    pass
+
+
+class _TD3(_Rescaled, TD3):  # type: ignore[misc]  # untyped base
+    pass
+
+
+class _DDPG(_Rescaled, DDPG):  # type: ignore[misc]  # untyped base
+    pass
 
 
 def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     settings = recipe.settings
     if not isinstance(settings, PPOSettings):
         raise TaskError("a recipe for ppo needs PPOSettings")
-    common = _common(recipe, seed)
+    common = _common(recipe, env, seed)
     # SB3's own epsilon for PPO; the fused kernel is one call instead of many.
     common["policy_kwargs"]["optimizer_kwargs"] = {"eps": 1e-5, "fused": True}
     return FastPPO(
@@ -62,26 +94,26 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 
 def _build_dqn(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     settings = _off_policy(recipe)
-    return DQN(
+    return _DQN(
         "MlpPolicy",
         env,
         exploration_fraction=settings.exploration_fraction,
         exploration_final_eps=settings.exploration_final,
         target_update_interval=settings.target_update_interval,
-        **_replaying(recipe, settings, seed),
+        **_replaying(recipe, env, settings, seed),
     )
 
 
 def _build_sac(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return SAC("MlpPolicy", env, **_replaying(recipe, _off_policy(recipe), seed))
+    return _SAC("MlpPolicy", env, **_replaying(recipe, env, _off_policy(recipe), seed))
 
 
 def _build_td3(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return TD3("MlpPolicy", env, **_noisy(recipe, env, seed))
+    return _TD3("MlpPolicy", env, **_noisy(recipe, env, seed))
 
 
 def _build_ddpg(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return DDPG("MlpPolicy", env, **_noisy(recipe, env, seed))
+    return _DDPG("MlpPolicy", env, **_noisy(recipe, env, seed))
 
 
 ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
@@ -94,10 +126,11 @@ ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
 """The algorithms, by the name used on the command line."""
 
 
-def _common(recipe: Recipe, seed: int) -> dict[str, Any]:
+def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     """What all algorithms take."""
     activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
     rate = recipe.learning_rate
+    scale = ObservationScale(env.observation_space, scale=recipe.scale_observations)
     return {
         "learning_rate": (lambda left: left * rate) if recipe.learning_rate_decay else rate,
         "gamma": recipe.gamma,
@@ -107,14 +140,16 @@ def _common(recipe: Recipe, seed: int) -> dict[str, Any]:
             "net_arch": list(recipe.net_arch),
             "activation_fn": activation,
             "features_extractor_class": ScaledObservations,
-            "features_extractor_kwargs": {"scale": recipe.scale_observations},
+            "features_extractor_kwargs": {"scale": scale},
         },
     }
 
 
-def _replaying(recipe: Recipe, settings: OffPolicySettings, seed: int) -> dict[str, Any]:
+def _replaying(
+    recipe: Recipe, env: VectorEnvAdapter, settings: OffPolicySettings, seed: int
+) -> dict[str, Any]:
     """What all algorithms with a replay memory take."""
-    return _common(recipe, seed) | {
+    return _common(recipe, env, seed) | {
         "buffer_size": settings.buffer_size,
         "batch_size": settings.batch_size,
         "learning_starts": settings.learning_starts,
@@ -130,7 +165,7 @@ def _noisy(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     settings = _off_policy(recipe)
     size = env.action_space.shape[0]
     noise = NormalActionNoise(np.zeros(size), np.full(size, settings.action_noise))
-    return _replaying(recipe, settings, seed) | {"action_noise": noise}
+    return _replaying(recipe, env, settings, seed) | {"action_noise": noise}
 
 
 def _off_policy(recipe: Recipe) -> OffPolicySettings:

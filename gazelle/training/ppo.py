@@ -19,6 +19,7 @@ from stable_baselines3.common.buffers import RolloutBuffer
 
 from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
+from gazelle.training.scaling import ObservationScale
 from gazelle.training.stepper import Step
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -54,6 +55,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     """PPO for a `VectorEnvAdapter`; see the module's text for what differs."""
 
     env: VectorEnvAdapter
+    scale: ObservationScale
     _last_obs: Floats
     _last_episode_starts: npt.NDArray[np.bool_]
 
@@ -98,10 +100,20 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             self._note_cut_off(row, step, cut_off)
             self._last_obs = step.obs
             self._last_episode_starts = step.terminated | step.truncated
+        if not self.scale.decided and self.scale.refresh():
+            # The first rollout shows how to scale: learn from it as if it had been known.
+            actor = export_actor(self.policy)
+            flat = rollout_buffer.observations.reshape(n_rollout_steps * env.num_envs, -1)
+            outputs = actor.outputs(flat).reshape(outputs.shape)
         rollout_buffer.log_probs[:] = _log_probs(actor, outputs, rollout_buffer.actions)
         self._finish(rollout_buffer, cut_off)
         callback.on_rollout_end()
         return True
+
+    def train(self) -> None:
+        """Learn from the rollout, then scale observations by all that were seen so far."""
+        super().train()
+        self.scale.refresh()
 
     def _note_cut_off(
         self,

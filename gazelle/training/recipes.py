@@ -90,7 +90,7 @@ class Recipe:
     reward_scale: float = 1.0
     """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
     scale_observations: bool = True
-    """Whether observations with finite bounds are mapped to [-1, 1] before the first layer."""
+    """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
     training_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)

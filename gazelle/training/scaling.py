@@ -1,41 +1,132 @@
 """Observations to the range that networks like, as the first layer of the network itself.
 
-The scaling is fixed by the bounds of the observation space. So it needs no
-running averages that would have to be saved, replayed and exported, and it
-folds exactly into the first layer of the numpy actor.
+Entries whose bounds fit what is observed are mapped from them to [-1, 1], once and for all. An
+entry without bounds, or one that uses so little of them that a network would hardly see it change,
+is normalised by what was observed so far. Either way it is one factor and one summand an entry,
+which fold exactly into the first layer of the numpy actor, and all of it is saved with the weights.
 """
 
 from __future__ import annotations
 
 import gymnasium as gym
 import numpy as np
+import numpy.typing as npt
 import torch
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 
+Floats = npt.NDArray[np.float32]
+Doubles = npt.NDArray[np.float64]
+
 _LARGEST_BOUND = 1e4
+_LEAST_SHARE = 0.1  # of its bounds that an entry uses at least, else it is normalised
+_FARTHEST = 10.0  # from the mean, in what the network sees
+_SMALLEST = 1e-6  # spread, relative to the mean, that is more than rounding
+
+_COUNT, _DECIDED = 0, 1
+_MEAN, _SQUARES, _LOW, _HIGH, _LOOSE = range(5)
 
 
-class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
-    """Flattens, and maps each entry with finite bounds to [-1, 1].
+class ObservationScale:
+    """The scale of each entry, shared by all networks of a learner.
 
-    Entries without bounds, or with bounds beyond 1e4, stay as they are.
+    Moments are merged as in T. F. Chan, G. H. Golub and R. J. LeVeque, "Updating formulae and a
+    pairwise algorithm for computing sample variances" (1979).
 
     Args:
-        observation_space: A Box.
-        scale: False keeps all entries as they are.
+        space: A Box.
+        scale: False keeps all entries as they are, for good.
+
+    Attributes:
+        gain: What an entry is multiplied by, shape (entries,).
+        offset: What is added then, shape (entries,).
+        moments: Of what was observed: mean, squared deviations, least, greatest, and whether the
+            entry is normalised by them, shape (5, entries).
+        tally: How many observations were seen, and whether it is decided what is normalised.
     """
 
-    def __init__(self, observation_space: gym.spaces.Box, *, scale: bool = True) -> None:
-        size = int(np.prod(observation_space.shape))
-        super().__init__(observation_space, features_dim=size)
-        low = observation_space.low.reshape(-1).astype(np.float64)
-        high = observation_space.high.reshape(-1).astype(np.float64)
+    def __init__(self, space: gym.spaces.Box, *, scale: bool = True) -> None:
+        low = space.low.reshape(-1).astype(np.float64)
+        high = space.high.reshape(-1).astype(np.float64)
         bounded = (np.abs(low) < _LARGEST_BOUND) & (np.abs(high) < _LARGEST_BOUND) & (high > low)
+        self._scale = scale
+        self._span = np.where(bounded, high - low, np.inf)
         bounded &= scale
         low, high = np.where(bounded, low, -1.0), np.where(bounded, high, 1.0)
         span, centre = high - low, 0.5 * (high + low)
-        self.register_buffer("gain", torch.as_tensor(2.0 / span, dtype=torch.float32))
-        self.register_buffer("offset", torch.as_tensor(-2.0 * centre / span, dtype=torch.float32))
+        self.gain = torch.as_tensor(2.0 / span, dtype=torch.float32)
+        self.offset = torch.as_tensor(-2.0 * centre / span, dtype=torch.float32)
+        self.moments = torch.zeros((5, len(low)), dtype=torch.float64)
+        self.tally = torch.zeros(2, dtype=torch.float64)
+        self.moments[_LOW], self.moments[_HIGH] = torch.inf, -torch.inf
+
+    @property
+    def normalised(self) -> npt.NDArray[np.bool_]:
+        """Which entries are normalised by what was observed, shape (entries,)."""
+        loose: npt.NDArray[np.bool_] = self.moments[_LOOSE].numpy() != 0.0
+        return loose
+
+    @property
+    def decided(self) -> bool:
+        """Whether it is known yet what is normalised."""
+        return bool(self.tally[_DECIDED])
+
+    def observe(self, observations: Floats) -> None:
+        """Take account of observations, shape (N, ...)."""
+        if not self._scale or (self.decided and not self.normalised.any()):
+            return
+        rows: Doubles = observations.reshape(len(observations), -1).astype(np.float64)
+        moments, tally = self.moments.numpy(), self.tally.numpy()
+        before, total = tally[_COUNT], tally[_COUNT] + len(rows)
+        mean = rows.mean(axis=0)
+        away = mean - moments[_MEAN]
+        moments[_SQUARES] += ((rows - mean) ** 2).sum(axis=0)
+        moments[_SQUARES] += away**2 * (before * len(rows) / total)
+        moments[_MEAN] += away * (len(rows) / total)
+        np.minimum(moments[_LOW], rows.min(axis=0), out=moments[_LOW])
+        np.maximum(moments[_HIGH], rows.max(axis=0), out=moments[_HIGH])
+        tally[_COUNT] = total
+
+    def refresh(self) -> bool:
+        """Scale by what was observed so far; call it where no rollout is under way.
+
+        Returns:
+            Whether this was the first time, and changed something.
+        """
+        moments, tally = self.moments.numpy(), self.tally.numpy()
+        if not self._scale or tally[_COUNT] == 0.0:
+            return False
+        first = not self.decided
+        if first:
+            used = moments[_HIGH] - moments[_LOW]
+            moments[_LOOSE] = used < _LEAST_SHARE * self._span
+            tally[_DECIDED] = 1.0
+        mean = moments[_MEAN]
+        spread = np.sqrt(moments[_SQUARES] / tally[_COUNT])
+        reach = np.maximum(moments[_HIGH] - mean, mean - moments[_LOW])
+        size = np.maximum(spread, reach / _FARTHEST)
+        some = self.normalised & (size > _SMALLEST * np.maximum(np.abs(mean), _SMALLEST))
+        self.gain.numpy()[some] = 1.0 / size[some]
+        self.offset.numpy()[some] = -mean[some] / size[some]
+        return first and bool(some.any())
+
+
+class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
+    """Flattens, and scales each entry.
+
+    Args:
+        observation_space: A Box.
+        scale: By what; that of all networks of the learner. By default the bounds alone.
+    """
+
+    def __init__(
+        self, observation_space: gym.spaces.Box, *, scale: ObservationScale | None = None
+    ) -> None:
+        scale = scale or ObservationScale(observation_space)
+        size = int(np.prod(observation_space.shape))
+        super().__init__(observation_space, features_dim=size)
+        # The very tensors of the scale, which changes them in place.
+        for name in ("gain", "offset", "moments", "tally"):
+            self.register_buffer(name, getattr(scale, name))
 
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
         """Shape (N, ...) to (N, entries)."""

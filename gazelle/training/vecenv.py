@@ -31,6 +31,9 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         env: The environment.
         reward_scale: Rewards are multiplied by this.
         on_episodes: Called with the episodes that ended, at each step where some did.
+
+    Attributes:
+        on_observations: Called with what is observed after each step, shape (N, ...), if set.
     """
 
     def __init__(
@@ -44,6 +47,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self.stepper = Stepper(env)
         self.reward_scale = reward_scale
         self.on_episodes = on_episodes
+        self.on_observations: Callable[[npt.NDArray[np.float32]], None] | None = None
         self._seed: int | None = None
         self._actions: npt.NDArray[Any] = np.zeros(0)
         self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
@@ -55,6 +59,8 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         step = self.stepper.step(actions)
         if step.ended is not None and self.on_episodes is not None:
             self.on_episodes(step.ended)
+        if self.on_observations is not None:
+            self.on_observations(step.obs)
         return step
 
     def reset(self) -> npt.NDArray[np.float32]:

@@ -27,13 +27,14 @@ class Corridor(VectorEnv):
         continuous: bool = False,
         limit: int = 30,
         tell: bool = True,
+        bound: float = 1.2,
     ):
         self.num_envs = num_envs
         self.mode = AutoresetMode(mode)
         self.metadata = {"autoreset_mode": self.mode}
         self.limit = limit
         self.tell = tell
-        self.single_observation_space = gym.spaces.Box(-1.2, 1.2, (3,), np.float32)
+        self.single_observation_space = gym.spaces.Box(-bound, bound, (3,), np.float32)
         self.single_action_space = (
             gym.spaces.Box(-1, 1, (1,), np.float32) if continuous else gym.spaces.Discrete(3)
         )

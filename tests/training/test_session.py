@@ -71,12 +71,13 @@ CASES = [
 ]
 
 
+@pytest.mark.parametrize("bound", [1.2, 1000.0])  # with the second all entries are normalised
 @pytest.mark.parametrize(("algo", "mode", "continuous"), CASES)
 def test_an_interrupted_and_resumed_run_equals_an_uninterrupted_one(
-    tmp_path, tiny, algo, mode, continuous
+    tmp_path, tiny, algo, mode, continuous, bound
 ):
     recipe = tiny if algo == "ppo" else off_policy(algo)
-    given = {"recipe": recipe, "seed": 5, "mode": mode, "continuous": continuous}
+    given = {"recipe": recipe, "seed": 5, "mode": mode, "continuous": continuous, "bound": bound}
     whole = train("test/Corridor-v0", out=tmp_path / "whole", **given)
     stop = StopAt(recipe.steps // 2)
     first = train("test/Corridor-v0", out=tmp_path / "broken", progress=stop, **given)

@@ -1,0 +1,175 @@
+"""Observations reach the network in a range that it can learn from, whatever their bounds."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import gymnasium as gym
+import numpy as np
+import pytest
+import torch
+from corridor import Corridor
+from gymnasium.envs.classic_control.cartpole import CartPoleVectorEnv
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gazelle.envs import task_ids
+from gazelle.training import Recipe, train
+from gazelle.training.export import export_actor
+from gazelle.training.learners import ALGORITHMS, build_learner
+from gazelle.training.recipes import recipe_for
+from gazelle.training.scaling import ObservationScale, ScaledObservations
+from gazelle.training.threads import limit_threads
+from gazelle.training.vecenv import VectorEnvAdapter
+
+limit_threads(1)
+
+
+def box(*bounds):
+    high = np.array(bounds, np.float32)
+    return gym.spaces.Box(-high, high)
+
+
+def scaled(space, scale, rows):
+    return ScaledObservations(space, scale=scale)(
+        torch.as_tensor(rows, dtype=torch.float32)
+    ).numpy()
+
+
+def test_only_entries_that_their_bounds_do_not_fit_are_normalised():
+    space = box(1.0, 1000.0, np.inf, 3e38, 5.0)
+    scale = ObservationScale(space)
+    rows = np.random.default_rng(0).normal(0.3, 0.4, (500, 5)).astype(np.float32)
+    scale.observe(rows)
+    assert scale.refresh()
+    assert not scale.refresh()  # the first time is over
+    assert scale.normalised.tolist() == [False, True, True, True, False]
+    seen = scaled(space, scale, rows)
+    np.testing.assert_allclose(seen[:, [0, 4]], rows[:, [0, 4]] / [1.0, 5.0], atol=1e-6)
+    np.testing.assert_allclose(seen[:, 1:4].mean(axis=0), 0.0, atol=1e-5)
+    np.testing.assert_allclose(seen[:, 1:4].std(axis=0), 1.0, atol=1e-5)
+
+
+@given(
+    st.lists(st.integers(1, 40), min_size=1, max_size=8),
+    st.floats(-1e4, 1e4),
+    st.floats(1e-3, 1e3),
+)
+def test_moments_are_those_of_all_that_was_observed(sizes, mean, spread):
+    generator = np.random.default_rng(len(sizes))
+    parts = [generator.normal(mean, spread, (size, 2)).astype(np.float32) for size in sizes]
+    scale = ObservationScale(box(np.inf, np.inf))
+    for part in parts:
+        scale.observe(part)
+    scale.refresh()
+    rows = np.concatenate(parts).astype(np.float64)
+    if len(rows) < 3 or rows.std(axis=0).min() < 1e-5 * abs(mean):
+        return
+    size = np.maximum(rows.std(axis=0), np.abs(rows - rows.mean(axis=0)).max(axis=0) / 10.0)
+    np.testing.assert_allclose(1.0 / scale.gain.numpy(), size, rtol=1e-5)
+    seen = rows * scale.gain.numpy() + scale.offset.numpy()
+    np.testing.assert_allclose(seen.mean(axis=0), 0.0, atol=1e-6 * (1.0 + abs(mean) / spread))
+
+
+def test_a_rare_jump_is_not_blown_up_and_a_constant_stays_as_it_is():
+    space = box(np.inf, 1000.0)
+    scale = ObservationScale(space)
+    rows = np.zeros((2000, 2), np.float32)
+    scale.observe(rows)
+    assert not scale.refresh()
+    assert scaled(space, scale, rows[:1] + 500.0).tolist() == [[500.0, 0.5]]
+    rows[7] = 1.0
+    scale.observe(rows)
+    scale.refresh()
+    assert np.abs(scaled(space, scale, rows)).max() < 10.01
+
+
+def test_nothing_is_normalised_where_no_scaling_is_wanted():
+    space = box(1000.0, np.inf)
+    scale = ObservationScale(space, scale=False)
+    rows = np.random.default_rng(0).normal(size=(9, 2)).astype(np.float32)
+    scale.observe(rows)
+    assert not scale.refresh()
+    np.testing.assert_array_equal(scaled(space, scale, rows), rows)
+
+
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_all_networks_of_a_learner_scale_alike_and_so_does_its_numpy_actor(algo):
+    env = VectorEnvAdapter(Corridor(4, continuous=algo != "dqn", bound=1000.0))
+    recipe = dataclasses.replace(recipe_for("Corridor", algo), net_arch=(8,))
+    learner = build_learner(recipe, env, seed=1)
+    env.reset()
+    for _ in range(20):
+        env.advance(np.array([env.action_space.sample() for _ in range(4)]))
+    before = export_actor(learner.policy).weights[0]
+    assert learner.scale.refresh()
+    extractors = [m for m in learner.policy.modules() if isinstance(m, ScaledObservations)]
+    assert len({extractor.gain.data_ptr() for extractor in extractors}) == 1
+    assert (extractors[0].gain > 1.0).all()
+    actor = export_actor(learner.policy)
+    assert not np.array_equal(actor.weights[0], before)
+    seen = np.random.default_rng(0).uniform(-1.0, 1.0, (50, 3)).astype(np.float32)
+    wanted, _ = learner.predict(seen, deterministic=True)
+    np.testing.assert_allclose(actor.act(seen), wanted, atol=1e-5)
+    env.close()
+
+
+@pytest.mark.parametrize("task", task_ids())
+def test_bounds_of_our_own_tasks_fit(task):
+    env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", engine="planar")
+    scale = ObservationScale(env.single_observation_space)
+    env.action_space.seed(0)
+    env.reset(seed=0)
+    for _ in range(64):
+        scale.observe(env.step(env.action_space.sample())[0])
+    scale.refresh()
+    assert not scale.normalised.any()
+    env.close()
+
+
+class WideCartPole(CartPoleVectorEnv):
+    """CartPole as a user may write it: with other bounds, units and origins."""
+
+    def __init__(self, num_envs=1, bound=1000.0, unit=1.0, origin=0.0, **options):
+        super().__init__(num_envs, **options)
+        self.unit, self.origin = unit, origin
+        self.single_observation_space = gym.spaces.Box(-bound, bound, (4,), np.float32)
+        self.observation_space = gym.vector.utils.batch_space(
+            self.single_observation_space, num_envs
+        )
+
+    def step(self, action):
+        seen, *rest = super().step(action)
+        return (seen * self.unit + self.origin).astype(np.float32), *rest
+
+    def reset(self, **options):
+        seen, info = super().reset(**options)
+        return (seen * self.unit + self.origin).astype(np.float32), info
+
+
+CARTPOLES = {
+    "thousand": {"bound": 1000.0},
+    "twenty": {"bound": 20.0},
+    "none": {"bound": np.inf},
+    "float32": {"bound": 3e38},
+    "millimetres": {"bound": np.inf, "unit": 1000.0},
+    "kilometres": {"bound": 1000.0, "unit": 0.001},
+    "far": {"bound": 1e6, "origin": 500.0},
+}
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:this environment cannot save its state")
+@pytest.mark.parametrize("name", CARTPOLES)
+def test_a_users_cartpole_is_learnt_whatever_its_bounds(name, tmp_path):
+    task = f"test/CartPole-{name}-v0"
+    gym.register(
+        task,
+        vector_entry_point=WideCartPole,
+        kwargs=CARTPOLES[name],
+        max_episode_steps=500,
+    )
+    recipe: Recipe = dataclasses.replace(recipe_for("CartPole"), steps=150_000)
+    result = train(task, recipe=recipe, out=tmp_path)
+    del gym.registry[task]
+    assert result.summary["return"] > 450.0
