@@ -50,6 +50,13 @@ class TaskModule:
         if _is_in(here, text):
             return TaskModule(text, str(here))
         top = text.partition(".")[0]
+        if _is_in(here, top):
+            names = [
+                ".".join(path.relative_to(here).with_suffix("").parts)
+                for path in (here / top).rglob("*.py")
+            ]
+            hint = did_you_mean(text, names)
+            raise TaskError(f"there is no module '{text}' in {here}", hint=hint)
         if _spec_of(top) is None:
             near = [path.stem for path in here.glob("*.py")]
             near += [path.parent.name for path in here.glob("*/__init__.py")]

@@ -63,9 +63,7 @@ def find_task(name: str) -> str:
         found = _registered(bare_id)
         if found is not None:
             return found
-    listed = [task.name for task in list_tasks()]
-    known = [*gym.registry, *listed] if "/" in bare_id else listed
-    raise TaskError(f"there is no task '{bare_id}'", hint=_hint(bare_id, known))
+    raise TaskError(f"there is no task '{bare_id}'", hint=_hint(bare_id))
 
 
 def split_module(name: str) -> tuple[str | None, str]:
@@ -85,7 +83,14 @@ def _registered(name: str) -> str | None:
     return own[-1].id if own and name == bare else None
 
 
-def _hint(name: str, known: list[str]) -> str:
+def _hint(name: str) -> str:
+    """The closest id, or name, of those of the same form; else where one's own is found."""
+    specs = gym.registry.values()
+    if "/" in name:
+        known = [spec.id for spec in specs if spec.namespace]
+    else:
+        bare = task_name(name) == name
+        known = [spec.name if bare else spec.id for spec in specs]
     hint = did_you_mean(name, known)
     if hint.startswith("did you mean"):
         return hint
