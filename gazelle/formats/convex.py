@@ -1,172 +1,241 @@
 """Meshes as convex pieces, for engines that collide only those.
 
-What hangs together and is convex, or nearly, stays whole. The rest is cut up: by CoACD
-(Wei, Liu, Ling, Su, "Approximate convex decomposition for 3D meshes with collision-aware
-concavity and tree search", ACM Transactions on Graphics 41, 2022) where the package
-``coacd`` is installed and the mesh is closed, else along its surface. No piece fills what
-is hollow by more than a hundredth of the mesh's size, at most a centimetre.
+What is convex, or nearly, stays whole. Of the rest, what stands still is followed along its
+surface, polygon by polygon, however many that are (``patches``): a building, a bowl or a flight
+of stairs is where it looks to be. What moves is cut into few solid blocks, whose hulls fill
+little of the air around it (``blocks``). How far the pieces may be off is measured, and told.
 """
 
 from __future__ import annotations
 
 import hashlib
+import logging
 import time
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.formats import piece_cache
-from gazelle.formats.coacd import decompose, method
-from gazelle.formats.hull import Hull, convex_hull
+from gazelle.formats.blocks import Blocks, blocks_of
+from gazelle.formats.hull import hulls_of
 from gazelle.formats.mesh import MeshData
-from gazelle.formats.patches import Solid, thick_patches
-from gazelle.formats.surface import Floats, Indices, Surface, clean, components
+from gazelle.formats.patches import Solid, joined_flat, thick_patches
+from gazelle.formats.surface import Floats, Surface, clean, components, twins_of
 
 CACHED = 256
-SLOW = 0.2
+PROMISED = 0.01
+"""How far pieces of what stands still are off its surface at most [m]."""
+SLOW = 0.1
 """Seconds from which on the pieces are kept on disk."""
 
+_LOG = logging.getLogger(__name__)
+_LARGE = 30_000
+"""Triangles from which on one waits long enough to be told."""
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
-"""Depth of dents that are filled: a share of the size, and a length [m]."""
-_OPEN = 0.01
-"""Share of the hull's surface that may be open."""
-_MANY = 64
-"""Loose parts from which on the mesh is first tried as a whole."""
-_MAX_PAIRS = 20_000_000
+"""Depth of dents that are filled: a share of the size, a length [m]."""
+_SIDES = (0.0125, 0.008)
+_LONGEST_SIDE = 0.04
+"""Cubes of the grids in which blocks are cut: shares of the size, a length [m]."""
+_FEW_BLOCKS = 64
+"""Blocks up to which the finer grid is tried."""
+_FEW_PATCHES = 128
+"""Solids up to which what moves is followed along its surface too."""
+_REACH = 0.07
+"""How far blocks reach beyond the surface at most, as a share of the size."""
+_MANY = 32
+"""Convex parts of what moves from which on they are not kept apart."""
+_ROUNDING = 1e-5
+"""What counts as convex where all edges must be, as a share of the size."""
+_MOST_CORNERS = 20_000
+"""Vertices up to which it is asked whether dents are small."""
+_FIRST_LOOK = 256
+"""Places that are looked at first."""
+_MAX_PAIRS = 2_000_000
+
+_MEMORY: dict[str, Pieces] = {}
 
 
-def convex_pieces(mesh: MeshData) -> list[MeshData]:
-    """Convex pieces that together fill what the mesh fills; one if it is nearly convex.
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """Convex pieces that stand for a mesh.
 
-    Each piece is its vertices' convex hull. The same mesh gives the same pieces. They are
-    kept in memory, and those that took long on disk too.
+    Attributes:
+        solids: Each is its vertices' convex hull.
+        whole: Whether the one piece is the mesh itself, nearly convex.
+        gap: How far from the mesh a surface of the pieces may be [m]; inwards of a closed
+            body, and up to a centimetre behind sheets, does not count.
+        promised: What the gap is, unless the mesh is too rough for that [m].
     """
-    digest = hashlib.blake2b(method().encode(), digest_size=16)
+
+    solids: tuple[MeshData, ...]
+    whole: bool
+    gap: float
+    promised: float
+
+
+def convex_pieces(mesh: MeshData, *, static: bool = False) -> list[MeshData]:
+    """The solids of ``decompose``."""
+    return list(decompose(mesh, static=static).solids)
+
+
+def decompose(mesh: MeshData, *, static: bool) -> Pieces:
+    """Convex pieces that together stand for a mesh; one if it is nearly convex.
+
+    The same mesh gives the same pieces. They are kept in memory, and those that took long on
+    disk too.
+
+    Args:
+        mesh: Any triangles.
+        static: Whether it never moves.
+    """
+    digest = hashlib.blake2b(b"static" if static else b"moves", digest_size=16)
     digest.update(np.ascontiguousarray(mesh.vertices, np.float64).tobytes())
     digest.update(np.ascontiguousarray(mesh.faces, np.int32).tobytes())
-    return list(_cached(digest.hexdigest(), _Mesh(mesh)))
+    key = digest.hexdigest()
+    if key not in _MEMORY:
+        while len(_MEMORY) >= CACHED:
+            del _MEMORY[next(iter(_MEMORY))]
+        _MEMORY[key] = _made(key, mesh, static=static)
+    return _MEMORY[key]
 
 
-class _Mesh:
-    """A mesh that the cache tells apart by its digest alone."""
-
-    def __init__(self, data: MeshData) -> None:
-        self.data: MeshData | None = data
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Mesh)
-
-    def __hash__(self) -> int:
-        return 0
-
-
-@lru_cache(maxsize=CACHED)
-def _cached(digest: str, mesh: _Mesh) -> tuple[MeshData, ...]:
-    data, mesh.data = mesh.data, None  # the cache keeps the key, and need not keep the mesh
-    stored = piece_cache.load(digest)
-    if stored is not None or data is None:
-        return tuple(MeshData(*solid) for solid in stored or ())
-    start = time.perf_counter()
-    solids = _pieces(data)
-    if time.perf_counter() - start > SLOW:
-        piece_cache.store(digest, solids)
+def _made(key: str, mesh: MeshData, *, static: bool) -> Pieces:
+    """The pieces of a mesh from disk, or cut."""
+    stored = piece_cache.load(key)
+    if stored is None:
+        if len(mesh.faces) > _LARGE:
+            _LOG.info("cutting a mesh of %d triangles into convex pieces", len(mesh.faces))
+        start = time.perf_counter()
+        stored = _cut(clean(mesh.vertices, mesh.faces), static=static)
+        if time.perf_counter() - start > SLOW:
+            piece_cache.store(key, *stored)
+    solids, whole, gap = stored
     for vertices, faces in solids:
         vertices.setflags(write=False)
         faces.setflags(write=False)
-    return tuple(MeshData(*solid) for solid in solids)
+    size = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+    promised = PROMISED if static else _promised(size)
+    return Pieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised)
 
 
-def _pieces(mesh: MeshData) -> list[Solid]:
-    surface = clean(mesh.vertices, mesh.faces)
+def _promised(size: float) -> float:
+    """How far pieces of a mesh of this size that moves are off its surface at most [m]."""
+    return max(PROMISED, _REACH * size)
+
+
+def _cut(surface: Surface, *, static: bool) -> tuple[list[Solid], bool, float]:
+    """Solids, whether the one is the whole, and how far they are off."""
     if not len(surface.faces):
-        return []
-    groups = components(surface)
-    if len(groups) > _MANY and _is_convex(surface):
-        return [_whole(surface)]
-    parts = [surface.part(rows) for rows in groups]
-    hollow = _cavities(parts)
-    solids: list[Solid] = []
-    rest: list[Indices] = []
-    for rows, part, nested in zip(groups, parts, hollow, strict=True):
-        pieces = None if nested else _solid_pieces(part)
-        if pieces is None:
-            rest.append(rows)
-        else:
-            solids += pieces
-    if rest:
-        solids += thick_patches(surface.part(np.concatenate(rest)))
-    return solids
+        return [], False, 0.0
+    number = components(surface)
+    parts = int(number.max()) + 1
+    closed = np.bincount(number, (twins_of(surface) < 0).reshape(-1, 3).any(axis=1)) == 0
+    volume = _volumes(surface, number)
+    whole = closed & _convex_parts(surface, number)
+    if static:
+        whole &= volume > 0.0  # what looks inwards all around is a room
+        whole[_with_cavities(surface, number, closed & (volume < 0.0))] = False
+    dent = min(_DENT * surface.size, _DEEPEST_DENT)
+    outwards = bool((volume >= 0.0).all())
+    if (parts == 1 and whole[0]) or (closed.all() and outwards and _is_convex(surface, dent)):
+        return [(surface.vertices, surface.faces.astype(np.int32))], True, dent
+    if not static and int(whole.sum()) > _MANY:
+        whole[:] = False  # bolts and the like, that a few blocks hold together
+    solids = _solids_of(surface, number, np.flatnonzero(whole))
+    rest = ~whole[number]
+    if not rest.any():
+        return solids, False, _ROUNDING * surface.size
+    remains = surface.part(rest)
+    along = joined_flat(remains)
+    blocks = None if static or along.count <= _FEW_PATCHES else _blocks(remains)
+    if blocks is not None:
+        return solids + hulls_of(blocks.hulls), False, blocks.gap
+    patches = thick_patches(along, closed[number[rest]])
+    return solids + patches.solids, False, patches.gap
 
 
-def _solid_pieces(part: Surface) -> list[Solid] | None:
-    """The part whole if it is nearly convex, else cut up if that can be done."""
-    if _is_convex(part):
-        return [_whole(part)]
-    return decompose(part) if part.is_closed() else None
+def _solids_of(surface: Surface, number: NDArray[np.intp], parts: NDArray[np.intp]) -> list[Solid]:
+    """Some parts of a surface, each as it is."""
+    order = np.argsort(number, kind="stable")
+    starts = np.searchsorted(number[order], parts)
+    ends = np.searchsorted(number[order], parts, side="right")
+    rows = [order[i:j] for i, j in zip(starts.tolist(), ends.tolist(), strict=True)]
+    return [(part.vertices, part.faces.astype(np.int32)) for part in map(surface.part, rows)]
 
 
-def _whole(surface: Surface) -> Solid:
-    return surface.vertices, surface.faces.astype(np.int32)
-
-
-def _cavities(parts: list[Surface]) -> list[bool]:
-    """Whether each part is the wall of a cavity inside another, or has one inside.
-
-    The wall of a cavity is closed and looks inwards.
-    """
-    lows = np.array([part.vertices.min(axis=0) for part in parts])
-    highs = np.array([part.vertices.max(axis=0) for part in parts])
-    found = [False] * len(parts)
-    for i, part in enumerate(parts):
-        around = (lows < lows[i]).all(axis=1) & (highs > highs[i]).all(axis=1)
-        if around.any() and part.volume < 0.0 and part.is_closed():
-            found[i] = True
-            for j in np.flatnonzero(around):
-                found[j] = True
+def _blocks(surface: Surface) -> Blocks | None:
+    """Blocks that are as near to the surface as promised, nearer if few are enough; or none."""
+    found: Blocks | None = None
+    for share in _SIDES:
+        finer = blocks_of(surface, min(share * surface.size, _LONGEST_SIDE))
+        if finer is None or finer.gap > _promised(surface.size):
+            break
+        found = finer
+        if len(found.hulls) > _FEW_BLOCKS:
+            break
     return found
 
 
-def _is_convex(surface: Surface) -> bool:
-    """Whether the surface follows its hull, and covers it, but for small dents."""
-    tolerance = min(_DENT * surface.size, _DEEPEST_DENT)
-    hull = convex_hull(surface.vertices, 0.05 * tolerance)
-    if hull is None:
+def _volumes(surface: Surface, number: NDArray[np.intp]) -> Floats:
+    """Signed volume within the faces of each part [m³]; negative if they look inwards."""
+    corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
+    each = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    volumes: Floats = np.bincount(number, each).astype(np.float64)
+    return volumes
+
+
+def _convex_parts(surface: Surface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether each part is bent one way only along all of its edges.
+
+    A closed surface that is, is convex (Van Heijenoort, "On locally convex manifolds",
+    Communications on Pure and Applied Mathematics 5, 1952).
+    """
+    twins = twins_of(surface)
+    edges = np.flatnonzero(twins >= 0)
+    here, there = edges // 3, twins[edges]
+    far = surface.vertices[surface.faces.ravel()[there - there % 3 + (there + 2) % 3]]
+    base = surface.vertices[surface.faces.ravel()[edges]]
+    height = np.einsum("ij,ij->i", far - base, surface.normals[here])
+    sign = np.where(_volumes(surface, number) < 0.0, -1.0, 1.0)
+    bent = height * sign[number[here]] > _ROUNDING * surface.size
+    reflex = np.bincount(number[here], bent, minlength=int(number.max()) + 1)
+    return np.asarray(reflex == 0)
+
+
+def _with_cavities(
+    surface: Surface, number: NDArray[np.intp], inwards: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """The parts that have one of those that look inwards inside of them."""
+    if not inwards.any():
+        return np.zeros(0, np.intp)
+    lows, highs = np.full((len(inwards), 3), np.inf), np.full((len(inwards), 3), -np.inf)
+    corners = surface.vertices[surface.faces]
+    np.minimum.at(lows, number, corners.min(axis=1))
+    np.maximum.at(highs, number, corners.max(axis=1))
+    around = np.zeros(len(inwards), bool)
+    for part in np.flatnonzero(inwards).tolist():
+        around |= (lows < lows[part]).all(axis=1) & (highs > highs[part]).all(axis=1)
+    return np.flatnonzero(around)
+
+
+def _is_convex(surface: Surface, tolerance: float) -> bool:
+    """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
+    if len(surface.vertices) > _MOST_CORNERS:
         return False
-    triangles = surface.vertices[surface.faces]
-    middles = (triangles + np.roll(triangles, 1, axis=1)).reshape(-1, 3) / 2.0
-    points = np.concatenate([surface.vertices, triangles.mean(axis=1), middles])
-    rows = max(1, _MAX_PAIRS // len(hull.offsets))
-    for start in range(0, len(points), rows):
-        if float(hull.depth(points[start : start + rows]).max()) > tolerance:
-            return False
-    return _covers(surface, hull, tolerance)
-
-
-def _covers(surface: Surface, hull: Hull, tolerance: float) -> bool:
-    """Whether faces lie along nearly all of the hull."""
-    if surface.is_closed():
+    for corners, faces in hulls_of([surface.vertices]):
+        a, b, c = (corners[faces[:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(normals, axis=1)
+        normals = normals[lengths > 0.0] / lengths[lengths > 0.0, None]
+        offsets = np.einsum("ij,ij->i", normals, a[lengths > 0.0])
+        points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
+        start, rows = 0, _FIRST_LOOK
+        while start < len(points):
+            gaps = offsets[:, None] - normals @ points[start : start + rows].T
+            if float(gaps.min(axis=0).max()) > tolerance:
+                return False
+            start, rows = start + rows, max(_FIRST_LOOK, _MAX_PAIRS // len(offsets))
         return True
-    corners = surface.vertices[hull.faces]
-    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    areas = np.linalg.norm(sides, axis=1) / 2.0
-    if len(areas) * len(surface.faces) > _MAX_PAIRS:
-        return float(surface.areas.sum()) >= (1.0 - _OPEN) * float(areas.sum())
-    return _uncovered(surface, hull, areas, tolerance) <= _OPEN * float(areas.sum())
-
-
-def _uncovered(surface: Surface, hull: Hull, areas: Floats, tolerance: float) -> float:
-    """Area of the hull's sides, each as a whole, that no faces lie along [m²]."""
-    heights = hull.normals @ surface.vertices.T - hull.offsets[:, None]
-    near = (np.abs(heights) <= tolerance)[:, surface.faces].all(axis=2)
-    along = near @ surface.areas
-    lacking = 0.0
-    left = np.ones(len(areas), bool)
-    for side in range(len(areas)):
-        if not left[side]:
-            continue
-        same = left & (hull.normals @ hull.normals[side] > 1.0 - 1e-6)
-        same &= np.abs(hull.offsets - hull.offsets[side]) <= tolerance
-        left &= ~same
-        lacking += max(0.0, float(areas[same].sum() - along[side]))
-    return lacking
+    return False

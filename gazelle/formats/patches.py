@@ -1,225 +1,123 @@
-"""A surface as nearly flat, nearly convex patches, each thickened into a convex solid.
+"""The polygons of a surface thickened into convex solids, so that what is hollow stays hollow.
 
-The solids follow the surface, so that what is hollow stays hollow. They grow inwards, by
-half the thickness of the body there at most.
+A solid keeps to its polygon and grows from there inwards: where a closed body is behind, by
+half of what is there at most; behind a sheet by a skin.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.formats.hull import convex_hull, planar_area, planar_hull
-from gazelle.formats.surface import Floats, Indices, Surface, first_hits
+from gazelle.formats.beams import first_hits
+from gazelle.formats.flat import Polygon, Polygons
+from gazelle.formats.surface import Floats, Surface
 
-MAX_PATCHES = 128
+FINE = 5e-3
+"""How far solids may be off a surface before there are as many as it takes [m]."""
+MOST_PATCHES = 20_000
+"""Solids from which on they are coarser than that."""
 
-_FINEST = 0.002
-_COARSEST = 0.05
-"""Deviation from flat and convex that is allowed, as shares of the mesh's size."""
-_SKIN = (0.001, 0.01)
-"""Least and greatest thickness of a sheet that nothing is behind [m]."""
+_FEW = 4000
+"""Solids up to which they follow the surface exactly."""
+_ROUNDING = 1e-6
+"""What counts as flat, as a share of the size."""
+_FIRST = (5e-4, 2e-3, 5e-3)
+"""Tolerances that are tried first [m]."""
+_SKIN = (1e-3, 1e-2)
+"""Least and greatest thickness of what is open behind [m]."""
+_THINNEST = 2e-4
+"""Least thickness of anything [m]."""
 _DEEPEST = 0.05
-"""Thickness up to which a solid is filled behind its surface [m]."""
-_COSINE = 0.8
-"""Of the angle that a face may make with the one its patch began with."""
-_MAX_RAYS = 10_000_000
-"""Pairs of ray and triangle for the thickness of all patches together."""
+"""Thickness up to which a body is filled behind its surface [m]."""
+_INSET = 0.02
+"""How far from a corner the thickness there is measured, as a share of the way to the middle."""
+_MOST_RAYS = 20_000
 
 Solid = tuple[Floats, NDArray[np.int32]]
 
 
-def thick_patches(surface: Surface) -> list[Solid]:
-    """Vertices and faces of convex solids along a surface, ``MAX_PATCHES`` at most.
-
-    The tolerance grows until there are few enough; of too many still, the largest are kept.
-    """
-    share = _FINEST
-    patches = _patches(surface, share * surface.size)
-    while len(patches) > MAX_PATCHES and share < _COARSEST:
-        share *= 2.0
-        patches = _patches(surface, share * surface.size)
-    if len(patches) > MAX_PATCHES:
-        patches.sort(key=lambda patch: -patch.area)
-        patches = patches[:MAX_PATCHES]
-    depths = _depths(surface, patches)
-    return [_solid(surface, patch, depth) for patch, depth in zip(patches, depths, strict=True)]
-
-
-@dataclass(slots=True)
-class _Patch:
-    """Faces that make one piece.
+@dataclass(frozen=True, slots=True)
+class Patches:
+    """Solids along a surface.
 
     Attributes:
-        rows: Of the faces.
-        normal: Of the plane that they are near to.
-        area: Of the faces, seen along the normal [m²].
-        corners: Vertices on the rim of the hull, counter-clockwise.
+        solids: Vertices and faces of each.
+        gap: How far their outer sides are off the surface at most [m].
     """
 
-    rows: list[int]
-    normal: Floats
-    area: float
-    corners: Indices
+    solids: list[Solid]
+    gap: float
 
 
-def _patches(surface: Surface, tolerance: float) -> list[_Patch]:
-    found: list[_Patch] = []
-    for region in _flat_regions(surface, tolerance):
-        found.extend(_convex_parts(surface, region, tolerance))
-    return found
+def joined_flat(surface: Surface) -> Polygons:
+    """The convex polygons of a surface that are flat but for rounding."""
+    joined = Polygons(surface)
+    joined.join(_ROUNDING * surface.size, notches=False)
+    return joined
 
 
-@dataclass(slots=True)
-class _Region:
-    """Connected faces near one plane.
+def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
+    """Convex solids along a surface.
 
-    Attributes:
-        rows: Of the faces, in the order in which they were reached.
-        normal: Of the plane.
-        links: Neighbours among them by face.
+    They follow it exactly if ``_FEW`` are enough for that, within ``FINE`` if ``MOST_PATCHES``
+    are, else as well as those can.
+
+    Args:
+        joined: Its flat polygons, which are joined on.
+        closed: Whether each triangle belongs to the surface of a closed body, shape (m,).
     """
-
-    rows: list[int]
-    normal: Floats
-    links: dict[int, list[int]] = field(default_factory=dict)
-
-
-def _neighbours(surface: Surface) -> list[list[int]]:
-    """The faces that share an edge with each face."""
-    edges = surface.edges().reshape(-1, 2)
-    keys = edges[:, 0] * np.int64(len(surface.vertices)) + edges[:, 1]
-    order = np.argsort(keys, kind="stable")
-    groups = np.split(order // 3, np.flatnonzero(np.diff(keys[order])) + 1)
-    found: list[list[int]] = [[] for _ in range(len(surface.faces))]
-    for group in groups:
-        faces = group.tolist()
-        for face in faces:
-            found[face].extend(other for other in faces if other != face)
-    return found
+    surface, gap = joined.surface, _ROUNDING * joined.surface.size
+    for tolerance, most in _tolerances(surface.size):
+        if joined.count > most:
+            joined.join(tolerance, notches=most > _FEW)
+            gap += tolerance
+    polygons = joined.polygons()
+    depths = _depths(joined, polygons, closed)
+    solids = [
+        prism(surface.vertices[polygon.rim], depth * np.array(polygon.normal))
+        for polygon, depth in zip(polygons, depths.tolist(), strict=True)
+        if len(polygon.rim) >= 3  # a sliver has no hull
+    ]
+    return Patches(solids, gap)
 
 
-def _flat_regions(surface: Surface, tolerance: float) -> list[_Region]:
-    """All faces in regions that grow from the largest face left, as far as they stay flat."""
-    neighbours = _neighbours(surface)
-    taken = np.zeros(len(surface.faces), bool)
-    regions = []
-    for seed in np.argsort(-surface.areas, kind="stable").tolist():
-        if taken[seed]:
-            continue
-        normal = surface.normals[seed]
-        heights = (surface.vertices - surface.vertices[surface.faces[seed, 0]]) @ normal
-        region = _Region([seed], normal)
-        taken[seed] = True
-        for row in region.rows:
-            own = [other for other in neighbours[row] if not taken[other]]
-            for other in own:
-                flat = bool((np.abs(heights[surface.faces[other]]) <= tolerance).all())
-                if flat and float(surface.normals[other] @ normal) >= _COSINE and not taken[other]:
-                    taken[other] = True
-                    region.rows.append(other)
-        inside = set(region.rows)
-        region.links = {r: [n for n in neighbours[r] if n in inside] for r in region.rows}
-        regions.append(region)
-    return regions
+def _tolerances(size: float) -> Iterator[tuple[float, int]]:
+    """How far polygons may be off, and how many are needed for that to be allowed."""
+    yield from ((tolerance, _FEW) for tolerance in _FIRST if tolerance < 0.01 * size)
+    yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))
 
 
-def _convex_parts(surface: Surface, region: _Region, tolerance: float) -> list[_Patch]:
-    """A region cut into parts that fill their hulls in the plane."""
-    flat = surface.vertices @ _plane(region.normal).T
-    areas = surface.areas * np.abs(surface.normals @ region.normal)
-    used = np.unique(surface.faces[region.rows])
-    corners = used[planar_hull(flat[used])]
-    whole = _Patch(region.rows, region.normal, float(areas[region.rows].sum()), corners)
-    if _fills(whole, flat, tolerance):
-        return [whole]
-    left = dict.fromkeys(region.rows)
-    parts = []
-    while left:
-        parts.append(_grown(surface, region, flat, areas, left, tolerance))
-    return parts
-
-
-def _grown(
-    surface: Surface,
-    region: _Region,
-    flat: Floats,
-    areas: Floats,
-    left: dict[int, None],
-    tolerance: float,
-) -> _Patch:
-    """The first face left, with neighbours as long as the part stays convex."""
-    seed = next(iter(left))
-    del left[seed]
-    patch = _Patch([seed], region.normal, float(areas[seed]), _rim(surface.faces[seed], flat))
-    grew = True
-    while grew:
-        grew = False
-        near = dict.fromkeys(n for row in patch.rows for n in region.links[row] if n in left)
-        for other in near:
-            points = np.union1d(patch.corners, surface.faces[other])
-            area = patch.area + float(areas[other])
-            larger = _Patch([*patch.rows, other], patch.normal, area, _rim(points, flat))
-            if _fills(larger, flat, tolerance):
-                patch, grew = larger, True
-                del left[other]
-    return patch
-
-
-def _rim(rows: Indices, flat: Floats) -> Indices:
-    return rows[planar_hull(flat[rows])]
-
-
-def _fills(patch: _Patch, flat: Floats, tolerance: float) -> bool:
-    """Whether the patch's hull in the plane covers little that its faces do not."""
-    covered = planar_area(flat[patch.corners])
-    return covered - patch.area <= 0.01 * covered + 4.0 * tolerance * tolerance
-
-
-def _plane(normal: Floats) -> Floats:
-    """Two unit vectors across the normal, shape (2, 3), right-handed with it."""
-    axis = np.zeros(3)
-    axis[int(np.abs(normal).argmin())] = 1.0
-    first = np.cross(axis, normal)
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(normal, first)])
-
-
-def _depths(surface: Surface, patches: list[_Patch]) -> Floats:
-    """How thick each solid may be [m]: half the way to what is behind, sheets a skin."""
+def _depths(joined: Polygons, polygons: list[Polygon], closed: NDArray[np.bool_]) -> Floats:
+    """How thick each solid is [m]."""
+    surface = joined.surface
+    number = {polygon.face: row for row, polygon in enumerate(polygons)}
+    faces = np.arange(0, len(surface.faces), 1 + len(surface.faces) // _MOST_RAYS)
+    owners = [np.array([number[joined.owner(face)] for face in faces.tolist()])]
+    origins = [surface.vertices[surface.faces[faces]].mean(axis=1)]
+    rims = np.concatenate([polygon.rim for polygon in polygons])
+    sizes = np.array([len(polygon.rim) for polygon in polygons])
+    of_rim = np.repeat(np.arange(len(polygons)), sizes)
+    middles = np.stack(
+        [np.bincount(of_rim, surface.vertices[rims, axis]) / sizes for axis in range(3)], axis=1
+    )
+    some = np.arange(0, len(rims), 1 + len(rims) // _MOST_RAYS)
+    owners.append(of_rim[some])
+    corners = surface.vertices[rims[some]]
+    origins.append(corners + _INSET * (middles[owners[1]] - corners))
+    rows = np.concatenate(owners)
+    inwards = -np.array([polygon.normal for polygon in polygons])[rows]
+    distance, leaves = first_hits(surface, np.concatenate(origins), inwards)
     skin = float(np.clip(0.01 * surface.size, *_SKIN))
-    rays = _MAX_RAYS // max(1, len(surface.faces) * len(patches))
-    if rays < 4:
-        return np.full(len(patches), skin)
-    origins, directions, owners = [], [], []
-    for number, patch in enumerate(patches):
-        rows = patch.rows[:: max(1, -(-4 * len(patch.rows) // min(rays, 32)))]
-        triangles = surface.vertices[surface.faces[rows]]
-        centres = triangles.mean(axis=1)
-        samples = np.concatenate(
-            [centres, *(0.9 * triangles[:, i] + 0.1 * centres for i in range(3))]
-        )
-        origins.append(samples)
-        directions.append(np.broadcast_to(-patch.normal, samples.shape))
-        owners.append(np.full(len(samples), number))
-    hits = first_hits(surface, np.concatenate(origins), np.concatenate(directions))
-    nearest = np.full(len(patches), np.inf)
-    np.minimum.at(nearest, np.concatenate(owners), hits)
-    return np.where(np.isfinite(nearest), np.minimum(nearest / 2.0, _DEEPEST), skin)
-
-
-def _solid(surface: Surface, patch: _Patch, depth: float) -> Solid:
-    """The hull of a patch and of the same patch moved inwards."""
-    outside = surface.vertices[np.unique(surface.faces[patch.rows])]
-    points = np.concatenate([outside, outside - patch.normal * depth])
-    flat = float(np.ptp(outside @ patch.normal)) <= 1e-6 * surface.size
-    hull = None if flat else convex_hull(points, 1e-5 * surface.size)
-    if hull is None:
-        return prism(surface.vertices[patch.corners], patch.normal * depth)
-    rows, inverse = np.unique(hull.faces, return_inverse=True)
-    return points[rows], inverse.reshape(-1, 3).astype(np.int32)
+    body = closed[[polygon.face for polygon in polygons]][rows] & leaves
+    room = np.minimum(distance / 2.0, np.where(body, _DEEPEST, skin))
+    depths = np.full(len(polygons), _DEEPEST)
+    np.minimum.at(depths, rows, room)
+    thickness: Floats = np.maximum(depths, min(_THINNEST, skin))
+    return thickness
 
 
 def prism(rim: Floats, thickness: Floats) -> Solid:

@@ -11,7 +11,10 @@ import numpy as np
 
 from gazelle.formats.patches import Solid
 
-VERSION = 1
+Stored = tuple[list[Solid], bool, float]
+"""Pieces, whether the one is the whole mesh, and how far they are off it [m]."""
+
+VERSION = 2
 """Of the rules that cut meshes up: files of another are not used."""
 
 
@@ -26,16 +29,18 @@ def _file(digest: str) -> Path:
     return folder() / f"{digest}-{VERSION}.npz"
 
 
-def load(digest: str) -> list[Solid] | None:
+def load(digest: str) -> Stored | None:
     """The pieces of a mesh; None if they are not there, or the file is damaged."""
     try:
         with np.load(_file(digest), allow_pickle=False) as data:
             vertices = np.asarray(data["vertices"], np.float64).reshape(-1, 3)
             faces = np.asarray(data["faces"], np.int32).reshape(-1, 3)
             ends = np.asarray(data["ends"], np.int64).reshape(-1, 2)
+            whole, gap = bool(data["whole"]), float(data["gap"])
     except Exception:  # noqa: BLE001  # a damaged file may raise anything; it is made anew
         return None
-    return _split(vertices, faces, ends)
+    solids = _split(vertices, faces, ends)
+    return None if solids is None else (solids, whole, gap)
 
 
 def _split(
@@ -54,7 +59,7 @@ def _split(
     return solids if np.isfinite(vertices).all() else None
 
 
-def store(digest: str, solids: list[Solid]) -> None:
+def store(digest: str, solids: list[Solid], whole: bool, gap: float) -> None:  # noqa: FBT001  # as ``Stored``
     """Keep the pieces of a mesh; nothing happens where the folder cannot be written."""
     if not solids:
         return
@@ -69,6 +74,8 @@ def store(digest: str, solids: list[Solid]) -> None:
                     vertices=np.concatenate([points for points, _ in solids]),
                     faces=np.concatenate([triangles for _, triangles in solids]),
                     ends=np.cumsum(counts, axis=0),
+                    whole=whole,
+                    gap=gap,
                 )
             Path(name).replace(_file(digest))
         except BaseException:

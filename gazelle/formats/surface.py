@@ -1,8 +1,9 @@
-"""The surface of a mesh: cleaned triangles, what is connected, how thick the body behind is."""
+"""The surface of a mesh: cleaned triangles, and what of them hangs together."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +11,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_PAIRS = 4_000_000
-"""Pairs of ray and triangle that are looked at in one go, for the sake of memory."""
 
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Surface:
     """Triangles whose equal corners are one vertex.
 
@@ -31,7 +29,7 @@ class Surface:
     normals: Floats
     areas: Floats
 
-    @property
+    @cached_property
     def size(self) -> float:
         """Diagonal of the bounding box [m]."""
         return float(np.linalg.norm(np.ptp(self.vertices[self.faces].reshape(-1, 3), axis=0)))
@@ -42,26 +40,15 @@ class Surface:
         a, b, c = (self.vertices[self.faces[:, i]] - self.vertices[0] for i in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
-    def part(self, rows: Indices) -> Surface:
+    def part(self, rows: Indices | NDArray[np.bool_]) -> Surface:
         """Some of the faces, with their vertices only."""
         used, inverse = np.unique(self.faces[rows], return_inverse=True)
         faces = inverse.reshape(-1, 3).astype(np.intp)
         return Surface(self.vertices[used], faces, self.normals[rows], self.areas[rows])
 
-    def edges(self) -> Indices:
-        """The edges of each face with their ends in order, shape (m, 3, 2)."""
-        pairs = np.stack([self.faces, np.roll(self.faces, -1, axis=1)], axis=2)
-        return np.sort(pairs, axis=2)
-
     def is_closed(self) -> bool:
         """Whether each edge belongs to two faces, which run along it in opposite ways."""
-        tails, heads = self.faces, np.roll(self.faces, -1, axis=1)
-        count = np.int64(len(self.vertices))
-        forward = (tails * count + heads).ravel()
-        backward = (heads * count + tails).ravel()
-        forward.sort()
-        backward.sort()
-        return bool((np.diff(forward) > 0).all() and np.array_equal(forward, backward))
+        return bool((twins_of(self) >= 0).all())
 
 
 def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
@@ -86,8 +73,11 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
     return Surface(points, welded[real], normals, doubled[real] / 2.0)
 
 
-def components(surface: Surface) -> list[Indices]:
-    """The rows of the faces that hang together by their corners, largest area first."""
+def components(surface: Surface) -> Indices:
+    """Which part each face belongs to, shape (m,); parts hang together by their corners.
+
+    They are numbered from 0 in the order of their first faces.
+    """
     label = np.arange(len(surface.vertices))
     corners = surface.faces
     while True:  # each vertex takes the least label around it, and that label's own label
@@ -98,43 +88,27 @@ def components(surface: Surface) -> list[Indices]:
         if np.array_equal(after, label):
             break
         label = after
-    of_face = label[corners[:, 0]]
-    order = np.argsort(of_face, kind="stable")
-    groups = np.split(order, np.flatnonzero(np.diff(of_face[order])) + 1)
-    return sorted(groups, key=lambda rows: (-float(surface.areas[rows].sum()), int(rows[0])))
+    _, first, number = np.unique(label[corners[:, 0]], return_index=True, return_inverse=True)
+    rank = np.empty(len(first), np.intp)
+    rank[np.argsort(first, kind="stable")] = np.arange(len(first))
+    return rank[number]
 
 
-def first_hits(surface: Surface, origins: Floats, directions: Floats) -> Floats:
-    """Distance [m] along each ray to the first triangle, shape (n,); infinite if none.
+def twins_of(surface: Surface) -> Indices:
+    """The half-edge that runs back along each, shape (3 m,); -1 if there is none, or several.
 
-    Triangles are hit from both sides; those nearer than a millionth of the size are not.
-    Moeller, Trumbore, "Fast, minimum storage ray/triangle intersection", Journal of
-    Graphics Tools 2 (1997).
+    Half-edge 3 f + i of face f runs from its corner i to the next.
     """
-    found = np.full(len(origins), np.inf)
-    rows = max(1, _PAIRS // max(1, len(surface.faces)))
-    a = surface.vertices[surface.faces[:, 0]]
-    ab = surface.vertices[surface.faces[:, 1]] - a
-    ac = surface.vertices[surface.faces[:, 2]] - a
-    nearest = surface.size * 1e-6
-    for start in range(0, len(origins), rows):
-        part = slice(start, start + rows)
-        found[part] = _hits(origins[part], directions[part], a, ab, ac, nearest)
-    return found
-
-
-def _hits(
-    origins: Floats, directions: Floats, a: Floats, ab: Floats, ac: Floats, nearest: float
-) -> Floats:
-    turned = np.cross(directions[:, None], ac[None])
-    scale = np.einsum("rfi,fi->rf", turned, ab)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        back = 1.0 / scale
-        from_a = origins[:, None] - a[None]
-        u = np.einsum("rfi,rfi->rf", from_a, turned) * back
-        across = np.cross(from_a, ab[None])
-        v = np.einsum("ri,rfi->rf", directions, across) * back
-        distance = np.einsum("fi,rfi->rf", ac, across) * back
-        hit = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9) & (distance > nearest)
-    first: Floats = np.where(hit, distance, np.inf).min(axis=1)
-    return first
+    tails, heads = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    count = np.int64(len(surface.vertices))
+    forward, backward = tails * count + heads, heads * count + tails
+    order = np.argsort(forward, kind="stable")
+    keys = forward[order]
+    place = np.searchsorted(keys, backward)
+    place[place == len(keys)] = 0
+    single = np.ones(len(keys), bool)
+    single[1:] &= keys[1:] != keys[:-1]
+    single[:-1] &= keys[1:] != keys[:-1]
+    found = np.where((keys[place] == backward) & single[place], order[place], -1)
+    found[order[~single]] = -1
+    return found.astype(np.intp)

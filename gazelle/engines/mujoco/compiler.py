@@ -29,7 +29,7 @@ from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, set_options
-from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
@@ -268,10 +268,16 @@ class _Builder:
             surface = surface_options(collision, self._time_step, self._ranks)
             placed = pose * straight_pose(collision, body, self._by_name)
             names = self.geoms.setdefault(f"{body.name}::{collision.name}", [])
-            for shape in self.shapes.options(collision.geometry, placed, collision.source):
+            static, geometry = body.root == "static", collision.geometry
+            seen = self.shapes.seen(geometry, placed, static=static)
+            group = COLLISION_GROUP if seen is None else CONTACT_GROUP
+            for shape in self.shapes.options(geometry, placed, collision.source, static=static):
                 names.append(f"{body.name}::{collision.name}#{len(names)}")
-                handle.add_geom(name=names[-1], group=COLLISION_GROUP, mass=0.0, **surface, **shape)
+                handle.add_geom(name=names[-1], group=group, mass=0.0, **surface, **shape)
                 self.solids.append(self._solid(names[-1], body, collision, placed))
+            if seen is not None:
+                names.append(f"{body.name}::{collision.name}#{len(names)}")
+                handle.add_geom(name=names[-1], mass=0.0, **seen)
 
     def _solid(self, name: str, body: Body, collision: Collision, placed: Pose) -> Solid:
         model = body.name.partition("::")[0]

@@ -76,7 +76,7 @@ def _add_visual(handle: Any, visual: Visual, body: Body, draft: Draft) -> None:
     pose = (body.pose if body.root == "static" else Pose()) * visual.pose
     material = visual.material
     red, green, blue, alpha = (material and (material.diffuse or material.ambient)) or _GREY
-    for shape in draft.shapes.options(visual.geometry, pose, visual.source):
+    for shape in draft.shapes.visible(visual.geometry, pose, visual.source):
         if isinstance(visual.geometry, Plane):
             width, depth = visual.geometry.size
             shape["size"] = [width / 2, depth / 2, 1.0]

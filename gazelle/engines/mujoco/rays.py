@@ -10,8 +10,14 @@ from numpy.typing import NDArray
 
 from gazelle.engines.engine import Floats, Hits, Worlds
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP
+from gazelle.engines.mujoco.shapes import CLOSED_GROUP, OPEN_GROUP
 
-_GROUPS = np.array([group == COLLISION_GROUP for group in range(6)], dtype=np.uint8)
+_SEEN = (COLLISION_GROUP, CLOSED_GROUP, OPEN_GROUP)
+_GROUPS = np.array([group in _SEEN for group in range(6)], dtype=np.uint8)
+
+# By this rays start beside where they should [m]. MuJoCo's pass between two triangles of a mesh
+# if they meet the edge exactly, as the middle of a symmetric thing seen along an axis is met.
+BESIDE = 1e-8 * np.array([0.613, 0.371, 0.697])
 
 # How far behind a surface that is passed through a ray goes on [m].
 _BEHIND = 1e-6
@@ -31,9 +37,16 @@ def nearest(
         excluded: A body that rays pass through; the world's, 0, for none.
     """
     distance, geom, normal = batch.ray(
-        start, along, geomgroup=_GROUPS, bodyexclude=excluded or -1, ids=worlds, normal=True
+        start + BESIDE if batch.model.nmesh else start,
+        along,
+        geomgroup=_GROUPS,
+        bodyexclude=excluded or -1,
+        ids=worlds,
+        normal=True,
     )
     from_inside = np.einsum("ijk,ijk->ij", normal, along) > 0.0
+    if from_inside.any():  # a sheet is met from both sides
+        from_inside &= batch.model.geom_group[geom] != OPEN_GROUP
     distance[distance < 0.0] = np.inf
     return Hits(distance, from_inside), geom
 

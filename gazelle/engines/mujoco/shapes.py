@@ -1,4 +1,8 @@
-"""SDF shapes as MuJoCo geoms: one small function a shape, in a table."""
+"""SDF shapes as MuJoCo geoms: one small function a shape, in a table.
+
+MuJoCo collides convex shapes only, but its rays meet the triangles of a mesh. So a mesh that
+is not convex becomes convex pieces that collide, and the mesh itself, which only rays meet.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +34,13 @@ from gazelle.description import (
 )
 from gazelle.errors import EngineWarning, located
 
+CONTACT_GROUP = 2
+"""Of what collides and is not seen by rays, since a mesh stands for it."""
+CLOSED_GROUP = 3
+"""Of meshes that only rays meet, and that have an inside."""
+OPEN_GROUP = 4
+"""Of meshes that only rays meet, and that have none."""
+
 _SIDES = 24
 _ELEVATION_FILES = {".asc", ".dem", ".hgt"}
 _GROUND = 1.0
@@ -39,6 +50,9 @@ _FLAT = 1e-3
 """Thickness over length below which a mesh counts as a sheet."""
 _TINY = 2e-3
 """Length below which MuJoCo finds the volume of a mesh too small [m]."""
+_FEWEST = 4
+"""Vertices that MuJoCo wants a mesh to have."""
+_SHELL = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 
 @dataclass(slots=True)
@@ -49,11 +63,81 @@ class ShapeBuilder:
     meshes: dict[Any, str] = field(default_factory=dict)
     heightmaps: dict[Heightmap, str] = field(default_factory=dict)
 
-    def options(self, shape: Geometry, pose: Pose, source: Source | None) -> list[dict[str, Any]]:
-        """Arguments of ``add_geom`` for a shape at a pose; none if there is nothing to hit."""
+    def options(
+        self, shape: Geometry, pose: Pose, source: Source | None, *, static: bool = False
+    ) -> list[dict[str, Any]]:
+        """Arguments of ``add_geom`` for a shape at a pose; none if there is nothing to hit.
+
+        A static mesh is followed closely, by as many geoms as that takes.
+        """
+        if isinstance(shape, Mesh):
+            return self._pieces(shape, pose, source, static=static)
         return _READERS[type(shape)](self, shape, pose, source)
 
-    def mesh_geom(self, key: Any, vertices: Any, faces: Any, pose: Pose) -> dict[str, Any]:
+    def _pieces(
+        self, shape: Mesh, pose: Pose, source: Source | None, *, static: bool
+    ) -> list[dict[str, Any]]:
+        """One geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
+        if shape.path is None:
+            return []
+        from gazelle.formats.convex import decompose
+        from gazelle.formats.mesh import load_mesh
+
+        pieces = decompose(load_mesh(shape), static=static)
+        if pieces.gap > pieces.promised:
+            _warn_of_gap(shape, pieces.gap, source)
+        return [
+            self.mesh_geom((_key_of(shape), static, number), piece.vertices, piece.faces, pose)
+            for number, piece in enumerate(pieces.solids)
+        ]
+
+    def seen(self, shape: Geometry, pose: Pose, *, static: bool) -> dict[str, Any] | None:
+        """Arguments of ``add_geom`` for what rays meet, where that is not what collides.
+
+        Raises:
+            FormatError: A mesh cannot be read.
+        """
+        if not isinstance(shape, Mesh) or shape.path is None:
+            return None
+        from gazelle.formats.convex import decompose
+        from gazelle.formats.mesh import load_mesh
+        from gazelle.formats.surface import clean
+
+        data = load_mesh(shape)
+        if decompose(data, static=static).whole:
+            return None
+        surface = clean(data.vertices, data.faces)
+        if not len(surface.faces):
+            return None
+        closed = surface.is_closed() and surface.volume > 0.0
+        geom = self._sheet_geom((_key_of(shape), "seen"), surface.vertices, surface.faces, pose)
+        untouched = {"contype": 0, "conaffinity": 0}
+        return {"group": CLOSED_GROUP if closed else OPEN_GROUP, **untouched, **geom}
+
+    def visible(self, shape: Geometry, pose: Pose, source: Source | None) -> list[dict[str, Any]]:
+        """Arguments of ``add_geom`` for a shape that is looked at and never touched.
+
+        Raises:
+            FormatError: A mesh cannot be read.
+        """
+        if not isinstance(shape, Mesh):
+            return self.options(shape, pose, source)
+        if shape.path is None:
+            return []
+        from gazelle.formats.mesh import load_mesh
+
+        data = load_mesh(shape)
+        return [self._sheet_geom((_key_of(shape), "visible"), data.vertices, data.faces, pose)]
+
+    def _sheet_geom(self, key: Any, vertices: Any, faces: Any, pose: Pose) -> dict[str, Any]:
+        """A mesh geom that need not have a volume."""
+        lacking = max(0, _FEWEST - len(vertices))
+        padded = np.concatenate([vertices, vertices[:1].repeat(lacking, axis=0)])
+        return self.mesh_geom(key, padded, faces, pose, _SHELL)
+
+    def mesh_geom(
+        self, key: Any, vertices: Any, faces: Any, pose: Pose, inertia: Any = None
+    ) -> dict[str, Any]:
         """A mesh geom; its vertices are stored on first use of the key."""
         if key not in self.meshes:
             name = f"mesh_{len(self.meshes)}"
@@ -61,7 +145,7 @@ class ShapeBuilder:
                 name=name,
                 uservert=np.asarray(vertices, dtype=np.float64).ravel(),
                 userface=np.asarray(faces, dtype=np.int32).ravel(),
-                inertia=_inertia_of(np.asarray(vertices, dtype=np.float64)),
+                inertia=_inertia_of(np.asarray(vertices)) if inertia is None else inertia,
             )
             self.meshes[key] = name
         return {
@@ -75,8 +159,16 @@ def _inertia_of(vertices: Any) -> mujoco.mjtMeshInertia:
     """How MuJoCo may find the frame of a mesh: one as thin as a sheet has no volume to go by."""
     spans = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     flat = spans[-1] < _FLAT * spans[0] or np.ptp(vertices, axis=0).max() < _TINY
-    kinds = mujoco.mjtMeshInertia
-    return kinds.mjMESH_INERTIA_SHELL if flat else kinds.mjMESH_INERTIA_CONVEX
+    return _SHELL if flat else mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
+
+
+def _warn_of_gap(shape: Mesh, gap: float, source: Source | None) -> None:
+    text = f"the mesh '{shape.uri}' collides up to {gap:.2g} m beside its surface: it is too rough"
+    warnings.warn(EngineWarning(located(text, source)), stacklevel=2)
+
+
+def _key_of(shape: Mesh) -> tuple[Any, ...]:
+    return (shape.path, shape.scale, shape.submesh, shape.center_submesh)
 
 
 def _placed(pose: Pose) -> dict[str, Any]:
@@ -137,21 +229,6 @@ def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> l
     apex, centre = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
     faces = np.vstack((np.stack((here, after, apex), 1), np.stack((after, here, centre), 1)))
     return [builder.mesh_geom(shape, vertices, faces, pose)]
-
-
-def _mesh(builder: ShapeBuilder, shape: Mesh, pose: Pose, _: Source | None) -> list[dict[str, Any]]:
-    """One geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
-    if shape.path is None:
-        return []
-    from gazelle.formats.convex import convex_pieces
-    from gazelle.formats.mesh import load_mesh
-
-    key = (shape.path, shape.scale, shape.submesh, shape.center_submesh)
-    pieces = convex_pieces(load_mesh(shape))
-    return [
-        builder.mesh_geom((key, number), piece.vertices, piece.faces, pose)
-        for number, piece in enumerate(pieces)
-    ]
 
 
 def _polyline(
@@ -225,7 +302,6 @@ _READERS: dict[type, Callable[..., list[dict[str, Any]]]] = {
     Empty: _nothing,
     Heightmap: _heightmap,
     Image: _image,
-    Mesh: _mesh,
     Plane: _plane,
     Polyline: _polyline,
     Sphere: _sphere,

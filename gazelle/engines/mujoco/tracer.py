@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.description import Link, Plane, Pose, Visual, World
 from gazelle.engines.mujoco.order import wxyz_from_xyzw
+from gazelle.engines.mujoco.rays import BESIDE
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.tracer import Sight
 from gazelle.errors import EngineError
@@ -64,7 +65,7 @@ class MujocoTracer:
         for visual in link.visuals:
             if visual.transparency >= 1.0:
                 continue
-            shapes = self._shapes.options(visual.geometry, visual.pose, visual.source)
+            shapes = self._shapes.visible(visual.geometry, visual.pose, visual.source)
             for shape in shapes:
                 body.add_geom(contype=0, conaffinity=0, mass=0.0, **_bounded(shape, visual))
                 self._owner.append(len(self._visuals))
@@ -82,7 +83,7 @@ class MujocoTracer:
 
     def trace(self, origins: Floats, directions: Floats) -> Sight:
         """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
-        distance, geom, normal = self._batch.ray(origins, directions, normal=True)
+        distance, geom, normal = self._batch.ray(origins + BESIDE, directions, normal=True)
         missed = geom[0] < 0
         if not self._owner:
             visual = np.full(len(origins), -1, dtype=np.intp)

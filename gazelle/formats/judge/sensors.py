@@ -106,8 +106,9 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
 
 def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     """How far the mesh around a sensor reaches, level; None where it is open to a side."""
+    from gazelle.formats.beams import first_hits
     from gazelle.formats.mesh import load_mesh
-    from gazelle.formats.surface import clean, first_hits
+    from gazelle.formats.surface import clean
 
     if shape.path is None:
         return None
@@ -122,7 +123,8 @@ def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     level = np.stack([np.cos(angles), np.sin(angles), np.zeros(_LOOKS)], axis=1)
     directions = level @ place.matrix()[:3, :3].T
     origins = np.tile(place.position, (_LOOKS, 1))
-    farthest = float(first_hits(clean(data.vertices, data.faces), origins, directions).max())
+    distance, _ = first_hits(clean(data.vertices, data.faces), origins, directions)
+    farthest = float(distance.max())
     return farthest if math.isfinite(farthest) else None
 
 

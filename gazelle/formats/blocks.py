@@ -1,0 +1,199 @@
+"""A body cut by level planes into blocks whose hulls fill little of the air around it.
+
+What is judged is the air itself, in a grid: a block is cut on while its hull holds air that is
+more than one cube of the grid away from the surface. So it does not matter whether a mesh is
+closed, which way its faces look, or what is inside of it.
+"""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.formats.hull import hulls_of
+from gazelle.formats.surface import Floats, Surface
+from gazelle.formats.voxels import Bools, voxels_of
+
+MOST_BLOCKS = 160
+
+_DIRECTIONS = 162
+_FACES = 32
+"""Normals of the largest faces that are directions too."""
+_TRIED = 2000
+"""Points by which a cut is judged."""
+_AT_ONCE = 24
+_EARLY = 32
+"""Blocks after which it is asked whether there is hope."""
+_HOPELESS = 0.3
+"""Air left then, as a share of what the hull of all holds, that is too much."""
+_EVEN = 0.02
+"""What it counts that a cut is uneven, as a share of the air."""
+_LEAST = 3.0
+"""Cubes that a block is long at least."""
+_SHEET = 1e-3
+"""Thickness of what has none [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Blocks:
+    """What a body was cut into.
+
+    Attributes:
+        hulls: Points of each block, whose hull it is [m], shapes (n, 3).
+        gap: How far from the surface a block reaches into the air at most [m].
+    """
+
+    hulls: list[Floats]
+    gap: float
+
+
+@dataclass(slots=True)
+class _Block:
+    """What lies between two corners.
+
+    Attributes:
+        points: On the surface [m], shape (n, 3); some just beyond the block, so that there is
+            no gap to the next.
+        air: Places in the hull of the points that should not be [m], shape (k, 3).
+        low: Corner [m], shape (3,).
+        high: Corner [m], shape (3,).
+    """
+
+    points: Floats
+    air: Floats
+    low: Floats
+    high: Floats
+
+
+def blocks_of(surface: Surface, side: float) -> Blocks | None:
+    """Blocks of a surface, in a grid of cubes of this size [m]; the worst are cut on first.
+
+    None for a vessel or the like, of which too many would be needed.
+    """
+    grid = voxels_of(surface, side)
+    directions = _directions(surface)
+    low, high = grid.low, grid.points.max(axis=0) + 2.0 * grid.side
+    queue: list[tuple[int, int, _Block]] = []
+    done: list[_Block] = []
+    number = itertools.count()
+
+    def take(block: _Block) -> None:
+        if not len(block.points):
+            return
+        near = block.air[_inside(block.points, block.air, directions)]
+        block.air = near[_held(_outermost(block.points, directions, grid.side), near)]
+        if len(block.air):
+            heapq.heappush(queue, (-len(block.air), next(number), block))
+        else:
+            done.append(block)
+
+    take(_Block(grid.points, grid.air, low, high))
+    most = _HOPELESS * sum(-rank for rank, _, _ in queue)
+    while queue and len(queue) + len(done) < MOST_BLOCKS:
+        if len(queue) + len(done) == _EARLY and sum(-rank for rank, _, _ in queue) > most:
+            return None
+        block = heapq.heappop(queue)[2]
+        parts = _cut(block, grid.side, directions)
+        for part in parts:
+            take(part)
+        if not parts:
+            done.append(block)
+    done += [block for _, _, block in queue]
+    hulls = [_outermost(block.points, directions, grid.side) for block in done]
+    return Blocks(hulls, grid.distance(np.concatenate([block.air for block in done])))
+
+
+def _cut(block: _Block, side: float, directions: Floats) -> list[_Block]:
+    """The two blocks of the cut that leaves the least air in their hulls; none if too small."""
+    some, points, air = directions[::2], _thinned(block.points), _thinned(block.air)
+    best: tuple[float, int, float] | None = None
+    for axis, level in _levels(block, side):
+        below = points[:, axis] <= level
+        if below.all() or not below.any():
+            continue
+        held = _inside(points[below], air, some) | _inside(points[~below], air, some)
+        cost = float(held.sum()) + _EVEN * len(air) * abs(float(below.mean()) - 0.5)
+        if best is None or cost < best[0]:
+            best = (cost, axis, level)
+    if best is None:
+        return []
+    _, axis, level = best
+    parts = []
+    for sign in (1.0, -1.0):
+        near = sign * (block.points[:, axis] - level) <= side
+        low, high = block.low.copy(), block.high.copy()
+        (high if sign > 0.0 else low)[axis] = level
+        parts.append(_Block(block.points[near], block.air, low, high))
+    return parts
+
+
+def _levels(block: _Block, side: float) -> list[tuple[int, float]]:
+    """Axes and places along them where a block may be cut: beside its air, and across it."""
+    found = []
+    for axis in range(3):
+        room = block.low[axis] + _LEAST * side, block.high[axis] - _LEAST * side
+        if room[0] > room[1]:
+            continue
+        spread = np.quantile(block.air[:, axis], (0.0, 0.25, 0.5, 0.75, 1.0))
+        spread += side * np.array([-0.5, 0.0, 0.0, 0.0, 0.5])
+        found += [(axis, level) for level in sorted(set(np.clip(spread, *room).tolist()))]
+    return found
+
+
+def _inside(points: Floats, air: Floats, directions: Floats) -> Bools:
+    """Which places in the air no direction tells to be outside of the hull of points, shape (k,)."""
+    return _behind(air, directions, (points @ directions.T).max(axis=0))
+
+
+def _held(points: Floats, air: Floats) -> Bools:
+    """Which places in the air lie in the hull of points, shape (k,)."""
+    for corners, faces in hulls_of([points]) if len(air) else ():
+        a, b, c = (corners[faces[:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        order = np.argsort(-np.einsum("ij,ij->i", normals, normals))
+        return _behind(air, normals[order], np.einsum("ij,ij->i", normals, a)[order])
+    return np.zeros(len(air), bool)
+
+
+def _behind(air: Floats, normals: Floats, offsets: Floats) -> Bools:
+    """Which places lie behind all of some planes, shape (k,)."""
+    held = np.ones(len(air), bool)
+    for start in range(0, len(normals), _AT_ONCE):
+        rows = np.flatnonzero(held)
+        if not len(rows):
+            break
+        part = slice(start, start + _AT_ONCE)
+        held[rows] = (air[rows] @ normals[part].T <= offsets[part]).all(axis=1)
+    return held
+
+
+def _thinned(points: Floats) -> Floats:
+    return points[:: max(1, len(points) // _TRIED)]
+
+
+def _directions(surface: Surface) -> Floats:
+    """Unit vectors all around, the axes and the normals of the largest faces, shape (n, 3)."""
+    turn = math.pi * (3.0 - math.sqrt(5.0)) * np.arange(_DIRECTIONS)
+    z = 1.0 - (2.0 * np.arange(_DIRECTIONS) + 1.0) / _DIRECTIONS
+    ring = np.sqrt(1.0 - z * z)
+    around = np.stack([ring * np.cos(turn), ring * np.sin(turn), z], axis=1)
+    near, inverse = np.unique(np.round(surface.normals * 50.0), axis=0, return_inverse=True)
+    weight = np.bincount(inverse.ravel(), surface.areas)
+    largest = near[np.argsort(-weight, kind="stable")[:_FACES]]
+    largest /= np.linalg.norm(largest, axis=1)[:, None]
+    return np.concatenate([np.eye(3), -np.eye(3), largest, around])
+
+
+def _outermost(points: Floats, directions: Floats, side: float) -> Floats:
+    """The points that reach farthest in each direction; a sheet is given a thickness."""
+    found: Floats = points[np.unique((points @ directions.T).argmax(axis=0))]
+    _, _, axes = np.linalg.svd(found - found.mean(axis=0), full_matrices=True)
+    for axis in axes[1:]:
+        if np.ptp(found @ axis) < _SHEET:
+            shift = axis * min(_SHEET, 0.5 * side) / 2.0
+            found = np.concatenate([found + shift, found - shift])
+    return found

@@ -1,0 +1,127 @@
+"""Meshes that stand still are touched where they are: bowls, doors, terrain, stairs."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+import trimesh
+
+from gazelle.description import Mesh, Pose
+from gazelle.engines import make_engine
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
+def standing(folder, mesh, name="thing", *, static=True, **options):
+    mesh.export(folder / f"{name}.stl")
+    shape = Mesh(f"{name}.stl", folder / f"{name}.stl")
+    return scenes.solid(name, shape, static=static, **options)
+
+
+def bowl(sections, rings, radius=1.0, thick=0.05):
+    angles = np.linspace(0.0, np.pi / 2.0, rings)
+    outer = (radius + thick) * np.stack([np.sin(angles), -np.cos(angles)], axis=1)
+    inner = radius * np.stack([np.sin(angles), -np.cos(angles)], axis=1)[::-1]
+    return trimesh.creation.revolve(np.concatenate([outer, inner]), sections=sections)
+
+
+def period(engine, name="ball", seconds=8.0, step=0.001):
+    """Mean time between two passages through x = 0 in the same direction [s]."""
+    last, passages = engine.model_placement(name).position[0, 0], []
+    for count in range(round(seconds / step)):
+        engine.step()
+        x = engine.model_placement(name).position[0, 0]
+        if last < 0.0 <= x:
+            passages.append(count * step)
+        last = x
+    return float(np.diff(passages).mean())
+
+
+@pytest.mark.parametrize(("sections", "rings"), [(64, 33), (128, 65)])
+def test_a_ball_rolls_in_a_bowl_as_fast_as_it_should(tmp_path, sections, rings):
+    """T = 2 pi sqrt(7 (R - r) / 5 g) for small swings of a ball that rolls."""
+    dish = standing(tmp_path, bowl(sections, rings), pose=Pose(z=1.2))
+    away, radius = 0.2, 0.1
+    height = 1.2 - (1.0 - radius) * math.cos(math.asin(away / (1.0 - radius)))
+    moment = 0.4 * radius**2
+    ball = scenes.solid(
+        "ball", scenes.Sphere(radius), mass=1.0, moments=(moment,) * 3,
+        pose=Pose(x=away, z=height + 0.001),
+    )  # fmt: skip
+    engine = make_engine("mujoco", scenes.world(dish, ball))
+    expected = 2.0 * math.pi * math.sqrt(7.0 * (1.0 - radius) / 5.0 / 9.8)
+    assert period(engine) == pytest.approx(expected, rel=0.04)
+
+
+def house(width=6.0, depth=4.0, thick=0.15, height=2.5, door=(2.0, 3.0)):
+    """Four walls as one mesh, of which that at y = 0 has a door, and a floor."""
+
+    def box(x, y, u, v, low=0.0, high=height):
+        part = trimesh.creation.box((u - x, v - y, high - low))
+        return part.apply_translation(((x + u) / 2, (y + v) / 2, (low + high) / 2))
+
+    return trimesh.util.concatenate(
+        [
+            box(0, 0, door[0], thick),
+            box(door[1], 0, width, thick),
+            box(door[0], 0, door[1], thick, 2.0),
+            box(0, depth - thick, width, depth),
+            box(0, thick, thick, depth - thick),
+            box(width - thick, thick, width, depth - thick),
+            box(0, 0, width, depth, -0.1, 0.0),
+        ]
+    )
+
+
+def test_a_body_slides_in_by_the_door_and_nowhere_else(tmp_path):
+    walls = standing(tmp_path, house(), "house")
+    for x, enters in ((2.5, True), (1.0, False), (4.5, False)):
+        puck = scenes.box(size=(0.5, 0.5, 0.3), mu=0.0, pose=Pose(x=x, y=-0.6, z=0.151))
+        ground = scenes.solid("yard", scenes.Box((20, 20, 0.2)), pose=Pose(z=-0.1), static=True)
+        engine = make_engine("mujoco", scenes.world(ground, walls, puck))
+        engine.set_model_motion("box", np.array([[0.0, 1.5, 0.0]]), np.zeros((1, 3)))
+        for _ in range(1500):
+            engine.step()
+        y = engine.model_placement("box").position[0, 1]
+        assert (y > 1.0) == enters, x
+        assert y < 3.6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_balls_come_to_rest_on_the_ground_that_rays_see(tmp_path, seed):
+    chance = np.random.default_rng(seed)
+    count = 25
+    x, y = np.meshgrid(np.linspace(-4, 4, count), np.linspace(-4, 4, count))
+    z = chance.uniform(0.0, 0.4, x.shape)
+    corner = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
+    faces = np.concatenate(
+        [
+            np.stack([corner, corner + 1, corner + count + 1], 1),
+            np.stack([corner, corner + count + 1, corner + count], 1),
+        ]
+    )
+    mesh = trimesh.Trimesh(np.column_stack([x.ravel(), y.ravel(), z.ravel()]), faces)
+    land = standing(tmp_path, mesh, "land", mu=1.0)
+    balls = [
+        scenes.ball(f"ball_{i}", pose=Pose(*chance.uniform(-2.5, 2.5, 2), 0.9)) for i in range(4)
+    ]
+    engine = make_engine("mujoco", scenes.world(land, *balls))
+    for _ in range(2500):
+        engine.step()
+    for ball in balls:
+        position = engine.model_placement(ball.name).position[0]
+        _, distance, _ = closest(mesh, position)
+        assert position[2] > 0.05  # it did not fall through
+        assert distance == pytest.approx(0.1, abs=0.006)
+
+
+def closest(mesh, point):
+    """The nearest place on a mesh: over all triangles, without an index."""
+    places = trimesh.triangles.closest_point(mesh.triangles, np.tile(point, (len(mesh.faces), 1)))
+    distances = np.linalg.norm(places - point, axis=1)
+    row = int(distances.argmin())
+    return places[row], float(distances[row]), row
