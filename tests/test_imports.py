@@ -52,7 +52,7 @@ HEAVY = {"gymnasium", "mujoco", "stable_baselines3", "torch", "trimesh"}
 OWNERS = {
     "gymnasium": ("gazelle.envs", "gazelle.training"),
     "llvmlite": ("gazelle.engines.native",),
-    "mujoco": ("gazelle.engines.mujoco",),
+    "mujoco": ("gazelle.engines.mujoco", "gazelle.formats.mujoco_geometry"),
     "pettingzoo": ("gazelle.envs",),
     "stable_baselines3": ("gazelle.training",),
     "torch": ("gazelle.training",),

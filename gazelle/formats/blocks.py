@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.formats.hull import hulls_of
+from gazelle.formats.mujoco_geometry import hulls_of
 from gazelle.formats.surface import Floats, Surface
 from gazelle.formats.voxels import Bools, voxels_of
 

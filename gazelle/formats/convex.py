@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from gazelle.formats import piece_cache
 from gazelle.formats.blocks import Blocks, blocks_of
-from gazelle.formats.hull import hulls_of
 from gazelle.formats.mesh import MeshData
+from gazelle.formats.mujoco_geometry import hulls_of
 from gazelle.formats.patches import Solid, joined_flat, thick_patches
 from gazelle.formats.surface import Floats, Surface, clean, components, twins_of
 

@@ -8,10 +8,8 @@ monotone chain (1979).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,46 +41,6 @@ class Hull:
         gaps = self.offsets[:, None] - self.normals @ points.T
         depth: Points = gaps.min(axis=0)
         return depth
-
-
-def hulls_of(clouds: Sequence[Points]) -> list[tuple[Points, NDArray[np.int32]]]:
-    """Corners and faces of the hulls of points, shapes (n, 3); those in a plane are left out.
-
-    MuJoCo's Qhull makes them all at once; where it gives up on one, each is made here.
-    """
-    import mujoco
-
-    spec = mujoco.MjSpec()
-    for number, points in enumerate(clouds):
-        size = max(float(np.ptp(points, axis=0).max()), 1e-300)
-        spec.add_mesh(name=str(number), uservert=((points - points[0]) / size).ravel())
-        spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=str(number))
-    try:
-        model = spec.compile()
-    except ValueError:
-        slow = ((points, convex_hull(points, 1e-6 * _size(points))) for points in clouds)
-        found = [(points, hull.faces) for points, hull in slow if hull is not None]
-    else:
-        found = [(points, _graph_faces(model, row)) for row, points in enumerate(clouds)]
-    return [_used(points, faces) for points, faces in found]
-
-
-def _graph_faces(model: Any, mesh: int) -> Indices:
-    """Faces of a mesh's hull in a MuJoCo model, which calls the list of its parts a graph."""
-    graph = model.mesh_graph[model.mesh_graphadr[mesh] :]
-    vertices, faces = int(graph[0]), int(graph[1])
-    start = 2 + 3 * vertices + 3 * faces
-    rows: Indices = graph[start : start + 3 * faces].reshape(-1, 3).astype(np.intp)
-    return rows
-
-
-def _size(points: Points) -> float:
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
-
-
-def _used(points: Points, faces: Indices) -> tuple[Points, NDArray[np.int32]]:
-    rows, inverse = np.unique(faces, return_inverse=True)
-    return points[rows], inverse.reshape(-1, 3).astype(np.int32)
 
 
 @dataclass(slots=True)

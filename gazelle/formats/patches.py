@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.formats.beams import first_hits
 from gazelle.formats.flat import Polygon, Polygons
+from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import Floats, Surface
 
 FINE = 5e-3

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from gazelle.description import Mesh
 from gazelle.formats import convex, load_mesh, piece_cache
-from gazelle.formats.beams import first_hits
 from gazelle.formats.convex import convex_pieces
 from gazelle.formats.hull import convex_hull, planar_area, planar_hull
 from gazelle.formats.mesh import MeshData
+from gazelle.formats.mujoco_geometry import first_hits, hulls_of
 from gazelle.formats.surface import clean, components
 
 
@@ -222,6 +222,19 @@ def test_the_hull_holds_all_points_and_is_that_of_scipy(seed, count, kind):
     assert hull.depth(points).min() > -1e-6
     solid = MeshData(points, hull.faces.astype(np.int32))
     assert volume(solid) == pytest.approx(spatial.ConvexHull(points).volume, rel=1e-5)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(4, 60), st.sampled_from([1e-3, 1.0, 1e4]))
+def test_many_hulls_at_once_are_those_made_one_by_one(seed, count, scale):
+    chance = np.random.default_rng(seed)
+    clouds = [scale * (chance.normal(size=(count, 3)) + 5.0) for _ in range(3)]
+    for cloud, (corners, faces) in zip(clouds, hulls_of(clouds), strict=True):
+        hull = convex_hull(cloud, 1e-9 * scale)
+        assert hull.depth(corners).max() <= 1e-5 * scale
+        assert volume(MeshData(corners, faces)) == pytest.approx(
+            volume(MeshData(cloud, hull.faces.astype(np.int32))), rel=1e-4
+        )
 
 
 def test_the_hull_in_the_plane():

@@ -106,8 +106,8 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
 
 def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     """How far the mesh around a sensor reaches, level; None where it is open to a side."""
-    from gazelle.formats.beams import first_hits
     from gazelle.formats.mesh import load_mesh
+    from gazelle.formats.mujoco_geometry import first_hits
     from gazelle.formats.surface import clean
 
     if shape.path is None:
