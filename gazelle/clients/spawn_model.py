@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import logging
 import re
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
@@ -16,6 +17,7 @@ from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.ros import Node, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.compat.rosgraph.roslogging import RosStreamHandler
 from gazelle.ros.errors import RosTimeoutError
 from gazelle.ros.signals import stopping
 
@@ -32,12 +34,13 @@ def main(arguments: Sequence[str]) -> int:
     """Spawn a model; returns 0 if it is there, else 1."""
     found = parse_arguments(arguments, "spawn_model", anonymous=True)
     options = _options(found.plain)
-    with found.start() as node:
+    with _speaking(), found.start() as node:
         spawner = _Spawner(node, options)
         try:
             if not spawner.spawn():
                 return 1
             if options.bond:
+                _log.info("Waiting for shutdown to delete model %s", options.model)
                 _wait_for_the_end(node)
         finally:
             # Ctrl-C may come at any time from the call on.
@@ -67,7 +70,9 @@ class _Spawner:
         text = _read(self._node, options)
         kind = "urdf" if options.urdf else "sdf"
         service = f"spawn_{kind}_model"
+        _log.info("Waiting for service %s/%s", self._gazebo, service)
         self._wait_for_service(f"{self._gazebo}/{service}")
+        _log.info("Calling service %s/%s", self._gazebo, service)
         self.called = True
         answer = self._call(
             service,
@@ -80,21 +85,23 @@ class _Spawner:
             ),
             reference_frame=options.reference_frame,
         )
-        _log.info("%s", answer.status_message)
+        _log.info("Spawn status: %s", answer.status_message)
         if not answer.success:
             self.called = False
-            sys.stderr.write(f"{answer.status_message}\n")
+            _log.error("Spawn service failed. Exiting.")
             return False
         return self._configure() and self._unpause()
 
     def delete(self) -> None:
         """Take the model away again."""
+        _log.info("Deleting model %s", self._options.model)
         self._call("delete_model", "DeleteModel", model_name=self._options.model)
 
     def _configure(self) -> bool:
         joints = self._options.joints
         if not joints:
             return True
+        _log.info("Calling service %s/set_model_configuration", self._gazebo)
         answer = self._call(
             "set_model_configuration",
             "SetModelConfiguration",
@@ -103,17 +110,20 @@ class _Spawner:
             joint_names=[name for name, _ in joints],
             joint_positions=[float(position) for _, position in joints],
         )
+        _log.info("Set model configuration status: %s", answer.status_message)
         if not answer.success:
-            sys.stderr.write(f"{answer.status_message}\n")
+            _log.error("SetModelConfiguration service failed. Exiting.")
         return bool(answer.success)
 
     def _unpause(self) -> bool:
         if self._options.unpause:
+            _log.info("Unpausing physics")
             self._call("unpause_physics", "Empty", package="std_srvs")
         return True
 
     def _wait_for(self, model: str) -> None:
         """Until a model is there, however long it takes."""
+        _log.info("Waiting for model %s before proceeding.", model)
         while True:
             answer = self._call("get_world_properties", "GetWorldProperties")
             if model in answer.model_names:
@@ -132,7 +142,7 @@ class _Spawner:
         try:
             self._node.wait_for_service(name, timeout=_PATIENCE_S)
         except RosTimeoutError:
-            sys.stderr.write(f"spawn_model: waiting for the service {name}\n")
+            _log.warning("still waiting for service %s", name)
             self._node.wait_for_service(name)
 
 
@@ -174,6 +184,7 @@ def _read(node: Node, options: argparse.Namespace) -> str:
     Raises:
         RosError: There is none, or it is empty.
     """
+    _log.info("Loading model XML from %s", _source(options))
     if options.param:
         found = node.get_param(options.param, None)
         if not isinstance(found, str):
@@ -188,6 +199,28 @@ def _read(node: Node, options: argparse.Namespace) -> str:
     if not text.strip():
         raise RosError("the description is empty", file=options.file)
     return _MESH.sub(r"\1model://", text) if options.package_to_model else text
+
+
+def _source(options: argparse.Namespace) -> str:
+    """Where the description is from, in the words of gazebo_ros."""
+    if options.param:
+        return f"ros parameter {options.param}"
+    if options.database:
+        return "Gazebo Model Database"
+    return "stdin" if options.stdin else f"file {options.file}"
+
+
+@contextlib.contextmanager
+def _speaking() -> Iterator[None]:
+    """Show what is logged as rospy does."""
+    screen, former = RosStreamHandler(), _log.level
+    _log.addHandler(screen)
+    _log.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        _log.setLevel(former)
+        _log.removeHandler(screen)
 
 
 def _read_file(path: str) -> str:

@@ -27,7 +27,27 @@ def default_master_uri() -> str:
 
 def default_host() -> str:
     """The name peers are told: `ROS_HOSTNAME`, else `ROS_IP`, else loopback."""
-    return os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP") or LOOPBACK
+    return usable_host(os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP") or LOOPBACK)
+
+
+def usable_host(host: str) -> str:
+    """A name that peers can use: for "all addresses" (``0.0.0.0``) the one that faces the network.
+
+    Without a network that is loopback.
+    """
+    try:
+        if not ipaddress.ip_address(host).is_unspecified:
+            return host
+    except ValueError:
+        return host
+    outside, family = ("2001:db8::1", socket.AF_INET6) if ":" in host else ("192.0.2.1", None)
+    with (
+        contextlib.suppress(OSError),
+        socket.socket(family or socket.AF_INET, socket.SOCK_DGRAM) as probe,
+    ):
+        probe.connect((outside, 9))  # nothing is sent; the system chooses an address
+        return str(probe.getsockname()[0])
+    return "::1" if family else LOOPBACK
 
 
 def bind_address(host: str) -> str:

@@ -73,6 +73,8 @@ class Node(TopicUser, ServiceUser):
         clock: What time it is.
         statistics: Measures subscriptions, if the graph wants that.
         on_shutdown: Called with a reason when the master or a tool ends the node.
+        on_new_master: Called when the node has registered with a master that took the place of
+            the one before; what that one knew is to be set again.
 
     Raises:
         InvalidNameError: A name is not legal.
@@ -97,10 +99,11 @@ class Node(TopicUser, ServiceUser):
         self.namespace = names.namespace_of(self.name)
         self.remappings = names.resolve_remappings(remappings or {}, self.name)
         self.master_uri = master_uri or net.default_master_uri()
-        self.host = host or net.default_host()
+        self.host = net.usable_host(host) if host else net.default_host()
         self.share_messages = share_messages
         self.limits = limits
         self.on_shutdown: list[Callable[[str], None]] = []
+        self.on_new_master: list[Callable[[], None]] = []
         self.master = MasterProxy(self.master_uri, self.name, limits=limits)
         self.parameters = Parameters(self)
         self.loop = loops.acquire()

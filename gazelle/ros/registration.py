@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.ros.errors import RosError
+from gazelle.ros.errors import RosError, report
 from gazelle.ros.loop import Timer
 
 if TYPE_CHECKING:
@@ -13,6 +15,14 @@ if TYPE_CHECKING:
 _CALM_S = 5.0
 """Seconds between questions while all is well; a broken connection is noticed at once."""
 _ALERT_S = 0.25
+
+
+def _tell(hook: Callable[[], None]) -> None:
+    """Call a hook; the master may be gone again already."""
+    try:
+        hook()
+    except Exception as error:  # noqa: BLE001  # a hook must not end its thread
+        report("a hook for a new master", error)
 
 
 class Registrar:
@@ -95,6 +105,8 @@ class Registrar:
             self._call("registerService", service.name, service.uri, node.uri)
         for key in node.parameters.followed():
             self._follow(key)
+        for hook in list(node.on_new_master):
+            node.loop.submit(functools.partial(_tell, hook))
 
     def _call(self, method: str, *params: Any) -> None:
         node = self._node

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -14,6 +16,7 @@ from ros.graph import until
 
 from gazelle.clients.spawn_model import main
 from gazelle.errors import RosError
+from gazelle.ros import load_message
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="link"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
@@ -63,7 +66,9 @@ def test_a_pose_may_be_given_in_another_models_frame(spawn, graph, ball):
 def test_a_name_that_is_taken_ends_with_one_and_says_so(spawn, ball, capsys):
     assert spawn("-sdf", "-file", ball, "-model", "b") == 0
     assert spawn("-sdf", "-file", ball, "-model", "b") == 1
-    assert "SpawnModel: Failure - entity already exists." in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert "Spawn status: SpawnModel: Failure - entity already exists." in said.out
+    assert "Spawn service failed. Exiting." in said.err
 
 
 def test_a_parameter_is_spawned_with_its_joints_and_namespace(spawn, graph):
@@ -151,3 +156,39 @@ def test_a_command_line_that_says_too_little_or_too_much_is_refused(spawn, flags
     with pytest.raises(SystemExit) as caught:
         spawn(*flags.split())
     assert caught.value.code == 2
+
+
+def test_it_says_what_the_original_says(spawn, graph, ball, capsys):
+    heard = []
+    graph.gazebo.node.subscribe("/rosout", load_message("rosgraph_msgs/Log"), heard.append)
+    assert spawn("-sdf", "-file", ball, "-model", "talked_about", "-unpause") == 0
+    lines = [line.partition("]: ")[2] for line in capsys.readouterr().out.splitlines()]
+    assert lines == [
+        f"Loading model XML from file {ball}",
+        "Waiting for service /gazebo/spawn_sdf_model",
+        "Calling service /gazebo/spawn_sdf_model",
+        "Spawn status: SpawnModel: Successfully spawned entity",
+        "Unpausing physics",
+    ]
+    until(lambda: [each.msg for each in heard if "spawn_model" in each.name] == lines)
+    assert {each.level for each in heard if "spawn_model" in each.name} == {2}
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        (["-param", "/arm"], "ros parameter /arm"),
+        (["-stdin"], "stdin"),
+        (["-database", "arm"], "Gazebo Model Database"),
+    ],
+)
+def test_it_says_where_the_description_is_from(spawn, graph, monkeypatch, capsys, source, said):
+    plain = re.sub(r"<visual>.*</visual>", "", ARM, flags=re.DOTALL)
+    graph.gazebo.node.set_param("/arm", plain)
+    monkeypatch.setattr("sys.stdin", io.StringIO(plain))
+    with contextlib.suppress(RosError):  # URDF from the database is none
+        spawn("-urdf", *source, "-model", "arm", "-J", "lift", "0.5")
+    out = capsys.readouterr().out
+    assert f"Loading model XML from {said}\n" in out
+    if "-database" not in source:
+        assert "Set model configuration status: " in out

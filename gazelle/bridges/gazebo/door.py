@@ -21,6 +21,7 @@ from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
 from gazelle.bridges.gazebo.world import WorldServices
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
+from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.stepping import make_scheduled
 
@@ -60,8 +61,9 @@ class GazeboDoor:
         self._simulation, self._node = simulation, node
         self._closing: list[Callable[[], None]] = []
         self._bindings: dict[str, Binding] = {}
-        if node.get_param("/use_sim_time", None) is None:
-            node.set_param("/use_sim_time", True)
+        self._make_time()
+        node.on_new_master.append(self._make_time)
+        self._closing.append(lambda: node.on_new_master.remove(self._make_time))
         rate = float(node.get_param("~pub_clock_frequency", 0))
         self._clock = ClockBeat(self.context, rate)
         self._states: StatesBeat | None = None
@@ -69,12 +71,20 @@ class GazeboDoor:
         # Plugins of the world speak for themselves, as in Gazebo.
         simulation.requests.call(self._follow)
         self._closing.append(serve_loggers(node))
+        reports = report_on_rosout(node)
+        if reports is not None:
+            self._closing.append(reports.close)
         if node.get_param("~enable_ros_network", True):
             self._open_network()
         self._closing.append(simulation.events.rested.subscribe(self._flush))
         entries = [make_scheduled(beat, type(beat).__name__, "") for beat in self._beats]
         simulation.requests.call(lambda: simulation.plugins.extend(entries))
         self._entries = entries
+
+    def _make_time(self) -> None:
+        """Let nodes go by the simulated time, unless somebody has said what they go by."""
+        if self._node.get_param("/use_sim_time", None) is None:
+            self._node.set_param("/use_sim_time", True)
 
     def _open_network(self) -> None:
         self._states = StatesBeat(self.context)

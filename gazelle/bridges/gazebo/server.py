@@ -40,7 +40,8 @@ def main(arguments: Sequence[str]) -> int:
     options = _options(found.plain)
     place = names.as_namespace(found.options["namespace"])
     refuse_twin(names.join(place, found.options["name"]), found.options.get("master_uri"))
-    with found.start() as node, Simulation(find_world(options.world), seed=options.seed) as sim:
+    # The node comes first: what the world warns of while it is read goes to /rosout, too.
+    with found.start() as node, _simulation(options) as sim:
         for plugin in options.plugins:
             sim.load_plugin(plugin)
         if options.paused:
@@ -55,6 +56,13 @@ def main(arguments: Sequence[str]) -> int:
         with door, stopping() as stop:
             _run(door, stop, options.iterations * sim.physics.time_step or None)
     return 0
+
+
+def _simulation(options: argparse.Namespace) -> Simulation:
+    """The world that runs; what is asked for in vain is said."""
+    for notice in dict.fromkeys(options.notices):
+        warnings.warn(notice, SimulationWarning, stacklevel=2)
+    return Simulation(find_world(options.world), seed=options.seed)
 
 
 def _run(door: RosDoor, stop: threading.Event, seconds: float | None) -> None:
@@ -94,8 +102,6 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     options = parser.parse_args(list(arguments))
     if options.physics not in _ENGINES:
         options.notices.append(f"there is no physics '{options.physics}': MuJoCo computes it")
-    for notice in dict.fromkeys(options.notices):
-        warnings.warn(notice, SimulationWarning, stacklevel=2)
     return options
 
 

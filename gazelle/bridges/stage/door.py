@@ -15,6 +15,7 @@ from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, fact
 from gazelle.bridges.stage.services import Services
 from gazelle.bridges.stage.watchdog import Watchdog
 from gazelle.ros import Node, Time, load_message
+from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.stage import StageSimulation
 
@@ -55,7 +56,9 @@ class StageDoor:
         self.rate = rate
         self._simulation, self._node, self._world = simulation, node, world
         self._stop = threading.Event()
-        node.set_param("/use_sim_time", True)
+        self._make_time()
+        node.on_new_master.append(self._make_time)
+        self._reports = report_on_rosout(node)
         asked = read_parameters(node)
         self._monotonic, self._offset_ns = asked.monotonic_clock, 0
         self.naming = Naming(
@@ -87,6 +90,10 @@ class StageDoor:
         node.on_shutdown.append(lambda _reason: self.stop())
 
     # -- publishing ------------------------------------------------------------------------
+
+    def _make_time(self) -> None:
+        """Let nodes go by the simulated time."""
+        self._node.set_param("/use_sim_time", True)
 
     def now(self) -> Time:
         """The simulated time as the graph sees it."""
@@ -192,6 +199,9 @@ class StageDoor:
             topics.close()
         self._clock.close()
         self._tf.close()
+        self._node.on_new_master.remove(self._make_time)
+        if self._reports is not None:
+            self._reports.close()
 
     def __enter__(self) -> Self:
         return self

@@ -19,7 +19,8 @@ def main(arguments: Sequence[str]) -> int:
     """
     found = parse_arguments(arguments, "stageros")
     options = _options(found.plain)
-    with StageSimulation(options.world) as sim, found.start() as node:
+    # The node comes first: what the world warns of while it is read goes to /rosout, too.
+    with found.start() as node, StageSimulation(options.world) as sim:
         speedup = sim.stage.speedup
         door = StageDoor(
             sim, node, rate=speedup if speedup > 0.0 else None, model_names=options.model_names

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import os
+import sys
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.ros import names
+from gazelle.ros.errors import MasterUnreachableError, NoMasterError
 from gazelle.ros.node import Node
 from gazelle.ros.signals import stopping
+
+_MASTER_LOOK_S = 0.02
+_QUIET_S = 1.0
+"""A master that was started at the same time is there by then [s]."""
 
 
 @dataclass(slots=True)
@@ -23,14 +30,37 @@ class NodeArguments:
     parameters: dict[str, str] = field(default_factory=dict)
     """Private parameters, as YAML."""
 
-    def start(self, **keywords: Any) -> Node:
-        """The node, with its private parameters set."""
-        from gazelle.ros.launch.values import load_yaml
+    def start(self, *, rosout: bool = True, **keywords: Any) -> Node:
+        """The node, as soon as there is a master, with its private parameters set.
 
-        node = Node(**self.options, **keywords)
+        Args:
+            rosout: Publish this process's warnings and log on ``/rosout``.
+            keywords: More of what `Node` takes.
+        """
+        from gazelle.ros.launch.values import load_yaml
+        from gazelle.ros.rosout_log import report_on_rosout
+
+        node = self._join(**keywords)
+        if rosout:
+            report_on_rosout(node)
         for name, text in self.parameters.items():
             node.set_param(f"~{name}", load_yaml(text))
         return node
+
+    def _join(self, **keywords: Any) -> Node:
+        """The node; nodes of ROS wait for a master that is not there yet, however long."""
+        begin = time.monotonic()
+        said = False
+        while True:
+            try:
+                return Node(**self.options, **keywords)
+            except NoMasterError:
+                raise
+            except MasterUnreachableError as error:
+                if not said and time.monotonic() - begin > _QUIET_S:
+                    said = True
+                    sys.stderr.write(f"[WARN] {error.message}; waiting for it\n")
+                time.sleep(_MASTER_LOOK_S)
 
 
 def parse_arguments(

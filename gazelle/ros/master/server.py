@@ -60,7 +60,7 @@ class Master:
         self.ended = ended or threading.Event()
         self._loop = loop.acquire()
         self._closed = False
-        self._host = host
+        host = self._host = net.usable_host(host)
         self._calls = AsyncClient(self._loop, _PATIENCE_S, limits)
         self.api = MasterApi(self._notify, self._ask_to_end)
         try:

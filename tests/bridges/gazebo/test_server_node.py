@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import signal
 import subprocess
 import sys
+import threading
+import time
+import warnings
 
 import pytest
 from door_client import Client
@@ -132,3 +136,82 @@ def test_who_makes_the_time_does_not_listen_to_its_own_clock():
         with serve_ros(sim, master.uri) as door:
             _, subscribers, _ = door.node.master.system_state()
             assert "/clock" not in subscribers
+
+
+ODD = WORLD.replace("</world>", '<plugin name="odd" filename="libnobody_has_this.so"/></world>')
+
+
+def heard_of(master, node):
+    """A node that hears what another says; and what it heard."""
+    heard = []
+    listener = Node("listener", master_uri=master.uri)
+    listener.subscribe("/rosout", load_message("rosgraph_msgs/Log"), heard.append, None)
+    return listener, lambda: [each for each in heard if each.name == node]
+
+
+def test_what_the_world_warns_of_is_on_rosout(master, world):
+    world.write_text(ODD, encoding="utf-8")
+    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    listener, said = heard_of(master, "/gazebo")
+    flags = ["--play", "a.log", str(world), "__name:=gazebo"]
+    with subprocess.Popen([*program, *flags], stderr=subprocess.PIPE, text=True) as process:
+        try:
+            until(lambda: len(said()) >= 2, 60.0)
+            assert "/rosout" in listener.master.system_state()[0]
+        finally:
+            process.send_signal(signal.SIGINT)
+            shown = process.stderr.read()
+            listener.close()
+    texts = [each.msg for each in said()]
+    assert any("libnobody_has_this.so" in text for text in texts)
+    assert any("logs of Gazebo are not played" in text for text in texts)
+    assert all(text in shown for text in texts), "they are shown as before"
+    assert {each.level for each in said()} == {4}
+    assert all("/rosout" in each.topics for each in said())
+
+
+def test_what_a_running_simulation_warns_of_is_on_rosout(master):
+    listener, said = heard_of(master, "/gazebo")
+    before = warnings.showwarning
+    with gazelle.Simulation("empty") as sim, serve_ros(sim, master.uri):
+        assert "/gazebo" in listener.master.system_state()[0]["/rosout"]
+        with warnings.catch_warnings():
+            warnings.simplefilter("always")
+            warnings.warn("something odd", SimulationWarning, stacklevel=1)
+            warnings.warn("of no concern to ROS", UserWarning, stacklevel=1)
+        logging.getLogger("gazelle.plugins").error("something %s", "bad")
+        until(lambda: len(said()) >= 2)
+    assert [(each.level, each.msg) for each in said()] == [
+        (4, "something odd"),
+        (8, "something bad"),
+    ]
+    assert said()[0].file == "test_server_node.py"
+    assert warnings.showwarning == before
+    listener.close()
+
+
+def test_a_new_master_learns_that_time_is_simulated(monkeypatch):
+    with Master(port=0, rosout=False) as first:
+        uri, port = first.uri, first.port
+        sim = gazelle.Simulation("empty")
+        door = serve_ros(sim, uri)
+    with sim, door, Master(port=port, rosout=False):
+        proxy = MasterProxy(uri, "/test")
+        until(lambda: "/clock" in proxy.system_state()[0], 20.0)
+        until(lambda: proxy.has_param("/use_sim_time"), 20.0)
+        assert proxy.get_param("/use_sim_time") is True
+        proxy.close()
+
+
+def test_it_waits_for_a_master(world, monkeypatch):
+    with Master(port=0, rosout=False) as gone:
+        port = gone.port
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{port}")
+    done = []
+    thread = threading.Thread(target=lambda: done.append(serve(["--iters", "5", str(world)])))
+    thread.start()
+    time.sleep(0.3)
+    assert thread.is_alive()
+    with Master(port=port, rosout=False):
+        thread.join(30)
+    assert done == [0]

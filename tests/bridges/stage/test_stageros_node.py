@@ -58,9 +58,57 @@ def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_pat
 def test_it_ends_at_the_files_quit_time(master, tmp_path):
     process = start(master, str(write(tmp_path, "quit_time 2 " + TWO)))
     with process.stderr:
-        assert process.wait(60) == 0
+        assert process.wait(15) == 0
 
 
 def test_launch_files_find_it(monkeypatch):
     monkeypatch.setattr(registry, "_registered", {"stage_ros": STAGE_ROS})
     assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.bridges.stage.server"
+
+
+def test_it_waits_for_a_master_and_ends_while_it_waits(tmp_path):
+    with Master(port=0, rosout=False) as master:
+        port = master.port
+    world = str(write(tmp_path, "quit_time 1 " + TWO))
+    process, waiting = start(master, world), start(master, world, "__name:=other")
+    with process.stderr, waiting.stderr:
+        assert "waiting for it" in process.stderr.readline()
+        assert "waiting for it" in waiting.stderr.readline()
+        waiting.terminate()
+        waiting.wait(20)
+        assert process.poll() is None
+        with Master(port=port, rosout=False):
+            assert process.wait(15) == 0
+
+
+def test_what_the_file_is_warned_of_is_on_rosout(master, tmp_path):
+    odd = TWO.replace('name "b"', 'name "b" colour "red"')
+    heard = []
+    with Node("client", master_uri=master.uri, clock=WallClock()) as node:
+        node.subscribe("/rosout", load_message("rosgraph_msgs/Log"), heard.append)
+        process = start(master, str(write(tmp_path, "quit_time 20 " + odd)), "__name:=sim")
+        with process.stderr:
+            end = time.monotonic() + 60.0
+            while not heard and time.monotonic() < end:
+                time.sleep(0.02)
+            process.kill()
+            process.wait(20)
+    assert (heard[0].name, heard[0].level) == ("/sim", 4)
+    assert "colour" in heard[0].msg
+
+
+def test_a_new_master_learns_that_time_is_simulated(tmp_path):
+    with Master(port=0, rosout=False) as master:
+        port = master.port
+        process = start(master, str(write(tmp_path, TWO)))
+        with Node("client", master_uri=master.uri, clock=WallClock()) as node:
+            while "/b/odom" not in node.master.system_state()[0]:
+                time.sleep(0.02)
+            time.sleep(0.5)
+    with process.stderr, Master(port=port, rosout=False) as again:
+        end = time.monotonic() + 30.0
+        while not again.api.parameters.has("/use_sim_time"):
+            assert time.monotonic() < end
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0

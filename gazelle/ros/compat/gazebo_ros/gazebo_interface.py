@@ -74,10 +74,12 @@ def _call(namespace: str, name: str, kind: str, fields: Sequence[Any]) -> bool |
     full = f"{namespace}/{name}"
     rospy.loginfo(f"Waiting for service {full}")
     rospy.wait_for_service(full)
+    rospy.loginfo(f"Calling service {full}")
     try:
         answer = rospy.ServiceProxy(full, load_service(f"gazebo_msgs/{kind}"))(*fields)
     except rospy.ServiceException as error:
         rospy.logerr(f"Service call failed: {error}")
         return None
-    rospy.loginfo(f"{name}: {answer.status_message}")
+    what = "Spawn" if kind == "SpawnModel" else "Set model configuration"
+    rospy.loginfo(f"{what} status: {answer.status_message}")
     return bool(answer.success)
