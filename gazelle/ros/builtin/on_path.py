@@ -1,7 +1,8 @@
 """ROS's commands as programs, for scripts that call ``rosservice`` or ``roslaunch`` by name.
 
 They are small files in a folder of the user's cache, which `offer` puts in front of ``PATH``; the
-folder's ``python`` is the one that runs now, and whatever it runs may ``import rospy``.
+folder's ``python`` is the one that runs now, and whatever it runs may ``import rospy``. Its terminals
+run what they are given without a window where there is no display.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Mapping, MutableMapping
 from pathlib import Path
 
 from gazelle.ros import tool_names
+from gazelle.ros.builtin.terminal import TERMINALS
 
 _PYTHONS = ("python", "python3")
 _SITE = "site"
@@ -75,6 +77,8 @@ def _files() -> dict[str, str]:
         files[name] = _program(name, "gazelle.cli.main", words)
     for name, words in tool_names.NODES.items():
         files[name] = _program(name, "gazelle.ros.builtin.start", words)
+    for name in TERMINALS:
+        files[name] = _program(name, "gazelle.ros.builtin.terminal", (name,))
     return files | {f"{_SITE}/sitecustomize.py": _CUSTOMIZE}
 
 

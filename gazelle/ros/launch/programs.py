@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import Error
-from gazelle.ros.builtin import registry
+from gazelle.ros.builtin import registry, terminal
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages, is_python
 from gazelle.ros.launch.plan import Command, NodePlan, Parameter
@@ -23,6 +23,7 @@ from gazelle.ros.launch.values import convert
 _EXECUTE = (sys.executable, "-m", "gazelle.cli.main", "exec")
 """Runs a script with ``import rospy`` and its like answered by Gazelle."""
 _BUILTIN = (sys.executable, "-m", "gazelle.ros.builtin.start")
+_TERMINAL = (sys.executable, "-m", "gazelle.ros.builtin.terminal")
 _PYTHON = re.compile(r"(?:.*/)?python[\d.]*")
 _XACRO = {"xacro", "xacro.py"}
 _COMMAND_SECONDS = 120.0
@@ -109,7 +110,8 @@ def prefix_arguments(node: NodePlan) -> list[str]:
 def prefixed_command(node: NodePlan, program: Program) -> list[str]:
     """A program's command line behind the words of ``launch-prefix``.
 
-    ``python3`` before a Python script names what runs it anyway.
+    ``python3`` before a Python script names what runs it anyway. A terminal, as in ``xterm -e``,
+    is left out where it cannot open a window.
 
     Raises:
         LaunchError: The prefix is not well quoted.
@@ -117,6 +119,10 @@ def prefixed_command(node: NodePlan, program: Program) -> list[str]:
     words = prefix_arguments(node)
     if program.command[0] == sys.executable and len(words) == 1 and _PYTHON.fullmatch(words[0]):
         words = []
+    name = Path(words[0]).name if words else ""
+    env = {**os.environ, **dict(node.environment)}
+    if name in terminal.TERMINALS and terminal.real_terminal(name, env) is None:
+        words = [*_TERMINAL, terminal.IN_PLACE, name, *words[1:]]
     return [*words, *program.command]
 
 
