@@ -53,21 +53,23 @@ def test_world_0_is_gymnasiums_own_vector_of_one_environment(stage, engine, mode
     theirs = SyncVectorEnv(
         [lambda: gym.make(task, max_episode_steps=5, **options)], autoreset_mode=mode
     )
+    # With an empty step before it an episode begins at another time, of which intervals are
+    # taken with another rounding. Noise is 0.01 m, and goals are 1 m apart.
+    off = 0.0 if mode is SAME else 2e-3
     generator = np.random.default_rng(stage)
     seen, theirs_seen = ours.reset(seed=4)[0], theirs.reset(seed=4)[0]
     for _ in range(23):
-        # Moving obstacles stand by the time since the reset, which rounds by the time it was.
-        np.testing.assert_allclose(seen[0], theirs_seen[0], rtol=0, atol=0 if stage < 3 else 1e-6)
+        np.testing.assert_allclose(seen[0], theirs_seen[0], rtol=0, atol=off)
         actions = generator.integers(0, 5, 3)
         seen, reward, *ends, info = ours.step(actions)
         theirs_seen, theirs_reward, *theirs_ends, theirs_info = theirs.step(actions[:1])
-        assert reward[0] == pytest.approx(theirs_reward[0], rel=0 if stage < 3 else 1e-6)
+        assert reward[0] == pytest.approx(theirs_reward[0], rel=0, abs=30 * off)
         assert [end[0] for end in ends] == [end[0] for end in theirs_ends]
         assert info["goal"][0].tolist() == theirs_info["goal"][0].tolist()
         both = "final_obs" in theirs_info
         assert both == ("final_obs" in info and info["_final_obs"][0])
         if both:
-            np.testing.assert_allclose(info["final_obs"][0], theirs_info["final_obs"][0], atol=1e-6)
+            np.testing.assert_allclose(info["final_obs"][0], theirs_info["final_obs"][0], atol=off)
     ours.close()
     theirs.close()
 

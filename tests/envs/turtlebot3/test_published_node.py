@@ -73,14 +73,14 @@ def test_a_step_is_the_nodes(stage, ranges, position, yaw, goal, action, cents):
 @pytest.mark.parametrize("engine", ["mujoco", "planar"])
 @pytest.mark.parametrize("stage", [1, 2, 3, 4])
 def test_what_an_environment_pays_is_what_the_node_pays_for_its_observation(stage, engine):
-    nworld, rays = 48, 24
+    nworld, rays = 32, 24
     settings = NavigationSettings(engine=engine, seed=3, threads=1, lidar_samples=rays)
     task = make_task(stage, nworld, continuous=False, settings=settings)
     first, _ = task.begin(np.arange(nworld))
     start = first[:, rays + 1].astype(float).round(2)
     generator = np.random.default_rng(stage)
     grazed = 0
-    for _ in range(120):
+    for _ in range(90):
         actions = generator.choice([1, 2, 2, 2, 3], nworld)
         made = task.advance(actions)
         for world in range(nworld):
