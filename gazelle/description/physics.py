@@ -56,6 +56,8 @@ class Physics:
             so that fast bodies do not pass through thin ones; None leaves it to the engine.
         integrator: ``euler`` (semi-implicit, as ODE) or ``rk4`` (fourth order, four times the
             work); None leaves it to the engine.
+        contacts: ``exact`` (what is held does not creep) or ``fast`` (for robots that drive),
+            whatever ``ode.friction_model`` says; None leaves it to that, or to the engine.
         extras: Elements of other engines kept whole: bullet, dart, simbody.
     """
 
@@ -70,5 +72,6 @@ class Physics:
     auto_disable: bool | None = None
     speculative_contacts: bool | None = None
     integrator: str | None = None
+    contacts: str | None = None
     extras: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)

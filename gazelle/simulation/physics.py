@@ -23,6 +23,7 @@ _OF_PROFILE = {
     "auto_disable": "auto_disable",
     "speculative_contacts": "speculative_contacts",
     "integrator": "integrator",
+    "contacts": "contacts",
 }
 _OF_SOLVER = {
     "iterations": "iters",
@@ -42,6 +43,8 @@ _NAMES = (*_OF_WORLD, *_OF_PROFILE, *_OF_SOLVER)
 _WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
 
 _FRICTION_MODELS = ("pyramid_model", "box_model", "cone_model")
+
+_CONTACTS = ("exact", "fast")
 
 _POSITIVE = ("time_step", "iterations")
 _NOT_NEGATIVE = (
@@ -262,6 +265,20 @@ class PhysicsProperties:
     def integrator(self, value: str | None) -> None:
         self.set(integrator=value)
 
+    @property
+    def contacts(self) -> str | None:
+        """``exact``: what is held does not creep; ``fast``: for robots that drive.
+
+        None leaves it to ``friction_model``, or else to the engine: exact where something
+        lies loose. Friction is the same cone or pyramid as with ``friction_model``, which this
+        goes before. See docs/physics.md.
+        """
+        return self.profile.contacts
+
+    @contacts.setter
+    def contacts(self, value: str | None) -> None:
+        self.set(contacts=value)
+
     # -- change ------------------------------------------------------------------------
 
     def set(self, **values: Any) -> None:
@@ -328,6 +345,10 @@ def _check(name: str, value: Any) -> None:
     if name == "friction_model" and value not in (None, *_FRICTION_MODELS):
         raise SimulationError(
             f"there is no friction model '{value}'", hint=did_you_mean(str(value), _FRICTION_MODELS)
+        )
+    if name == "contacts" and value not in (None, *_CONTACTS):
+        raise SimulationError(
+            f"there are no contacts '{value}'", hint=did_you_mean(str(value), _CONTACTS)
         )
     if name in ("gravity", "magnetic_field", "wind") and len(value) != 3:
         raise SimulationError(f"the physics property '{name}' needs three numbers, not {value}")

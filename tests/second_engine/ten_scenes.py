@@ -23,7 +23,7 @@ PIVOT = "both are 2 mrad off the limit of small steps at 1 ms, not in quite the 
 LOOP = "how far the loop opens, with the square of the step: 0.15 mm here, 0.12 mm in Bullet"
 DEPTH = "how deep a contact rests, and how soft it is"
 IMPACT = "when in a step an impact falls, and how soft it is"
-CREEP = "friction that holds creeps a little, in both"
+CREEP = "friction that holds creeps a little there"
 RIM = "sliding contacts: the wheels slip for the first 0.2 s, the caster all the way"
 LIMIT = "the stop of a joint is a spring of five steps here, rigid in Bullet"
 

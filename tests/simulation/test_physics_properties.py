@@ -8,7 +8,7 @@ import scenes
 
 from gazelle.description import Physics, Pose, World
 from gazelle.errors import SimulationError, SimulationWarning
-from gazelle.simulation import Simulation
+from gazelle.simulation import Replay, Simulation
 
 
 def speed(sim, axis=0):
@@ -37,6 +37,7 @@ def test_every_physics_property_can_be_read_and_set():
             "auto_disable": True,
             "speculative_contacts": True,
             "friction_model": "cone_model",
+            "contacts": "exact",
             "contact_surface_layer": 0.01,
             "contact_max_correcting_velocity": 0.1,
         }
@@ -51,9 +52,9 @@ def test_every_physics_property_can_be_read_and_set():
             setattr(physics, name, 7)  # nothing new, nothing said
 
 
-def test_a_cone_makes_friction_the_same_in_all_directions():
-    def slid(model):
-        pull = 9.8 * 0.42 / math.sqrt(2.0)  # down a slope of 0.42, between x and y; mu is 0.5
+def test_friction_is_the_same_in_all_directions_on_a_cone_and_on_a_pyramid():
+    def slid(model, slope):
+        pull = 9.8 * slope / math.sqrt(2.0)  # down it, between x and y; mu is 0.5
         block = scenes.box(size=(0.4, 0.4, 0.05), pose=Pose(z=0.025), mu=0.5)
         world = scenes.world(scenes.ground(), block, gravity=(pull, pull, -9.8))
         with Simulation(world) as sim:
@@ -61,8 +62,9 @@ def test_a_cone_makes_friction_the_same_in_all_directions():
             sim.run(1.0)
             return np.linalg.norm(sim.robots["box"].placement().position[0, :2])
 
-    assert slid("pyramid_model") > 0.1
-    assert slid("cone_model") < 0.002
+    for model in ("pyramid_model", "cone_model"):
+        assert slid(model, 0.47) < 0.002
+        assert slid(model, 0.55) == pytest.approx(9.8 * 0.05 / 2.0, rel=0.01)
 
 
 def test_wrong_physics_is_refused_and_nothing_changes():
@@ -89,3 +91,37 @@ def test_the_physics_profiles_of_a_file_are_presets():
         assert sim.physics.time_step == 0.001
         with pytest.raises(SimulationError, match="did you mean 'coarse'"):
             sim.physics.use("course")
+
+
+def test_contacts_are_chosen_by_name_before_and_during_a_run_and_survive(tmp_path):
+    robot = scenes.burger()
+
+    def cone(sim):
+        return sim.engine._batch.model.opt.cone == 1
+
+    with Simulation(scenes.world(scenes.ground(), robot)) as sim:
+        assert sim.physics.contacts is None
+        assert not cone(sim)
+        with sim.record(tmp_path / "run.jsonl"):
+            sim.run(0.1)
+            x = sim.robots["burger"].position.copy()
+            sim.physics.contacts = "exact"
+            assert cone(sim)
+            np.testing.assert_array_equal(sim.robots["burger"].position, x)
+            sim.run(0.1)
+        end = sim.state_hash()
+        saved = sim.snapshot()
+        sim.reset()
+        assert sim.physics.contacts == "exact"
+        with Simulation(scenes.world(scenes.ground(), robot)) as other:
+            other.restore(saved)
+            assert other.physics.contacts == "exact"
+            assert cone(other)
+        with pytest.raises(SimulationError, match=r"there are no contacts 'fsat'.*fast"):
+            sim.physics.contacts = "fsat"
+        sim.physics.contacts = "fast"
+        assert not cone(sim)
+    with Replay(tmp_path / "run.jsonl") as replay:
+        replay.run()
+        assert replay.simulation.physics.contacts == "exact"
+        assert replay.simulation.state_hash() == end

@@ -34,6 +34,7 @@ from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_o
 from gazelle.engines.mujoco.stops import tune_stops
 from gazelle.engines.mujoco.surfaces import (
     friction_ranks,
+    hold_fast,
     surface_options,
 )
 from gazelle.engines.mujoco.treads import possible_treads
@@ -43,10 +44,6 @@ from gazelle.errors import EngineError, EngineWarning
 
 COLLISION_GROUP = 0
 VISUAL_GROUP = 1
-
-# How many times stiffer friction is than the springs across it, where there are springs. In
-# ODE they do not soften it at all; with ten, what it holds creeps by some mm/s at most.
-_SPRING_IMPEDANCE_RATIO = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +122,8 @@ class Draft:
             compiled = self.spec.compile()
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
+        hold_fast(compiled)
+        self.spec.option.impratio = compiled.opt.impratio
         tune_springs(compiled, self.springs)
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
         tune_slips(compiled, self.slips)
@@ -187,8 +186,6 @@ def draft_world(recipe: Recipe) -> Draft:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
         # and bounce with what bounces; its sides do not turn.
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    if pairs.springs:
-        spec.option.impratio = _SPRING_IMPEDANCE_RATIO
     closures = [closure for tree in trees.values() for closure in tree.closures]
     slides = may_slide(builder.solids)
     extras = Extras(

@@ -16,9 +16,6 @@ _MANY = 16
 # by a hundredth of a radian would stop where it turns back.
 SLEEP_SPEED = 1e-4
 
-# Up to this step wheels creep no more on a cone than on a pyramid [s].
-_FINE = 0.001
-
 # Speed that a loose body may well have [m/s]: a ball thrown or shot.
 _FAST = 20.0
 
@@ -51,16 +48,14 @@ def looks_ahead(world: World, time_step: float, kinematic: Collection[str] = ())
     return any(_is_loose(model) and _half_thickness(model) <= reach for model in moving)
 
 
-def rubs_alike(world: World, time_step: float, kinematic: Collection[str] = ()) -> bool:
-    """Whether friction is to be the same in all directions.
+def has_loose(world: World, kinematic: Collection[str] = ()) -> bool:
+    """Whether there is something that may be pushed, stacked or gripped.
 
-    What lies about loose slips in any direction: a cone is right there, and faster than a
-    pyramid. Robots whose wheels roll drive as well on a pyramid, which costs them less; at
-    large steps they drive better on it.
+    Args:
+        world: The description.
+        kinematic: Names of models that move only when told to; such a one is never loose.
     """
-    moving = _moving(world, kinematic)
-    loose = any(_is_loose(model) and _collides(model) for model in moving)
-    return loose and (time_step <= _FINE or all(_is_loose(model) for model in moving))
+    return any(_is_loose(model) and _collides(model) for model in _moving(world, kinematic))
 
 
 def _moving(world: World, kinematic: Collection[str]) -> list[Model]:

@@ -10,11 +10,14 @@ from collections.abc import Collection
 import mujoco
 
 from gazelle.description import World
-from gazelle.engines.mujoco.loose import SLEEP_SPEED, lets_sleep, looks_ahead, rubs_alike
+from gazelle.engines.mujoco.loose import SLEEP_SPEED, has_loose, lets_sleep, looks_ahead
 from gazelle.errors import EngineError, did_you_mean
 
 # So often MuJoCo's line search may halve its interval: motors and dry friction are stiff.
 _LINE_SEARCH_ITERATIONS = 100
+
+# Names of how contacts are solved.
+CONTACTS = ("exact", "fast")
 
 _INTEGRATORS = {
     # Semi-implicit Euler as ODE integrates; joint damping is implicit (eulerdamp).
@@ -44,7 +47,7 @@ def set_options(
     option = spec.option
     option.timestep = time_step
     option.integrator = _integrator(world.profile.integrator)
-    option.cone = _cone(world, time_step, kinematic)
+    option.cone = _cone(world, kinematic)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
     option.iterations = max(1, world.profile.ode.iters)
@@ -62,11 +65,24 @@ def set_options(
     spec.compiler.fusestatic = False
 
 
-def _cone(world: World, time_step: float, kinematic: Collection[str]) -> mujoco.mjtCone:
-    """MuJoCo's form of friction for SDF's friction models, or what suits the world."""
-    wanted = world.profile.ode.friction_model
-    alike = rubs_alike(world, time_step, kinematic) if wanted is None else wanted == "cone_model"
-    return mujoco.mjtCone.mjCONE_ELLIPTIC if alike else mujoco.mjtCone.mjCONE_PYRAMIDAL
+def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
+    """MuJoCo's form of friction: as asked for by name, by SDF's friction model, or by the world.
+
+    In a cone what is held does not creep. A pyramid is faster for robots that drive.
+
+    Raises:
+        EngineError: There are no such contacts.
+    """
+    wanted, friction_model = world.profile.contacts, world.profile.ode.friction_model
+    if wanted is not None and wanted not in CONTACTS:
+        raise EngineError(f"there are no contacts '{wanted}'", hint=did_you_mean(wanted, CONTACTS))
+    if wanted is not None:
+        cone = wanted == "exact"
+    elif friction_model is not None:
+        cone = friction_model == "cone_model"
+    else:
+        cone = has_loose(world, kinematic)
+    return mujoco.mjtCone.mjCONE_ELLIPTIC if cone else mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
 def _integrator(name: str | None) -> mujoco.mjtIntegrator:

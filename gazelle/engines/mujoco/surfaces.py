@@ -9,6 +9,8 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+import mujoco
+
 from gazelle.description import Collision
 
 # Files say "never slip" with 1e5 and more. At 100 nothing slips on slopes of up to 89 degrees.
@@ -25,6 +27,12 @@ _LARGEST_IN_A_PYRAMID = 1.0
 # lies stays well above it; what is pressed that deep, by thousands of times its weight, meets a
 # surface that gives way no further (tests/engines/test_mechanics.py).
 _IMPEDANCE = (0.9, 0.9999, 0.001, 0.5, 2.0)
+
+# How many times stiffer friction is than the normal direction, or what is held creeps: in a
+# pyramid, and in a cone, where the share at first touch may be this, too. In a pyramid so much
+# makes wheels shake; in a cone it costs nothing (docs/physics.md, "What is held").
+_RATIO_IN_A_PYRAMID, _RATIO_IN_A_CONE = 100.0, 10_000.0
+_SHARE_IN_A_CONE = 0.99
 
 # A little more than critical. Less would bounce; twice as much rocks cylinders up.
 _DAMPING_RATIO = 1.25
@@ -65,6 +73,17 @@ def rigid_terms(time_step: float) -> dict[str, list[float]]:
         "solref": [_TIME_CONSTANT_STEPS * time_step, _DAMPING_RATIO],
         "solimp": list(_IMPEDANCE),
     }
+
+
+def hold_fast(model: mujoco.MjModel) -> None:
+    """Let what is held by friction creep as little as the solver can do."""
+    if model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL:
+        model.opt.impratio = _RATIO_IN_A_PYRAMID
+        return
+    model.opt.impratio = _RATIO_IN_A_CONE
+    for shares in (model.geom_solimp, model.pair_solimp):
+        rigid = (shares == _IMPEDANCE).all(axis=1)
+        shares[rigid, 0] = _SHARE_IN_A_CONE
 
 
 def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:

@@ -12,7 +12,7 @@ holds is left alone.
 An error e of that estimate makes the next one wrong by e mu² k / (1 + mu² k), k being the ratio
 of the contact's inverse inertias along the slip and the normal (1 for a block, 7/2 for a ball).
 So errors die out, for every mu. The normal acceleration that the last step lacked tells more:
-with k known, the estimate would be exact at once. Half of that is taken, which damps for all k;
+with k known, the estimate would be exact at once. Some of that is taken, which damps for all k;
 in an impact all of it, with k = 1.
 """
 
@@ -34,6 +34,9 @@ AT = offsets()
 # Slower slip parts the surfaces by some nanometres a step [m/s].
 _LEAST_SLIP = 1e-4
 
+# Slower creep has no direction [m/s].
+_LEAST_CREEP = 1e-6
+
 # What holds creeps, at less than this share of what friction takes off a slip in a step when
 # only the weight presses.
 _CREEP = 0.25
@@ -45,7 +48,7 @@ _MOST_FRICTION = 5.0
 _IMPACT, _LEAST_IMPACT = 4.0, 4.0
 
 # Largest share, times mu², of the normal acceleration that the last step lacked.
-_DAMPED = 0.5
+_DAMPED = 0.25
 
 _ELLIPTIC = 1  # mjCONE_ELLIPTIC
 
@@ -102,7 +105,7 @@ def _on_a_pyramid(model: int, data: int, contact: int, row: int, edges: int, spa
     velocity = floats(long_at(data + AT.velocity) + 8 * row, 4)
     one, two = 0.5 * (velocity[0] - velocity[1]) / mu, 0.5 * (velocity[2] - velocity[3]) / mu
     slip = math.sqrt(one * one + two * two)
-    if slip < _LEAST_SLIP:
+    if slip < _LEAST_CREEP:
         return
     _turn_pyramid(model, data, contact, row, one / slip, two / slip, sparse)
     share = _share(model, slip, mu)
