@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 Color = tuple[float, float, float, float]
@@ -21,6 +21,7 @@ class Material:
             readers have already put into the fields above where they know it.
         script_uris: Where the file says the script is; empty for Gazebo's own.
         texture: Image file of the diffuse texture, or None.
+        urdf_color: The colour that a URDF's own ``<material>`` gives, which a script hides.
     """
 
     ambient: Color | None = None
@@ -30,3 +31,4 @@ class Material:
     script: str | None = None
     script_uris: tuple[str, ...] = ()
     texture: Path | None = None
+    urdf_color: Color | None = field(default=None, compare=False)

@@ -13,6 +13,9 @@ from gazelle.description import Color, Material
 STANDARD = "file://media/materials/scripts/gazebo.material"
 """Where files say that Gazebo's own scripts are."""
 
+URDF_COLOR = "gazelle:color"
+"""Attribute of a ``<material>``: the colour of a URDF that its colours were made of."""
+
 _PREFIX = "Gazebo/"
 
 # ambient and diffuse colour of each
@@ -98,6 +101,23 @@ def script_colors(name: str) -> tuple[Color, Color] | None:
     return None if picture is None else (picture, picture)
 
 
+def brightened(color: Color) -> Color:
+    """A URDF's colour as libsdformat writes it, for Gazebo's light of 0.8."""
+    red, green, blue, alpha = color
+    return (min(1.0, red / 0.8), min(1.0, green / 0.8), min(1.0, blue / 0.8), alpha)
+
+
+def with_urdf_color(material: Material, color: Color) -> Material:
+    """The material that a URDF's colour makes of one without a colour but that of its script."""
+    shown = with_script_colors(material)
+    return replace(
+        shown,
+        ambient=shown.ambient or color,
+        diffuse=shown.diffuse or color,
+        urdf_color=color,
+    )
+
+
 def with_script_colors(material: Material) -> Material:
     """The material with the colours of its script where it has none of its own."""
     known = None if material.script is None else script_colors(material.script)
@@ -108,8 +128,3 @@ def with_script_colors(material: Material) -> Material:
         ambient=material.ambient or known[0],
         diffuse=material.diffuse or known[1],
     )
-
-
-def is_standard(script: str, uris: tuple[str, ...] = ()) -> bool:
-    """Whether a script is one of Gazebo's own, which need no URI to be found."""
-    return script.startswith(_PREFIX) and uris in {(), (STANDARD,)}

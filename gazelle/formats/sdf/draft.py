@@ -18,6 +18,7 @@ from gazelle.formats.sdf.build import with_attributes
 from gazelle.formats.sdf.duplicates import MODEL_PARTS, free_name, with_own_names
 from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, Entry, Scope
 from gazelle.formats.sdf.merge import is_merge, with_merges
+from gazelle.formats.sdf.own_joint import with_own_joints
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
 Version = tuple[int, int]
@@ -72,7 +73,7 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
     Raises:
         FormatError: A name is missing, or one that SDF keeps for itself.
     """
-    node = with_merges(node, version, reading, include)
+    node = with_own_joints(with_merges(node, version, reading, include))
     node = with_own_names(node, MODEL_PARTS, reading)
     pose = node.find("pose")
     draft = Draft(

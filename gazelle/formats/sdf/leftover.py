@@ -11,13 +11,14 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from gazelle.description import Parameters
+from gazelle.formats.sdf.pose import QUATERNION
 
 Pattern: TypeAlias = Mapping[str, "Pattern | None"]
 
 _WHOLE = {"lens", "plugin"}
 _READ_ATTRIBUTES = {
     "noise": {"type"},
-    "pose": {"degrees", "frame", "relative_to", "rotation_format"},
+    "pose": {"degrees", "frame", "relative_to", "rotation_format", QUATERNION},
 }
 
 

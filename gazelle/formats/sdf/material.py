@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description import Color, Material, Parameters
 from gazelle.formats import values
-from gazelle.formats.materials import is_standard, with_script_colors
+from gazelle.formats.materials import (
+    STANDARD,
+    URDF_COLOR,
+    brightened,
+    with_script_colors,
+    with_urdf_color,
+)
 from gazelle.formats.reading import Reading
 
 
@@ -21,19 +28,23 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
         # files before SDF 1.3 write the script's name as the text itself
         name = values.word(script, "name") or script.text
         uris = tuple(uri.text for uri in script.find_all("uri") if uri.text)
-        if is_standard(name, uris):
+        if uris == (STANDARD,):  # Gazebo finds its own without being told where
             uris = ()
-    return with_script_colors(
-        Material(
-            ambient=_color(node, "ambient"),
-            diffuse=_color(node, "diffuse"),
-            specular=_color(node, "specular"),
-            emissive=_color(node, "emissive"),
-            script=name or None,
-            script_uris=uris,
-            texture=_texture(node, reading),
-        )
+    material = Material(
+        ambient=_color(node, "ambient"),
+        diffuse=_color(node, "diffuse"),
+        specular=_color(node, "specular"),
+        emissive=_color(node, "emissive"),
+        script=name or None,
+        script_uris=uris,
+        texture=_texture(node, reading),
     )
+    saved = node.attributes.get(URDF_COLOR, "")
+    if saved:
+        color = values.parse_color(node, saved)
+        if material.ambient == material.diffuse == brightened(color):  # nobody changed it since
+            return with_urdf_color(replace(material, ambient=None, diffuse=None), color)
+    return with_script_colors(material)
 
 
 def _color(node: Parameters, tag: str) -> Color | None:

@@ -7,7 +7,11 @@ import math
 from gazelle.description import Parameters, Pose
 from gazelle.formats import values
 
+QUATERNION = "gazelle:quaternion"
+"""Attribute that holds the rotation to the last bit beside angles that do not."""
+
 _IDENTITY = Pose()
+_ROUNDED = 1e-9
 
 
 def read_pose(node: Parameters | None) -> Pose:
@@ -25,7 +29,17 @@ def read_pose(node: Parameters | None) -> Pose:
     degrees = node.attributes.get("degrees", "")
     if degrees and values.parse_flag(node, degrees, "attribute 'degrees'"):
         roll, pitch, yaw = math.radians(roll), math.radians(pitch), math.radians(yaw)
-    return Pose(x, y, z, roll, pitch, yaw)
+    return _exact(node, Pose(x, y, z, roll, pitch, yaw))
+
+
+def _exact(node: Parameters, pose: Pose) -> Pose:
+    """The pose with its quaternion as saved, unless somebody has changed the angles since."""
+    saved = node.attributes.get(QUATERNION, "")
+    if not saved:
+        return pose
+    quaternion = _finite(node, values.parse_reals(node, saved, f"attribute '{QUATERNION}'", 4))
+    exact = Pose.from_quaternion(pose.position, quaternion)
+    return exact if exact.is_close(pose, position=_ROUNDED, angle=_ROUNDED) else pose
 
 
 def _finite(node: Parameters, numbers: tuple[float, ...]) -> tuple[float, ...]:

@@ -109,23 +109,17 @@ def read_imu_sensor(sensor: Sensor, node: Parameters) -> Sensor:
 
 
 def read_imu(node: Parameters) -> Imu:
-    """``<imu>``; the ``<noise><rate><accel>`` of SDF up to 1.5 serves all three axes."""
+    """``<imu>``."""
     return Imu(
-        angular_velocity=_axes(node, "angular_velocity", "rate"),
-        linear_acceleration=_axes(node, "linear_acceleration", "accel"),
+        angular_velocity=_axes(node, "angular_velocity"),
+        linear_acceleration=_axes(node, "linear_acceleration"),
         localization=values.word(node, "orientation_reference_frame/localization", "CUSTOM"),
         custom_rpy=values.vector(node, "orientation_reference_frame/custom_rpy", (0.0, 0.0, 0.0)),
         enable_orientation=values.flag(node, "enable_orientation", default=True),
     )
 
 
-def _axes(node: Parameters, tag: str, old: str) -> tuple[Noise, Noise, Noise]:
-    shared = node.find("noise")
-    inner = None if shared is None else shared.find(old)
-    if shared is not None and inner is not None:
-        kind = values.word(shared, "type") or shared.attributes.get("type", "gaussian")
-        noise = read_noise(replace(inner, attributes={"type": kind}))
-        return (noise, noise, noise)
+def _axes(node: Parameters, tag: str) -> tuple[Noise, Noise, Noise]:
     x, y, z = (read_noise(node.find(f"{tag}/{axis}/noise")) for axis in "xyz")
     return (x, y, z)
 
@@ -185,7 +179,6 @@ _IMU: Pattern = {
     "linear_acceleration": _NOISES,
     "orientation_reference_frame": dict.fromkeys(("localization", "custom_rpy")),
     "enable_orientation": None,
-    "noise": dict.fromkeys(("type", "rate", "accel")),
 }
 _PATTERNS: dict[Callable[[Sensor, Parameters], Sensor], Pattern] = {
     read_lidar_sensor: {"ray": _LIDAR, "lidar": _LIDAR},

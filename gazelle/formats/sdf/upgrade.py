@@ -2,7 +2,7 @@
 
 In 1.0 nearly all values were attributes: ``<box size="1 1 1"/>``. Since 1.2 they are
 elements. Which name is an attribute still, the schema says. What else moved is in SDF's own
-rules of conversion (``1_3.convert``) and in the files of that time.
+rules of conversion (``1_3.convert``) and in the files of that time. What moved later is in ``old_noise``.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from dataclasses import replace
 from typing import Any
 
 from gazelle.description import Parameters
+from gazelle.formats.sdf import old_noise
+from gazelle.formats.sdf.old_noise import with_noise_by_axis
 from gazelle.formats.sdf.schema import types
 
 Version = tuple[int, int]
@@ -32,7 +34,8 @@ _VALUE_ATTRIBUTES = {"enabled", "link", "pose", "rgba", "xyz"}
 
 def upgraded(root: Parameters, version: Version) -> Parameters:
     """The root element of an old file, with all in it where it stands today."""
-    return _element(root, "root") if version < SINCE else root
+    root = _element(root, "root") if version < SINCE else root
+    return with_noise_by_axis(root) if version < old_noise.SINCE else root
 
 
 def _element(node: Parameters, kind: str) -> Parameters:

@@ -7,27 +7,24 @@ from dataclasses import dataclass, replace
 
 from gazelle.description import (
     Collision,
-    Color,
     Light,
     Material,
     Parameters,
     Sensor,
-    Surface,
     Visual,
 )
 from gazelle.formats import values
-from gazelle.formats.materials import script_colors
+from gazelle.formats.materials import with_script_colors, with_urdf_color
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.light import read_light
-from gazelle.formats.sdf.material import read_material
+from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
-from gazelle.formats.sdf.surface import read_surface
+from gazelle.formats.urdf.applied import LUMP, applied, blob, material, real, surface
 from gazelle.formats.urdf.elements import Paint, read_geometry, read_origin, read_paint
-from gazelle.formats.urdf.extensions import Extensions, text
+from gazelle.formats.urdf.extensions import Extensions
 from gazelle.formats.urdf.tree import Body, Member
-
-LUMP = "_fixed_joint_lump__"
+from gazelle.formats.urdf.upright import upright
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +56,7 @@ def part_names(body: Body, tag: str) -> list[tuple[Member, Parameters, str, str]
 def read_collisions(body: Body, robot: Robot) -> tuple[Collision, ...]:
     """All collisions of a body."""
     return tuple(
-        _collision(member, node, name, robot)
+        _collision(body, member, node, name, robot)
         for member, node, name, _ in part_names(body, "collision")
         if not _is_nothing(node, robot)
     )
@@ -76,100 +73,59 @@ def _is_nothing(node: Parameters, robot: Robot) -> bool:
     return True
 
 
-def _collision(member: Member, node: Parameters, name: str, robot: Robot) -> Collision:
-    link = member.link.name
-    extensions = robot.extensions
-    blob = _blob(extensions, link, "collision")
+def _collision(body: Body, member: Member, node: Parameters, name: str, robot: Robot) -> Collision:
+    elements = applied(body, robot.extensions, "collision", name)
+    more = blob(elements, "collision")
     return Collision(
         name=name,
         geometry=read_geometry(node, robot.reading),
-        pose=member.pose * read_origin(node.find("origin")),
-        surface=_surface(extensions, link, blob.find("surface")),
-        laser_retro=extensions.real(link, "laserRetro", values.real(blob, "laser_retro", 0.0)),
-        max_contacts=int(
-            extensions.real(link, "maxContacts", values.whole(blob, "max_contacts", 10))
-        ),
+        pose=upright(member.pose * read_origin(node.find("origin"))),
+        surface=surface(elements),
+        laser_retro=real(elements, "laserRetro", values.real(more, "laser_retro", 0.0)),
+        max_contacts=int(real(elements, "maxContacts", values.whole(more, "max_contacts", 10))),
         source=node.source,
-    )
-
-
-def _blob(extensions: Extensions, link: str, tag: str) -> Parameters:
-    """All SDF that the link's ``<gazebo>`` elements add to each collision or visual."""
-    children = [
-        inner for child in extensions.of(link) if child.tag == tag for inner in child.children
-    ]
-    return Parameters(tag, children=tuple(reversed(children)))
-
-
-def _surface(extensions: Extensions, link: str, blob: Parameters | None) -> Surface:
-    surface = read_surface(blob)
-    friction, contact = surface.friction, surface.contact
-    fdir1 = extensions.last(link, "fdir1")
-    x, y, z = friction.fdir1
-    if fdir1 is not None and text(fdir1):
-        x, y, z = values.parse_reals(fdir1, text(fdir1), "<fdir1>", 3)
-    return replace(
-        surface,
-        friction=replace(
-            friction,
-            mu=extensions.real(link, "mu1", friction.mu),
-            mu2=extensions.real(link, "mu2", friction.mu2),
-            fdir1=(x, y, z),
-        ),
-        contact=replace(
-            contact,
-            kp=extensions.real(link, "kp", contact.kp),
-            kd=extensions.real(link, "kd", contact.kd),
-            max_vel=extensions.real(link, "maxVel", contact.max_vel),
-            min_depth=extensions.real(link, "minDepth", contact.min_depth),
-        ),
     )
 
 
 def read_visuals(body: Body, robot: Robot) -> tuple[Visual, ...]:
     """All visuals of a body."""
     return tuple(
-        _visual(member, node, name, robot)
+        _visual(body, member, node, name, robot)
         for member, node, name, _ in part_names(body, "visual")
         if not _is_nothing(node, robot)
     )
 
 
-def _visual(member: Member, node: Parameters, name: str, robot: Robot) -> Visual:
-    link = member.link.name
-    blob = _blob(robot.extensions, link, "visual")
+def _visual(body: Body, member: Member, node: Parameters, name: str, robot: Robot) -> Visual:
+    elements = applied(body, robot.extensions, "visual", name)
+    more = blob(elements, "visual")
     return Visual(
         name=name,
         geometry=read_geometry(node, robot.reading),
-        pose=member.pose * read_origin(node.find("origin")),
-        material=_material(node, link, blob, robot),
-        transparency=values.real(blob, "transparency", 0.0),
-        cast_shadows=values.flag(blob, "cast_shadows", default=True),
-        laser_retro=values.real(blob, "laser_retro", 0.0),
+        pose=upright(member.pose * read_origin(node.find("origin"))),
+        material=_material(node, elements, robot),
+        transparency=values.real(more, "transparency", 0.0),
+        cast_shadows=values.flag(more, "cast_shadows", default=True),
+        laser_retro=values.real(more, "laser_retro", 0.0),
+        plugins=read_plugins(more),
         source=node.source,
     )
 
 
-def _material(node: Parameters, link: str, blob: Parameters, robot: Robot) -> Material | None:
-    """What ``<gazebo>`` says goes before the URDF's own colour, as it does in Gazebo."""
+def _material(node: Parameters, elements: list[Parameters], robot: Robot) -> Material | None:
+    """What ``<gazebo>`` says goes before the URDF's own colour, as it does in Gazebo Classic."""
     own = node.find("material")
     paint = Paint()
     if own is not None:
-        paint = read_paint(own, robot.reading)
-        if paint == Paint():
-            paint = robot.paints.get(own.attributes.get("name", ""), Paint())
-    sdf = blob.find("material")
-    if sdf is not None:
-        return read_material(sdf, robot.reading)
-    script = robot.extensions.last(link, "material")
-    name = None if script is None else text(script)
-    if own is None and not name:
+        paint = robot.paints.get(own.attributes.get("name", "")) or read_paint(own, robot.reading)
+    found = material(elements, robot.reading)
+    if own is None and found is None:
         return None
-    colors: tuple[Color | None, Color | None] = (paint.color, paint.color)
-    colors = (script_colors(name) if name else None) or colors
-    return Material(
-        ambient=colors[0], diffuse=colors[1], script=name or None, texture=paint.texture
-    )
+    found = found or Material()
+    found = replace(found, texture=found.texture or paint.texture)
+    if paint.color is None or found.ambient is not None or found.diffuse is not None:
+        return with_script_colors(found)
+    return with_urdf_color(found, paint.color)
 
 
 def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
@@ -185,7 +141,9 @@ def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
 
 
 def _placer(member: Member) -> Placer:
-    return lambda part: member.pose * read_pose(part.find("pose"))
+    if member.joint is None:
+        return lambda part: read_pose(part.find("pose"))
+    return lambda part: upright(member.pose * read_pose(part.find("pose")))
 
 
 def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:

@@ -11,6 +11,7 @@ from gazelle.description import (
     Joint,
     JointAxis,
     JointPhysics,
+    JointType,
     Link,
     Model,
     Parameters,
@@ -28,6 +29,7 @@ from gazelle.formats.sound import sound_inertial
 from gazelle.formats.urdf.elements import Paint, read_origin, read_paint
 from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, note_unused, read_extensions
 from gazelle.formats.urdf.lump import body_inertial
+from gazelle.formats.urdf.lumped_plugins import plugins
 from gazelle.formats.urdf.parts import (
     Robot,
     read_collisions,
@@ -56,7 +58,8 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     extensions = read_extensions(root)
     note_unused(extensions, set(tree.links), set(tree.joints), reading)
     robot = Robot(extensions, _paints(root, reading), reading)
-    kept = _with_mass(bodies(tree, extensions), root, reading)
+    found = bodies(tree, extensions)
+    kept = _with_mass(found, root, reading)
     model = Model(
         name=name,
         pose=read_origin(root.find("origin")),
@@ -68,19 +71,23 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
         ),
         source=root.source,
     )
-    return _with_model_extensions(model, robot)
+    return _with_model_extensions(model, robot, plugins(found, extensions))
 
 
 def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
-    """Materials by name: those of the robot, and those that a visual defines in passing."""
+    """Materials by name: those of the robot, then those that a visual defines in passing.
+
+    A name stands for its first definition, whatever others say later: so in urdfdom.
+    """
     paints: dict[str, Paint] = {}
+    for node in root.find_all("material"):
+        paints.setdefault(values.attribute(node, "name"), read_paint(node, reading))
     for link in root.find_all("link"):
         for visual in link.find_all("visual"):
             node = visual.find("material")
             if node is not None and node.children:
                 paints.setdefault(node.attributes.get("name", ""), read_paint(node, reading))
-    for node in root.find_all("material"):
-        paints[values.attribute(node, "name")] = read_paint(node, reading)
+    paints.pop("", None)
     return paints
 
 
@@ -175,7 +182,7 @@ def _joint(body: Body, robot: Robot) -> Joint:
     if joint is None:
         raise values.fail(body.link.node, "the root has no joint")
     extensions = robot.extensions
-    kind = joint.type
+    kind: JointType = "revolute" if joint.type == "continuous" else joint.type
     axes = () if joint.axis is None else (_axis(joint.axis, joint.name, extensions),)
     preserved = extensions.yes(joint.name, "preserveFixedJoint")
     unlumped = extensions.yes(joint.name, "disableFixedJointLumping")
@@ -223,7 +230,9 @@ def _physics(joint: str, extensions: Extensions) -> JointPhysics:
     )
 
 
-def _with_model_extensions(model: Model, robot: Robot) -> Model:
+def _with_model_extensions(
+    model: Model, robot: Robot, plugin_nodes: tuple[Parameters, ...]
+) -> Model:
     """Plugins, SDF links and joints, and flags of ``<gazebo>`` elements without a reference.
 
     Plugins on a link become the model's, as Gazebo runs them there.
@@ -236,10 +245,6 @@ def _with_model_extensions(model: Model, robot: Robot) -> Model:
     for node in nodes:
         draft_part(node, scope)
     static = extensions.yes("", "static")
-    plugins = [node for node in nodes if node.tag == "plugin"]
-    for reference in extensions.by_reference:
-        if reference:
-            plugins += [node for node in extensions.of(reference) if node.tag == "plugin"]
     return replace(
         model,
         static=_fixed_whole(model) if static is None else static,
@@ -254,7 +259,7 @@ def _with_model_extensions(model: Model, robot: Robot) -> Model:
             *model.joints,
             *read_joints(Parameters("model", children=tuple(nodes)), scope, (1, 7), robot.reading),
         ),
-        plugins=tuple(map(read_plugin, plugins)),
+        plugins=tuple(map(read_plugin, plugin_nodes)),
         extras=tuple(node for node in nodes if node.tag == "gripper"),
     )
 

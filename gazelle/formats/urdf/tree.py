@@ -31,10 +31,11 @@ class UrdfLink:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A link that is part of a body, and its pose in the frame of that body."""
+    """A link that is part of a body, its pose there, and the fixed joint that lumps it."""
 
     link: UrdfLink
     pose: Pose
+    joint: UrdfJoint | None = None
 
 
 @dataclass(slots=True)
@@ -209,7 +210,8 @@ def _gather(tree: Tree, body: Body, extensions: Extensions) -> None:
         lumped = []
         for joint in tree.below.get(member.link.name, ()):
             if lumps(joint, extensions):
-                lumped.append(Member(tree.links[joint.child], member.pose * joint.origin))
+                pose = member.pose * joint.origin
+                lumped.append(Member(tree.links[joint.child], pose, joint))
             else:
                 body.children.append(_hung(tree, joint, body, member.pose))
         waiting.extend(reversed(lumped))

@@ -12,6 +12,7 @@ from typing import Protocol
 from gazelle.description import Parameters, Pose, Source
 from gazelle.description.pose import Vector3, multiply, rotate
 from gazelle.errors import FormatError
+from gazelle.formats.sdf.pose import QUATERNION
 
 Value = bool | int | float | str | tuple[float, ...]
 
@@ -78,7 +79,11 @@ def _number(value: float) -> str:
 
 
 def pose_leaf(pose: Pose, *, always: bool = False) -> Parameters | None:
-    """``<pose>``: in angles if they give exactly this pose, else with a quaternion."""
+    """``<pose>`` in angles; where they cost the last digit, with the quaternion beside them.
+
+    SDF 1.9 has a ``rotation_format`` for it, which Gazebo Classic takes for angles; so the
+    quaternion stands in an attribute of Gazelle's own namespace.
+    """
     if pose == Pose() and not always:
         return None
     if not all(map(math.isfinite, (*pose.position, *pose.quaternion))):
@@ -86,8 +91,9 @@ def pose_leaf(pose: Pose, *, always: bool = False) -> Parameters | None:
     angles = exact_angles(pose)
     if angles is not None:
         return leaf("pose", (*pose.position, *angles))
-    numbers = (*pose.position, *pose.quaternion)
-    return element("pose", text=written(numbers), rotation_format="quat_xyzw")
+    angles = angles_of(pose)
+    exact = {QUATERNION: written(pose.quaternion)}
+    return element("pose", text=written((*pose.position, *angles)), **exact)
 
 
 def exact_angles(pose: Pose) -> Vector3 | None:

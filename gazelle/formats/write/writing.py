@@ -44,7 +44,8 @@ class Writing:
         """A file by its way from the folder if it is below it, else by its absolute path."""
         if self.folder is not None and path.is_relative_to(self.folder):
             return path.relative_to(self.folder).as_posix()
-        return path.absolute().as_uri()
+        # not as_uri(): neither libsdformat nor Gazebo turns %20 into a blank
+        return f"file://{path.absolute().as_posix()}"
 
     def report(self) -> None:
         """Issue the remarks as warnings."""

@@ -13,9 +13,9 @@ from gazelle.formats.write.writing import Writing
 __all__ = ["write_sdf"]
 
 _OLDEST = (1, 7)
-# the version of SDF that brought an element
-_SINCE = {"capsule": (1, 8), "ellipsoid": (1, 8), "mimic": (1, 11), "cone": (1, 12)}
-_QUATERNIONS = (1, 9)
+# the version of SDF that brought an element without which a file makes no sense: others, such
+# as <mimic>, are read by who knows them and passed over by who does not
+_SINCE = {"capsule": (1, 8), "ellipsoid": (1, 8), "cone": (1, 12)}
 _WORLD_JOINTS = (1, 10)
 
 
@@ -42,6 +42,4 @@ def _versions(body: Parameters) -> Iterator[tuple[int, int]]:
         node = waiting.pop()
         if node.tag in _SINCE:
             yield _SINCE[node.tag]
-        if "rotation_format" in node.attributes:
-            yield _QUATERNIONS
         waiting.extend(node.children)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from gazelle.description import (
@@ -23,6 +24,13 @@ from gazelle.description import (
 )
 from gazelle.formats.write.element import element, group, leaf
 from gazelle.formats.write.writing import Writing
+
+
+def model_uri(uri: str, path: Path | None, writing: Writing) -> str:
+    """The URI as SDF has it, which does not know ``package://``: as ``model://``, like libsdformat."""
+    if uri.startswith("package://"):
+        return f"model://{uri.removeprefix('package://')}"
+    return writing.uri(uri, path)
 
 
 def write_geometry(shape: Geometry, writing: Writing) -> Parameters:
@@ -64,7 +72,7 @@ def _mesh(shape: Mesh, writing: Writing) -> list[Parameters]:
     return [
         element(
             "mesh",
-            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("uri", model_uri(shape.uri, shape.path, writing)),
             leaf("scale", shape.scale, (1.0, 1.0, 1.0)),
             submesh,
         )
@@ -75,7 +83,7 @@ def _heightmap(shape: Heightmap, writing: Writing) -> list[Parameters]:
     return [
         element(
             "heightmap",
-            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("uri", model_uri(shape.uri, shape.path, writing)),
             leaf("size", shape.size),
             leaf("pos", shape.position),
             leaf("sampling", shape.sampling, 1),
@@ -87,7 +95,7 @@ def _image(shape: Image, writing: Writing) -> list[Parameters]:
     return [
         element(
             "image",
-            leaf("uri", writing.uri(shape.uri, shape.path)),
+            leaf("uri", model_uri(shape.uri, shape.path, writing)),
             leaf("scale", shape.scale),
             leaf("threshold", shape.threshold),
             leaf("height", shape.height),

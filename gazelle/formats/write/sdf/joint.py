@@ -6,6 +6,7 @@ import math
 
 from gazelle.description import Joint, JointAxis, JointPhysics, Mimic, Parameters, SafetyController
 from gazelle.formats.sdf.own import SAFETY
+from gazelle.formats.sdf.own_joint import JOINT
 from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf, written
 from gazelle.formats.write.sdf.sensor import write_sensor
 from gazelle.formats.write.writing import Writing
@@ -17,11 +18,12 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
     """A joint."""
     if joint.type in _NOT_SDF:
         writing.note(
-            f"SDF has no '{joint.type}' joint: only Gazelle reads '{joint.name}' back", joint.source
+            f"SDF has no '{joint.type}' joint: for other programs '{joint.name}' is not there",
+            joint.source,
         )
     with inside("joint", joint):
         return element(
-            "joint",
+            JOINT if joint.type in _NOT_SDF else "joint",
             pose_leaf(joint.pose),
             leaf("parent", joint.parent),
             leaf("child", joint.child),
@@ -75,14 +77,20 @@ def write_mimic(mimic: Mimic) -> Parameters:
 
 
 def write_joint_physics(physics: JointPhysics) -> Parameters | None:
-    """``<physics>`` with ODE's terms that differ from the defaults."""
+    """``<physics>`` with ODE's terms that differ from the defaults.
+
+    Two stand twice, under their old names too, as libsdformat writes them.
+    """
     usual = JointPhysics()
     own = ("implicit_spring_damper", "fudge_factor", "cfm", "erp")
+    feedback = leaf("provide_feedback", physics.provide_feedback, False)
     return group(
         "physics",
+        feedback,
         group(
             "ode",
-            leaf("provide_feedback", physics.provide_feedback, False),
+            feedback,
+            leaf("cfm_damping", physics.implicit_spring_damper, False),
             *(leaf(name, getattr(physics, name), getattr(usual, name)) for name in own),
             group(
                 "limit",

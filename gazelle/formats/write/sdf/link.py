@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gazelle.description import (
     Collision,
+    Color,
     Inertial,
     Light,
     Link,
@@ -13,9 +14,9 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError
 from gazelle.formats import values
-from gazelle.formats.materials import STANDARD, is_standard, script_colors
+from gazelle.formats.materials import STANDARD, URDF_COLOR, brightened, script_colors
 from gazelle.formats.sound import check_inertia
-from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf
+from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf, written
 from gazelle.formats.write.sdf.geometry import write_geometry
 from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.sdf.sensor import write_sensor
@@ -121,14 +122,16 @@ def visual_extras(visual: Visual) -> tuple[Parameters | None, ...]:
 
 def write_material(material: Material, writing: Writing) -> Parameters:
     """``<material>``; colours that its script gives anyway are left to it."""
-    known = script_colors(material.script) if material.script else None
-    ambient, diffuse = known or (None, None)
     texture = material.texture
     albedo = None if texture is None else leaf("albedo_map", writing.name(texture))
+    ambient, diffuse = _own_colors(material)
+    attributes = {}
+    if material.urdf_color is not None:
+        attributes[URDF_COLOR] = written(material.urdf_color)
     return element(
         "material",
-        leaf("ambient", material.ambient, ambient),
-        leaf("diffuse", material.diffuse, diffuse),
+        leaf("ambient", ambient),
+        leaf("diffuse", diffuse),
         leaf("specular", material.specular),
         leaf("emissive", material.emissive),
         group(
@@ -137,13 +140,27 @@ def write_material(material: Material, writing: Writing) -> Parameters:
             leaf("name", material.script),
         ),
         group("pbr", group("metal", albedo)),
+        **attributes,
+    )
+
+
+def _own_colors(material: Material) -> tuple[Color | None, Color | None]:
+    """Ambient and diffuse colour as they are written: for a URDF's as libsdformat does."""
+    if material.urdf_color is not None:
+        bright = brightened(material.urdf_color)
+        return (bright, bright)
+    known = script_colors(material.script) if material.script else None
+    ambient, diffuse = known or (None, None)
+    return (
+        None if material.ambient == ambient else material.ambient,
+        None if material.diffuse == diffuse else material.diffuse,
     )
 
 
 def _script_uris(material: Material) -> tuple[str, ...]:
-    """Where the script is; other programs want to be told so of Gazebo's own ones too."""
+    """Where the script is; libsdformat refuses a script of which nobody says so."""
     uris = material.script_uris
-    return (STANDARD,) if material.script and is_standard(material.script, uris) else uris
+    return (STANDARD,) if material.script and not uris else uris
 
 
 def write_light(light: Light) -> Parameters:

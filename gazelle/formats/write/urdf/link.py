@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from gazelle.description import (
@@ -22,7 +23,7 @@ from gazelle.description import (
     Visual,
 )
 from gazelle.errors import FormatError
-from gazelle.formats.urdf.parts import LUMP
+from gazelle.formats.urdf.applied import LUMP
 from gazelle.formats.write.element import angles_of, element, exact_angles, inside, written
 from gazelle.formats.write.writing import Writing
 
@@ -167,7 +168,7 @@ def _collision(collision: Collision, name: str, shift: Pose, writing: Writing) -
 
 def plain_material(material: Material) -> Material:
     """What of a material URDF's own words can say: one colour and a texture."""
-    color = material.diffuse or material.ambient
+    color = material.urdf_color or material.diffuse or material.ambient
     return Material(ambient=color, diffuse=color, texture=material.texture)
 
 
@@ -175,7 +176,7 @@ def _material(visual: Visual, writing: Writing) -> Parameters | None:
     material = visual.material
     if material is None:
         return None
-    color = material.diffuse or material.ambient
+    color = material.urdf_color or material.diffuse or material.ambient
     texture = material.texture
     return element(
         "material",
@@ -202,7 +203,17 @@ def _geometry(shape: Geometry, writing: Writing) -> Parameters:
 
 def _mesh(shape: Mesh, writing: Writing) -> Parameters:
     scale = "" if shape.scale == (1.0, 1.0, 1.0) else written(shape.scale)
-    return element("mesh", filename=writing.uri(shape.uri, shape.path), scale=scale)
+    return element("mesh", filename=package_uri(shape.uri, shape.path, writing), scale=scale)
+
+
+def package_uri(uri: str, path: Path | None, writing: Writing) -> str:
+    """The URI as programs that read URDF know it: ``model://`` of a package as ``package://``."""
+    package, _, _ = uri.removeprefix("model://").partition("/")
+    if uri.startswith("model://") and path is not None:
+        for folder in path.parents:
+            if folder.name == package and (folder / "package.xml").is_file():
+                return f"package://{uri.removeprefix('model://')}"
+    return writing.uri(uri, path)
 
 
 def _round(shape: Cylinder | Capsule, _: Writing) -> Parameters:

@@ -1,0 +1,232 @@
+"""SDF as a table of paths and values, by ElementTree alone: it shares no code with the package.
+
+What libsdformat prints and what Gazelle writes are compared by it. Either may leave out what is
+the default or say a pose in another frame; so defaults are taken from libsdformat's own schema,
+and poses are resolved. Everything else of a file is in the table, known to the schema or not.
+"""
+
+import functools
+import math
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+
+SCHEMA = Path("/usr/share/sdformat12/1.9")
+ENDLESS = 1e16
+NUMBERS = {"double", "int", "unsigned int", "float", "vector3", "vector2d", "color", "pose"}
+# their being there says something though they hold no value
+TELLING = {"geometry"}
+# elements with a frame of their own in the model
+FRAMED = {"link", "joint", "frame", "model"}
+NOTHING = (None, None, {}, {})
+# what Gazelle says in its own namespace is for itself
+OWN = "{urn:gazelle}"
+MANY = {"*", "+", "-1"}
+
+
+@functools.cache
+def schema(name):
+    """What an element may hold: ``(type, default, defaults of attributes, children)``."""
+    return _described(ET.parse(SCHEMA / f"{name}.sdf").getroot())
+
+
+def _described(node):
+    children = {
+        child.get("name"): (functools.partial(_described, child), child.get("required") in MANY)
+        for child in node.findall("element")
+        if "name" in child.attrib
+    }
+    for include in node.findall("include"):
+        file = SCHEMA / include.get("filename")
+        if file.exists():
+            name = ET.parse(file).getroot().get("name")
+            children[name] = (functools.partial(schema, file.stem), include.get("required") in MANY)
+    attributes = {a.get("name"): a.get("default") for a in node.findall("attribute")}
+    return (node.get("type"), node.get("default"), attributes, children)
+
+
+def table(text):
+    """All values of an SDF text by path, but for those that are the default."""
+    rows = {}
+    # libsdformat leaves a note to itself in plugins, whose name is no XML
+    text = re.sub(r"<ignition::corrected_offsets>1</ignition::corrected_offsets>", "", text)
+    for child, label in _labelled(ET.fromstring(text), schema("root")[3]):
+        _fill(rows, child, label, _kind(child.tag, schema("root")[3]), None)
+    return rows
+
+
+def _kind(tag, below):
+    return below[tag][0]() if tag in below else NOTHING
+
+
+def _labelled(node, below):
+    """The children, each with a name that no other has; of what there is one the first counts."""
+    seen = {}
+    for child in node:
+        if child.tag.startswith(OWN):
+            continue
+        label = f"{child.tag}[{child.get('name')}]" if "name" in child.attrib else child.tag
+        number = seen[label] = seen.get(label, -1) + 1
+        if not number or below.get(child.tag, (None, True))[1]:
+            yield child, f"{label}#{number}" if number else label
+
+
+class Frames:
+    """Places of the links, joints, frames and models in a model or world, in its own frame."""
+
+    def __init__(self, node):
+        self.parts = {part.get("name"): part for tag in FRAMED for part in node.findall(tag)}
+        self.known = {"": np.eye(4), "__model__": np.eye(4), "world": np.eye(4)}
+
+    def of(self, name):
+        """Place of the frame with a name, which may be in a nested model."""
+        if name not in self.known:
+            outer, mark, inner = name.partition("::")
+            if name in self.parts or not mark:
+                self.known[name] = self.placed(self.parts[name])
+            else:
+                self.known[name] = self.of(outer) @ Frames(self.parts[outer]).of(inner)
+        return self.known[name]
+
+    def placed(self, part):
+        """Place of one of the parts."""
+        pose = part.find("pose")
+        relative = "" if pose is None else pose.get("relative_to", "")
+        if not relative and part.tag == "joint":
+            relative = part.findtext("child", "").strip()
+        return self.of(relative or part.get("attached_to", "")) @ matrix(pose)
+
+    def body(self, name):
+        """The link that a name stands for, through frames attached to it."""
+        part = self.parts.get(name)
+        if part is not None and part.tag == "frame" and part.get("attached_to"):
+            return self.body(part.get("attached_to"))
+        return name
+
+
+def matrix(pose):
+    """A ``<pose>`` as a matrix of four by four."""
+    place = np.eye(4)
+    if pose is None or not (pose.text or "").strip():
+        return place
+    numbers = [float(word) for word in pose.text.split()]
+    place[:3, 3] = numbers[:3]
+    if pose.get("rotation_format") == "quat_xyzw":
+        x, y, z, w = np.array(numbers[3:]) / math.hypot(*numbers[3:])
+    else:
+        scale = math.pi / 180 if pose.get("degrees") in {"true", "1"} else 1.0
+        halves = [angle * scale / 2 for angle in numbers[3:]]
+        (sr, sp, sy), (cr, cp, cy) = map(math.sin, halves), map(math.cos, halves)
+        x, y = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy
+        z, w = cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy
+    place[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    return place
+
+
+def _fill(rows, node, path, known, frames, link=""):
+    kind, default, attributes, below = known
+    if "name" in node.attrib or path.split("/")[-2:-1] in [[tag] for tag in TELLING]:
+        rows[path] = "there"
+    for name, text in node.attrib.items():
+        if name.startswith(OWN) or name in {"name", "attached_to"}:
+            continue
+        if text != attributes.get(name, ""):
+            rows[f"{path}@{name}"] = value(text, None)
+    if frames is not None and frames.parts.get(node.get("name")) is node:
+        rows[f"{path}/pose"] = frames.placed(node)
+    elif "pose" in below:
+        rows[f"{path}/pose"] = _within(node.find("pose"), link, frames)
+    if (node.text or "").strip():
+        found = value(node.text, kind)
+        if default is None or not same(found, value(default, kind)):
+            rows[path] = found
+    inner = Frames(node) if node.tag in {"model", "world"} else frames
+    if node.tag == "link":
+        link = node.get("name")
+    for child, label in _labelled(node, below):
+        if child.tag == "pose" and "pose" in below:
+            continue
+        if child.tag == "inertial" and node.tag == "link":
+            _inertial(rows, child, f"{path}/inertial")
+        elif child.tag in {"parent", "child"} and node.tag == "joint" and child.text:
+            rows[f"{path}/{child.tag}"] = frames.body(child.text.strip())
+        elif child.tag == "xyz" and node.tag in {"axis", "axis2"}:
+            rows[f"{path}/xyz"] = _direction(child, rows[f"{path.rpartition('/')[0]}/pose"], frames)
+        else:
+            known = _kind(child.tag, below)
+            _fill(rows, child, f"{path}/{label}", known, inner, link)
+
+
+def _within(pose, link, frames):
+    """A pose of a part of a link, in the link's frame."""
+    relative = "" if pose is None else pose.get("relative_to", "")
+    if not relative:
+        return matrix(pose)
+    return np.linalg.inv(frames.of(link)) @ frames.of(relative) @ matrix(pose)
+
+
+def _direction(xyz, joint, frames):
+    """An axis in the joint's own frame, of length one."""
+    direction = np.array([float(word) for word in xyz.text.split()])
+    if xyz.get("expressed_in"):
+        direction = joint[:3, :3].T @ frames.of(xyz.get("expressed_in"))[:3, :3] @ direction
+    return direction / np.linalg.norm(direction)
+
+
+def _inertial(rows, node, path):
+    """Mass, centre, and the inertia about it in the axes of the link."""
+    moments = dict.fromkeys(("ixy", "ixz", "iyz"), 0.0) | dict.fromkeys(("ixx", "iyy", "izz"), 1.0)
+    moments |= {child.tag: float(child.text) for child in node.findall("inertia/*")}
+    xx, yy, zz, xy, xz, yz = (moments[n] for n in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+    place = matrix(node.find("pose"))
+    turn = place[:3, :3]
+    rows[f"{path}/mass"] = np.array([float(node.findtext("mass", "1"))])
+    rows[f"{path}/centre"] = place[:3, 3]
+    rows[f"{path}/inertia"] = turn @ [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] @ turn.T
+
+
+def value(text, kind):
+    """A text as numbers or truth where it is that, with no limit as infinite."""
+    text = " ".join(text.split())
+    if kind == "bool" or text.lower() in {"true", "false"}:
+        return text.lower() in {"true", "1"}
+    try:
+        numbers = np.array([float(word) for word in text.split()])
+    except ValueError:
+        return text
+    if kind == "color" and len(numbers) == 3:
+        numbers = np.append(numbers, 1.0)
+    return np.where(abs(numbers) >= ENDLESS, np.copysign(math.inf, numbers), numbers)
+
+
+def same(one, other, digits=1e-6):
+    """Whether two values are the same but for the digits that printing costs."""
+    if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
+        return type(one) is type(other) and bool(np.all(one == other))
+    if one.shape != other.shape:
+        return False
+    if one.shape == (4, 4):  # angles pass through roll, pitch, yaw, bad near a right angle
+        steep = abs(other[2, 0]) > 0.9999
+        turned = np.allclose(one[:3, :3], other[:3, :3], rtol=0.0, atol=1e-4 if steep else digits)
+        return turned and np.allclose(one[:3, 3], other[:3, 3], rtol=digits, atol=1e-7)
+    scale = np.max(np.abs(other[np.isfinite(other)]), initial=0.0) if one.ndim == 2 else 0.0
+    return np.allclose(one, other, rtol=digits, atol=digits * scale or 1e-9)
+
+
+def differences(ours, theirs):
+    """What of one table is not in the other, in words."""
+    for path in ours.keys() | theirs.keys():
+        # what libsdformat moves with a lumped link it prints with six digits
+        moved = "/sensor[" in path or "/projector[" in path or "Offset" in path
+        if path not in theirs:
+            yield f"more: {path} = {ours[path]}"
+        elif path not in ours:
+            yield f"missing: {path} = {theirs[path]}"
+        elif not same(ours[path], theirs[path], 1e-5 if moved else 1e-6):
+            yield f"{path}: {ours[path]} is not {theirs[path]}"
