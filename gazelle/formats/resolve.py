@@ -130,12 +130,13 @@ class Resolver:
         scheme, separator, rest = uri.partition("://")
         if not separator:
             scheme, rest = ("file", uri.removeprefix("file:"))
-        rest = unquote(rest)
-        name, _, inner = rest.partition("/")
-        if scheme in {"model", "package"}:
-            yield from self._below(name, inner, scheme)
-        elif scheme == "file":
-            yield from self._plain(rest, base)
+        # Gazebo takes the name as it stands; others write %20 for a blank
+        for path in dict.fromkeys((rest, unquote(rest))):
+            name, _, inner = path.partition("/")
+            if scheme in {"model", "package"}:
+                yield from self._below(name, inner, scheme)
+            elif scheme == "file":
+                yield from self._plain(path, base)
 
     def _below(self, name: str, inner: str, scheme: str) -> Iterator[Path]:
         """``model://`` may also name a package, and the other way round, as in Gazebo."""

@@ -10,14 +10,12 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
 SCHEMA = Path("/usr/share/sdformat12/1.9")
 ENDLESS = 1e16
-NUMBERS = {"double", "int", "unsigned int", "float", "vector3", "vector2d", "color", "pose"}
-# their being there says something though they hold no value
-TELLING = {"geometry"}
 # elements with a frame of their own in the model
 FRAMED = {"link", "joint", "frame", "model"}
 NOTHING = (None, None, {}, {})
@@ -34,7 +32,12 @@ def schema(name):
 
 def _described(node):
     children = {
-        child.get("name"): (functools.partial(_described, child), child.get("required") in MANY)
+        child.get("name"): (
+            functools.partial(schema, child.get("ref"))
+            if "ref" in child.attrib
+            else functools.partial(_described, child),
+            child.get("required") in MANY,
+        )
         for child in node.findall("element")
         if "name" in child.attrib
     }
@@ -67,7 +70,10 @@ def _labelled(node, below):
     for child in node:
         if child.tag.startswith(OWN):
             continue
-        label = f"{child.tag}[{child.get('name')}]" if "name" in child.attrib else child.tag
+        kind = _kind(child.tag, below)
+        usual = kind[2].get("name", "") not in {None, "", "__default__"}
+        name = child.get("name", kind[2].get("name") if usual else None)
+        label = child.tag if name is None else f"{child.tag}[{name}]"
         number = seen[label] = seen.get(label, -1) + 1
         if not number or below.get(child.tag, (None, True))[1]:
             yield child, f"{label}#{number}" if number else label
@@ -130,37 +136,41 @@ def matrix(pose):
 
 
 def _fill(rows, node, path, known, frames, link=""):
-    kind, default, attributes, below = known
-    if "name" in node.attrib or path.split("/")[-2:-1] in [[tag] for tag in TELLING]:
-        rows[path] = "there"
-    for name, text in node.attrib.items():
-        if name.startswith(OWN) or name in {"name", "attached_to"}:
-            continue
-        if text != attributes.get(name, ""):
-            rows[f"{path}@{name}"] = value(text, None)
+    """Rows of an element and all below it; ``frames`` are those of the model around it."""
+    _plain(rows, node, path, known)
     if frames is not None and frames.parts.get(node.get("name")) is node:
         rows[f"{path}/pose"] = frames.placed(node)
-    elif "pose" in below:
+    elif "pose" in known[3]:
         rows[f"{path}/pose"] = _within(node.find("pose"), link, frames)
+    inner = Frames(node) if node.tag in {"model", "world"} else frames
+    link = node.get("name") if node.tag == "link" else link
+    for child, label in _labelled(node, known[3]):
+        here = f"{path}/{label}"
+        if child.tag == "pose" and "pose" in known[3]:
+            continue
+        if child.tag == "inertial" and node.tag == "link":
+            _inertial(rows, child, here)
+        elif child.tag in {"parent", "child"} and node.tag == "joint" and child.text:
+            rows[here] = frames.body(child.text.strip())
+        elif child.tag == "xyz" and node.tag in {"axis", "axis2"}:
+            rows[here] = _direction(child, rows[f"{path.rpartition('/')[0]}/pose"], frames)
+        else:
+            _fill(rows, child, here, _kind(child.tag, known[3]), inner, link)
+
+
+def _plain(rows, node, path, known):
+    """Rows of what an element says itself."""
+    kind, default, attributes, _ = known
+    if path.endswith("]") or path.split("/")[-2:-1] == ["geometry"]:
+        rows[path] = "there"  # which tells something though it holds no value
+    for name, text in node.attrib.items():
+        written = not name.startswith(OWN) and name not in {"name", "attached_to"}
+        if written and text != attributes.get(name, ""):
+            rows[f"{path}@{name}"] = value(text, None)
     if (node.text or "").strip():
         found = value(node.text, kind)
         if default is None or not same(found, value(default, kind)):
             rows[path] = found
-    inner = Frames(node) if node.tag in {"model", "world"} else frames
-    if node.tag == "link":
-        link = node.get("name")
-    for child, label in _labelled(node, below):
-        if child.tag == "pose" and "pose" in below:
-            continue
-        if child.tag == "inertial" and node.tag == "link":
-            _inertial(rows, child, f"{path}/inertial")
-        elif child.tag in {"parent", "child"} and node.tag == "joint" and child.text:
-            rows[f"{path}/{child.tag}"] = frames.body(child.text.strip())
-        elif child.tag == "xyz" and node.tag in {"axis", "axis2"}:
-            rows[f"{path}/xyz"] = _direction(child, rows[f"{path.rpartition('/')[0]}/pose"], frames)
-        else:
-            known = _kind(child.tag, below)
-            _fill(rows, child, f"{path}/{label}", known, inner, link)
 
 
 def _within(pose, link, frames):
@@ -197,6 +207,8 @@ def value(text, kind):
     if kind == "bool" or text.lower() in {"true", "false"}:
         return text.lower() in {"true", "1"}
     try:
+        if text.startswith("0x"):
+            text = str(int(text, 16))
         numbers = np.array([float(word) for word in text.split()])
     except ValueError:
         return text
@@ -217,6 +229,12 @@ def same(one, other, digits=1e-6):
         return turned and np.allclose(one[:3, 3], other[:3, 3], rtol=digits, atol=1e-7)
     scale = np.max(np.abs(other[np.isfinite(other)]), initial=0.0) if one.ndim == 2 else 0.0
     return np.allclose(one, other, rtol=digits, atol=digits * scale or 1e-9)
+
+
+def as_urdf(node):
+    """Expanded xacro as URDF text."""
+    attributes = "".join(f" {key}={quoteattr(value)}" for key, value in node.attributes.items())
+    return f"<{node.tag}{attributes}>{escape(node.text)}{''.join(map(as_urdf, node.children))}</{node.tag}>"
 
 
 def differences(ours, theirs):

@@ -2,9 +2,11 @@
 
 import math
 import os
+import re
 import shlex
 import shutil
 import subprocess
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -89,17 +91,26 @@ def _all(world, lines):
     lines.pop("error", None)
     for light in world.lights:
         yield from _placed(lines, "light", light.name, light.pose)
+    written_out = _populations(world)
     for top in world.models:
-        if not _stands_for_another(top):
+        if not written_out.fullmatch(top.name) and not _is_actor(top):
             for placed in top.walk():
                 yield from _model(placed, lines)
     yield from (f"missing: {kind} {name}" for kind, name in lines)
 
 
-def _stands_for_another(model):
-    """Whether it was an actor or one of a population, which libsdformat does not expand."""
-    scripted = any("scripted_motion" in plugin.filename for plugin in model.plugins)
-    return scripted or "_clone_" in model.name
+def _is_actor(model):
+    """Whether it was an actor, which libsdformat does not write as a model."""
+    return any("scripted_motion" in plugin.filename for plugin in model.plugins)
+
+
+def _populations(world):
+    """Names of the models of the file's populations, which libsdformat does not expand."""
+    file = world.source.file if world.source else None
+    root = None if file is None or not Path(file).exists() else ET.parse(file).getroot()
+    found = [] if root is None else root.findall("world/population")
+    names = "|".join(re.escape(node.get("name")) for node in found)
+    return re.compile(rf"({names})_clone_\d+" if names else "(?!)")
 
 
 def _model(placed, lines):

@@ -21,6 +21,7 @@ from gazelle.formats.axis import direction, travel
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.frames import MODEL, WORLD, Scope
 from gazelle.formats.sdf.own import own_safety
+from gazelle.formats.sdf.own_joint import TYPE
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
@@ -119,7 +120,7 @@ def joint_type(node: Parameters) -> JointType:
     Raises:
         FormatError: There is no such type.
     """
-    text = values.attribute(node, "type")
+    text = node.attributes.get(TYPE, "") or values.attribute(node, "type")
     for known in _TYPES:
         if text.lower() == known:
             return known

@@ -37,6 +37,7 @@ from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.merge import with_merges
 from gazelle.formats.sdf.model import read_frame, read_model
+from gazelle.formats.sdf.own_joint import with_own_joints
 from gazelle.formats.sdf.physics import read_physics
 from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
@@ -59,7 +60,9 @@ class _Contents:
 
 def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     """A world with everything in it; the first ``<state>`` is applied."""
-    node = with_merges(prepared(node, reading), version, reading, include_model)
+    node = with_own_joints(
+        with_merges(prepared(node, reading), version, reading, include_model)
+    )
     contents = _collect(node, version, reading)
     scope = contents.scope
     camera = node.find("gui/camera")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from gazelle.description import Parameters, Pose
 from gazelle.formats import values
@@ -64,7 +65,7 @@ def _renamed(plugin: Parameters, name: Parameters, step: _Step, reduction: Pose)
     changed = {name.tag, "xyzOffset", "rpyOffset"}
     kept = tuple(child for child in plugin.children if child.tag not in changed)
     added = (
-        replace(name, text=step.parent, attributes={}),
+        replace(name, text=step.parent, attributes=MappingProxyType({})),
         _numbers("xyzOffset", place.position, name),
         _numbers("rpyOffset", upright(place).rpy, name),
     )

@@ -84,9 +84,9 @@ def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
         paints.setdefault(values.attribute(node, "name"), read_paint(node, reading))
     for link in root.find_all("link"):
         for visual in link.find_all("visual"):
-            node = visual.find("material")
-            if node is not None and node.children:
-                paints.setdefault(node.attributes.get("name", ""), read_paint(node, reading))
+            inline = visual.find("material")
+            if inline is not None and inline.children:
+                paints.setdefault(inline.attributes.get("name", ""), read_paint(inline, reading))
     paints.pop("", None)
     return paints
 

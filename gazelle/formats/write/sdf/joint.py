@@ -6,7 +6,7 @@ import math
 
 from gazelle.description import Joint, JointAxis, JointPhysics, Mimic, Parameters, SafetyController
 from gazelle.formats.sdf.own import SAFETY
-from gazelle.formats.sdf.own_joint import JOINT
+from gazelle.formats.sdf.own_joint import JOINT, TYPE
 from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf, written
 from gazelle.formats.write.sdf.sensor import write_sensor
 from gazelle.formats.write.writing import Writing
@@ -35,8 +35,16 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
             None if joint.safety is None else write_safety(joint.safety, SAFETY),
             *map(write_sensor, joint.sensors),
             name=joint.name,
-            type=joint.type,
+            **_types(joint),
         )
+
+
+def _types(joint: Joint) -> dict[str, str]:
+    """The type as an attribute: Gazebo Classic has no continuous joints, but free revolute ones."""
+    axis = joint.axes[0] if joint.axes else JointAxis()
+    if joint.type == "continuous" and axis.lower == -math.inf and axis.upper == math.inf:
+        return {"type": "revolute", TYPE: joint.type}
+    return {"type": joint.type}
 
 
 def write_axis(tag: str, axis: JointAxis) -> Parameters:

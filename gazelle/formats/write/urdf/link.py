@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -39,14 +39,10 @@ def write_link(link: Link, shift: Pose, writing: Writing, *, massless: bool = Fa
         parts: tuple[Collision | Visual, ...] = (*link.visuals, *link.collisions)
         for part in parts:
             _note_lost(part, writing)
-        names = written_names(visuals_of(link), "visual")
         return element(
             "link",
             None if massless else write_inertial(link.inertial or Inertial(), shift),
-            *(
-                _visual(visual, name, shift, writing)
-                for visual, name in zip(visuals_of(link), names, strict=True)
-            ),
+            *(_visual(visual, shift, writing) for visual in visuals_of(link)),
             *write_collisions(link, 0, shift, writing),
             name=link.name,
         )
@@ -54,12 +50,9 @@ def write_link(link: Link, shift: Pose, writing: Writing, *, massless: bool = Fa
 
 def write_collisions(link: Link, group: int, shift: Pose, writing: Writing) -> list[Parameters]:
     """The collisions of a link that have one surface."""
-    found = surfaces(link)
-    ordered = [collision for each in found for collision in each]
-    names = dict(zip(map(id, ordered), written_names(ordered, "collision"), strict=True))
     return [
-        _collision(collision, names[id(collision)], shift, writing)
-        for each in found[group : group + 1]
+        _collision(collision, collision_name(collision, link, group), shift, writing)
+        for each in surfaces(link)[group : group + 1]
         for collision in each
     ]
 
@@ -78,7 +71,7 @@ def surfaces(link: Link) -> list[list[Collision]]:
     for collision in link.collisions:
         if type(collision.geometry) not in SHAPES:
             continue
-        terms = (collision.surface, collision.laser_retro, collision.max_contacts)
+        terms = _terms(collision)
         group = next((group for known, group in found if known == terms), None)
         if group is None:
             found.append((terms, [collision]))
@@ -88,27 +81,49 @@ def surfaces(link: Link) -> list[list[Collision]]:
 
 
 def surface_link(link: Link, group: int) -> str:
-    """Name of the link for the collisions of a further surface."""
-    return f"{link.name}_surface_{group:02}"
+    """Name of the link for the collisions of a further surface.
 
-
-def written_names(parts: Sequence[Collision | Visual], tag: str) -> list[str]:
-    """The name to write for each part.
-
-    Readers of URDF put ``_collision`` or ``_visual`` behind it, and from the second part
-    of a body on its number too.
+    It does not begin as the link does: by that libsdformat knows what is lumped.
     """
-    ending = re.compile(rf"_{tag}(_\d+)?$")
-    return [ending.sub("", part.name) for part in parts]
+    name = f"surface_{group:02}_of_{link.name}"
+    return f"contact_{name}" if name.startswith(link.name) else name
+
+
+def plain_name(part: Collision | Visual, tag: str) -> str:
+    """The name without what readers of URDF put behind it: the tag, and perhaps a number."""
+    return re.sub(rf"_{tag}(_\d+)?$", "", part.name)
+
+
+def collision_name(collision: Collision, link: Link, group: int) -> str:
+    """The name to write, by which readers find the surface in the ``<gazebo>`` of its link.
+
+    libsdformat takes a collision whose name does not begin as its link's for a lumped one, and
+    gives it the surface of a link only if it is called after that.
+    """
+    if group:
+        return surface_link(link, group)
+    name = plain_name(collision, "collision")
+    if not any(map(_has_surface, link.collisions)):
+        return name
+    own = name.removeprefix(f"{link.name}{LUMP}")
+    return own if own.startswith(link.name) else f"{link.name}_{own}"
+
+
+def _has_surface(collision: Collision) -> bool:
+    usual = Collision(collision.name, collision.geometry)
+    return _terms(collision) != _terms(usual)
+
+
+def _terms(collision: Collision) -> tuple[object, ...]:
+    return (collision.surface, collision.laser_retro, collision.max_contacts)
 
 
 def read_names(link: Link) -> dict[str, str]:
     """What readers will call each collision of a link."""
-    ordered = [collision for each in surfaces(link) for collision in each]
+    ordered = [(c, group) for group, each in enumerate(surfaces(link)) for c in each]
     names = {}
-    for number, (part, name) in enumerate(
-        zip(ordered, written_names(ordered, "collision"), strict=True)
-    ):
+    for number, (part, group) in enumerate(ordered):
+        name = collision_name(part, link, group)
         read = f"{name}_collision" + (f"_{number}" if number else "")
         own = read.startswith(link.name)
         names[part.name] = read if own else f"{link.name}{LUMP}{read}"
@@ -145,14 +160,14 @@ def _moved(shift: Pose, pose: Pose) -> Pose:
     return pose if shift == Pose() else shift * pose
 
 
-def _visual(visual: Visual, name: str, shift: Pose, writing: Writing) -> Parameters:
+def _visual(visual: Visual, shift: Pose, writing: Writing) -> Parameters:
     with inside("visual", visual):
         return element(
             "visual",
             write_origin(_moved(shift, visual.pose)),
             _geometry(visual.geometry, writing),
             _material(visual, writing),
-            name=name,
+            name=plain_name(visual, "visual"),
         )
 
 
