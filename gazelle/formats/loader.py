@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.description import Model, Parameters, World
-from gazelle.errors import FormatError, ResolveError, did_you_mean
+from gazelle.errors import FormatError, FormatWarning, ResolveError, did_you_mean
 from gazelle.formats import sdf, stage, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
@@ -16,6 +17,9 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 
 PathLike = str | os.PathLike[str]
+
+_told: set[tuple[str, Path]] = set()
+"""Models of the environment that have been told not to be taken."""
 
 _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
@@ -178,12 +182,36 @@ def _beside(file: Path) -> str:
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
+    """The file or model's folder that a bare name means.
+
+    What comes with Gazelle is not hidden by what the environment has of that name: a task or a
+    tutorial that names it counts on it. What else there is, is told once.
+    """
     if "://" in name:
         return None
-    folder = resolver.model(name)
     files = _bundled_files(resolver.assets)
     file = files.get(name) or {file.name: file for file in files.values()}.get(name)
-    return (folder or file) if model else (file or folder)
+    given, own = resolver.given_model(name), resolver.bundled_model(name)
+    bundled = own or file if model else file or given or own
+    if model and given is not None:
+        return given
+    if bundled is None:
+        return resolver.model(name)
+    if bundled != given:
+        _tell_other(name, resolver)
+    return bundled
+
+
+def _tell_other(name: str, resolver: Resolver) -> None:
+    other = resolver.environment_model(name)
+    if other is not None and (name, other) not in _told:
+        _told.add((name, other))
+        warnings.warn(
+            f"'{name}' is the one that comes with Gazelle; another is in {other}: give its path, "
+            f"or model://{name}, to take that one",
+            FormatWarning,
+            stacklevel=5,
+        )
 
 
 def bundled_names(assets: Path) -> list[str]:

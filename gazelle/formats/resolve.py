@@ -1,8 +1,9 @@
 """Where the files behind ``model://``, ``package://``, ``file://`` and relative names are.
 
 For a model the folders given are searched, then those around the file that name it
-directly, then what comes with Gazelle, and last all folders around the file; for a package
-what comes with Gazelle is last. Nothing is ever fetched from a network, and only files below folders that the user gave
+directly, then what comes with Gazelle, and last all folders around the file. For a package
+the first folder given that has it anywhere counts, as with rospack; then those around the
+file, and what comes with Gazelle is last. Nothing is ever fetched from a network, and only files below folders that the user gave
 (as arguments or in the environment), below the folders around the file being read, and
 those that come with Gazelle are opened.
 """
@@ -53,16 +54,24 @@ class Resolver:
         self.paths = tuple(Path(path).expanduser().absolute() for path in paths)
         self._indices: dict[Path, packages.Index] = {}
         self._listings: dict[Path, packages.Listing] = {}
+        self._crawled: dict[Path, dict[str, Path]] = {}
         self._models_in: list[Path] | None = None
         self._readable_in: list[Path] | None = None
+        self._linked: list[Path] = []
         self._packages: dict[str, Path | None] = {}
         self._models: dict[str, Path | None] = {}
         self._around: list[Path] = []
+        self._reads_own = False
         if file is not None:
             self.look_around(file)
 
     def look_around(self, file: Path) -> None:
-        """Search the folders around this file as well."""
+        """Search the folders around this file as well.
+
+        A file of Gazelle's own means Gazelle's own models and packages, whatever else is there.
+        """
+        if not self._around:
+            self._reads_own = file.is_relative_to(self.assets)
         for folder in _ancestors(file):
             if folder not in self._around:
                 self._around.append(folder)
@@ -177,30 +186,70 @@ class Resolver:
     def _find_package(self, name: str) -> Path | None:
         if not _plain_name(name):
             return None
-        for root in self._package_roots():
-            for folder in (root, root / name, root / "src" / name):
-                if (folder / "package.xml").is_file() and packages.package_name(folder) == name:
-                    return folder
         bundled = self.assets / name
+        if self._reads_own and (bundled / "package.xml").is_file():
+            return bundled
+        for root in self._given_roots():
+            # the first root that has it anywhere, as rospack finds it
+            found = self._flat(root, name) or self._crawl(root).get(name)
+            if found is not None:
+                self._linked_to(found)
+                return found
         return (
-            self._scanned(self._given_roots(), "packages", name)
+            next(filter(None, (self._flat(root, name) for root in self._around)), None)
             or self._scanned(self._around[::-1], "packages", name)
             or (bundled if (bundled / "package.xml").is_file() else None)
         )
 
+    @staticmethod
+    def _flat(root: Path, name: str) -> Path | None:
+        """The package where it mostly is, which spares the search."""
+        if packages.is_package(root, name):
+            return root
+        for folder in (root, root / "src"):
+            if not packages.is_searched(folder):
+                return None
+            if packages.is_package(folder / name, name):
+                return folder / name
+        return None
+
+    def _crawl(self, root: Path) -> dict[str, Path]:
+        if root not in self._crawled:
+            self._crawled[root] = packages.crawl(root)
+        return self._crawled[root]
+
+    def _linked_to(self, package: Path) -> None:
+        """Let files of a package be read that a workspace has as a link, as they often do."""
+        if not self.readable(package):
+            self._linked.append(package.resolve())
+            self._readable_in = None
+
     def _find_model(self, name: str) -> Path | None:
         if not _plain_name(name):
             return None
-        for root in self._model_roots():
-            for folder in (root / name, root / "models" / name, root):
-                if folder.name == name and (folder / "model.config").is_file():
-                    return folder
-        bundled = self.assets / "models" / name
+        bundled = self.bundled_model(name)
+        if bundled is not None and self._reads_own:
+            return bundled
         return (
-            self._scanned(self._given_roots(), "models", name)
-            or (bundled if (bundled / "model.config").is_file() else None)
+            _flat_model(name, self._model_roots())
+            or self._scanned(self._given_roots(), "models", name)
+            or bundled
             or self._scanned(self._around[::-1], "models", name)
         )
+
+    def bundled_model(self, name: str) -> Path | None:
+        """The folder of a model that comes with Gazelle, or None."""
+        folder = self.assets / "models" / name
+        return folder if (folder / "model.config").is_file() else None
+
+    def given_model(self, name: str) -> Path | None:
+        """The folder of a model directly in one of ``paths``, or None."""
+        return _flat_model(name, self.paths) if _plain_name(name) else None
+
+    def environment_model(self, name: str) -> Path | None:
+        """The folder of a model directly in a folder that the environment names, or None."""
+        roots = [*self._variable_roots, *self._split(PACKAGE_VARIABLE)]
+        return _flat_model(name, roots) if _plain_name(name) else None
 
     def _scanned(self, roots: list[Path], kind: str, name: str) -> Path | None:
         """A package or model anywhere below the roots: the dearest search, so the last."""
@@ -249,8 +298,16 @@ class Resolver:
     def _readable_roots(self) -> list[Path]:
         if self._readable_in is None:
             roots = [*self._model_roots(), *self._split(PACKAGE_VARIABLE), self.assets]
-            self._readable_in = [root.resolve() for root in roots]
+            self._readable_in = [*self._linked, *(root.resolve() for root in roots)]
         return self._readable_in
+
+
+def _flat_model(name: str, roots: Sequence[Path]) -> Path | None:
+    for root in roots:
+        for folder in (root / name, root / "models" / name, root):
+            if folder.name == name and (folder / "model.config").is_file():
+                return folder
+    return None
 
 
 def _plain_name(name: str) -> bool:

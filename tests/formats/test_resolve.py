@@ -1,9 +1,14 @@
 """Files are found where the tools of ROS and Gazebo find them, and nowhere else."""
 
+import os
+import shutil
+import subprocess
+
 import pytest
 
 from gazelle import FormatError, ResolveError, formats
 from gazelle.formats import Resolver
+from gazelle.ros.launch.packages import Packages
 
 
 def model(folder, name):
@@ -57,6 +62,61 @@ def test_packages_are_called_as_their_package_xml_says(tmp_path):
     resolver = Resolver([tmp_path], {})
     assert resolver.package("real") == place
     assert resolver.package("folder") is None
+
+
+def tree(root, layout):
+    """Packages of one name at places; ``CATKIN_IGNORE`` and the like are files."""
+    for place in layout:
+        folder, _, last = place.rpartition("/")
+        if last.isupper() or last == "rospack_nosubdirs":
+            (root / folder).mkdir(parents=True, exist_ok=True)
+            (root / place).touch()
+        else:
+            package(root / folder, last)
+
+
+CRAWLS = {
+    "the first root wins, however deep": (["a/src/deep/er/robot", "b/robot"], "a:b"),
+    "of the other order too": (["a/src/deep/er/robot", "b/robot"], "b:a"),
+    "a root may be the package": (["a/x/robot", "b/robot"], "b/robot:a"),
+    "ignored folders": (["a/x/robot", "a/x/CATKIN_IGNORE", "b/robot"], "a:b"),
+    "an ignored package": (["a/robot", "a/robot/CATKIN_IGNORE", "b/robot"], "a:b"),
+    "an ignored root": (["a/robot", "a/CATKIN_IGNORE", "b/robot"], "a:b"),
+    "no deeper": (["a/x/y/robot", "a/x/rospack_nosubdirs", "b/robot"], "a:b"),
+    "hidden folders": (["a/.x/robot", "b/robot"], "a:b"),
+    "not inside of another package": (["a/other", "a/other/in/robot", "b/robot"], "a:b"),
+    "folders that build": (["a/build/robot", "b/robot"], "a:b"),
+    "a root that is not there": (["b/robot"], "a:b"),
+    "nowhere": (["a/x/robot", "a/x/CATKIN_IGNORE"], "a:b"),
+}
+
+
+@pytest.mark.parametrize(("layout", "path"), CRAWLS.values(), ids=CRAWLS)
+def test_packages_are_those_that_rospack_finds(tmp_path, layout, path):
+    tree(tmp_path, layout)
+    roots = [str(tmp_path / root) for root in path.split(":")]
+    environ = {"ROS_PACKAGE_PATH": ":".join(roots)}
+    found = Resolver(environ=environ).package("robot")
+    assert found == Packages(environ).find("robot")  # $(find) means the same
+    assert Resolver(roots, {}).package("robot") == found
+    if shutil.which("rospack"):
+        command = ["rospack", "find", "robot"]
+        home = {"PATH": os.environ["PATH"], "ROS_HOME": str(tmp_path / "home")}
+        run = subprocess.run(
+            command, capture_output=True, text=True, check=False, env={**environ, **home}
+        )
+        assert run.stdout.strip() == ("" if found is None else str(found))
+
+
+def test_a_package_that_is_a_link_in_a_workspace_can_be_read(tmp_path):
+    place = package(tmp_path / "elsewhere" / "deep", "robot")
+    (place / "m.stl").write_bytes(b"")
+    (tmp_path / "ws" / "src").mkdir(parents=True)
+    (tmp_path / "ws" / "src" / "mine").symlink_to(place)
+    resolver = Resolver(environ={"ROS_PACKAGE_PATH": str(tmp_path / "ws" / "src")})
+    assert resolver.find("package://robot/m.stl").samefile(place / "m.stl")
+    resolver.look_around(tmp_path / "far" / "a.urdf")
+    assert resolver.find("package://robot/m.stl").samefile(place / "m.stl")
 
 
 def test_exports_of_packages_name_folders_of_models(tmp_path):

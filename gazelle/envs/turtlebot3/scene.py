@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle import formats
+from gazelle import assets, formats
 from gazelle.description import Model, Pose, World
 from gazelle.envs.lidars import FittedLidar, fit_lidar
 from gazelle.envs.options import NavigationSettings
@@ -75,13 +75,19 @@ class Scene:
 
 
 def _load_world(world: object) -> World:
-    return world if isinstance(world, World) else formats.load(str(world))
+    if isinstance(world, World):
+        return world
+    # a task always takes its own files, whatever the environment has under their names
+    return formats.load(assets.worlds().get(str(world), str(world)))
 
 
 def _fit(settings: NavigationSettings) -> FittedLidar:
     """The robot with its lidar fitted; no notice for a bundled one, of which the data sheet tells."""
     robot = settings.robot or ROBOT
-    model = robot if isinstance(robot, Model) else formats.load_model(str(robot))
+    if isinstance(robot, Model):
+        model = robot
+    else:
+        model = formats.load_model(assets.robots().get(str(robot), str(robot)))
     return fit_lidar(model, settings.lidar_samples, notice=not _is_bundled_name(robot))
 
 

@@ -69,27 +69,36 @@ class Packages:
             hint = f"{close} Else {hint}"
         return MissingPackageError(f"there is no package '{package}'", package=package, hint=hint)
 
-    def locate(self, package: str, path: str) -> str:
+    def locate(self, package: str, path: str, *, followed: bool = False) -> str:
         """What ``$(find PACKAGE)PATH`` stands for; the path may be empty.
 
-        Programs and resources of an install or devel space come before those of the sources.
+        As in roslaunch, a slash joins the two whether there is one or not. Programs and resources
+        of an install or devel space come before those of the sources.
+
+        Args:
+            package: Name of the package.
+            path: What follows, up to a blank or the next ``$(``.
+            followed: Whether another ``$(`` follows the path.
 
         Raises:
             MissingPackageError: There is no such package.
         """
         folder = self.folder(package)
-        if not path.startswith("/"):
-            return f"{folder}{path}"
+        relative = path.replace("\\", "/").removeprefix("/")
+        if followed:
+            return os.path.join(folder, relative)  # noqa: PTH118  # keeps the slash at its end
+        if not relative:
+            return str(folder)
         for space in self._spaces(package, folder):
-            program = space / "lib" / package / Path(path).name
+            program = space / "lib" / package / Path(relative).name
             if _is_program(program):
                 return str(program)
-        if not _is_program(folder / path[1:]):
+        if not _is_program(folder / relative):
             for space in self._spaces(package, folder):
-                resource = space / "share" / package / path[1:]
+                resource = space / "share" / package / relative
                 if resource.exists():
                     return str(resource)
-        return f"{folder}{path}"
+        return os.path.join(folder, relative)  # noqa: PTH118  # keeps the text as it is
 
     def programs(self, package: str, kind: str) -> list[Path]:
         """The files that may be the program of a node, the best first."""

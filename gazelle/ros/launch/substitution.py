@@ -136,7 +136,7 @@ class Substitution:
         while match := _FIND.search(text):
             package, rest = match.group(1).strip(), match.group(2)
             path, mark, more = rest.partition("$(")
-            found = self.packages.locate(package, path)
+            found = self.packages.locate(package, path, followed=bool(mark))
             text = text[: match.start()] + found + mark + more + text[match.end() :]
         return text
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import subprocess
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -61,6 +63,46 @@ def test_packages_are_found(workspace):
     assert known.resolve("-f $(find robot)/a $(find robot)/b") == (
         f"-f {workspace}/robot/a {workspace}/robot/b"
     )
+
+
+JOINED = {
+    "$(find robot)launch/a.launch": "{0}/launch/a.launch",
+    "$(find robot)": "{0}",
+    "$(find robot)/": "{0}",
+    "$(find robot)launch/": "{0}/launch/",
+    "$(find robot).txt": "{0}/.txt",
+    "$(find robot)//a": "/a",
+    "$(find robot)\\b": "{0}/b",
+    "$(find robot) /a": "{0} /a",
+    "$(find robot)a $(find robot)b": "{0}/a {0}/b",
+    "$(find robot)$(find robot)": "{0}/{0}",
+    "$(find robot)/$(find robot)x": "{0}/{0}/x",
+    "x$(find robot)/../y": "x{0}/../y",
+    '"$(find robot)a"': '"{0}/a"',
+}
+
+
+@pytest.mark.parametrize("text", JOINED)
+def test_a_slash_joins_a_package_and_what_follows(workspace, text):
+    known = words(environment={"ROS_PACKAGE_PATH": str(workspace)})
+    assert known.resolve(text) == JOINED[text].format(workspace / "robot")
+
+
+@pytest.mark.skipif(not Path("/usr/lib/python3/dist-packages/roslaunch").exists(), reason="no ROS")
+def test_roslaunch_joins_so_itself(workspace):
+    program = (
+        "import sys; from roslaunch.substitution_args import resolve_args\n"
+        "for text in sys.argv[1:]: print(resolve_args(text, {}))"
+    )
+    run = subprocess.run(
+        ["/usr/bin/python3", "-c", program, *JOINED],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"ROS_PACKAGE_PATH": str(workspace), "HOME": str(workspace)},
+    )
+    folder = workspace / "robot"
+    assert run.stdout.splitlines() == [each.format(folder) for each in JOINED.values()]
 
 
 def test_a_missing_package_is_named_with_the_closest(workspace):
