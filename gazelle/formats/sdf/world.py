@@ -60,9 +60,7 @@ class _Contents:
 
 def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     """A world with everything in it; the first ``<state>`` is applied."""
-    node = with_own_joints(
-        with_merges(prepared(node, reading), version, reading, include_model)
-    )
+    node = with_own_joints(with_merges(prepared(node, reading), version, reading, include_model))
     contents = _collect(node, version, reading)
     scope = contents.scope
     camera = node.find("gui/camera")
