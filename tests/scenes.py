@@ -152,6 +152,33 @@ def burger(name="burger", pose=None, samples=24, stddev=0.0, **drive):
     )
 
 
+CART_TRACK, CART_RADIUS = 0.5, 0.1
+
+
+def cart(width, mu=1.0, roll=-1.57, drag=0.3, caster=None, name="cart"):
+    """Two driven wheels, so wide and on axles turned so, and a caster behind."""
+    caster = caster or Collision("caster", Sphere(0.02), Pose(-0.3, 0.0, 0.02))
+    rubbing = replace(caster, surface=rubber(drag))
+    base = Link(
+        "base",
+        inertial=Inertial(5.0, Pose(x=-0.1, z=0.1), Inertia(0.05, 0.08, 0.1)),
+        collisions=(rubbing,),
+    )
+
+    def wheel(side, y):
+        shape = Collision("c", Cylinder(CART_RADIUS, width), surface=rubber(mu))
+        moments = Inertia(0.003, 0.003, 0.005)
+        pose = Pose(y=y, z=CART_RADIUS, roll=roll)
+        return Link(side, pose=pose, inertial=Inertial(0.5, inertia=moments), collisions=(shape,))
+
+    joints = tuple(
+        Joint(f"{side}_joint", "continuous", "base", side, axes=(JointAxis(),))
+        for side in ("left", "right")
+    )
+    links = (base, wheel("left", CART_TRACK / 2.0), wheel("right", -CART_TRACK / 2.0))
+    return Model(name, links=links, joints=joints)
+
+
 def wall(name, x, y, yaw, length=4.0, thickness=0.15):
     shape = Box((length, thickness, 0.5))
     link = Link("link", collisions=(Collision("c", shape, Pose(z=0.25)),))

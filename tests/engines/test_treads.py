@@ -19,37 +19,12 @@ from gazelle.description import (
     Link,
     Model,
     Pose,
-    Sphere,
 )
 from gazelle.engines import make_engine
 from gazelle.engines.laws import with_profile
 
 MODELS = ("cone_model", "pyramid_model")
-TRACK, RADIUS = 0.5, 0.1
-
-
-def cart(width, mu=1.0, roll=-1.57, drag=0.3, caster=None, name="cart"):
-    """Two driven wheels, so wide and on axles turned so, and a caster behind."""
-    caster = caster or Collision("caster", Sphere(0.02), Pose(-0.3, 0.0, 0.02))
-    rubbing = replace(caster, surface=scenes.rubber(drag))
-    base = Link(
-        "base",
-        inertial=Inertial(5.0, Pose(x=-0.1, z=0.1), Inertia(0.05, 0.08, 0.1)),
-        collisions=(rubbing,),
-    )
-
-    def wheel(side, y):
-        shape = Collision("c", Cylinder(RADIUS, width), surface=scenes.rubber(mu))
-        moments = Inertia(0.003, 0.003, 0.005)
-        pose = Pose(y=y, z=RADIUS, roll=roll)
-        return Link(side, pose=pose, inertial=Inertial(0.5, inertia=moments), collisions=(shape,))
-
-    joints = tuple(
-        Joint(f"{side}_joint", "continuous", "base", side, axes=(JointAxis(),))
-        for side in ("left", "right")
-    )
-    links = (base, wheel("left", TRACK / 2.0), wheel("right", -TRACK / 2.0))
-    return Model(name, links=links, joints=joints)
+TRACK, RADIUS = scenes.CART_TRACK, scenes.CART_RADIUS
 
 
 def drive(model, left, right, seconds, friction, step=0.001):
@@ -75,7 +50,7 @@ def drive(model, left, right, seconds, friction, step=0.001):
 @pytest.mark.parametrize("step", [0.001, 0.005])
 def test_a_cart_on_wheels_of_any_width_goes_straight(width, mu, friction, step):
     """Its wheels slip as it sets off; axles turned by 1.57 stand on one edge each."""
-    where, turned = drive(cart(width, mu), 5.0, 5.0, 4.0, friction, step)
+    where, turned = drive(scenes.cart(width, mu), 5.0, 5.0, 4.0, friction, step)
     assert where[0] > 1.7
     assert abs(turned) < 1e-3
     assert abs(where[1]) < 2e-3
@@ -88,7 +63,7 @@ def test_a_cart_on_wheels_of_any_width_turns_in_place_as_kinematics_say(width, m
     rate, seconds = 1.0, 5.0
     speed = rate * TRACK / 2.0 / RADIUS
     # On axles at right angles, so that the wheels bear with both edges.
-    level = cart(width, mu, roll=-math.pi / 2.0, drag=0.1)
+    level = scenes.cart(width, mu, roll=-math.pi / 2.0, drag=0.1)
     _, turned = drive(level, speed, -speed, seconds, friction)
     # The wheels turn about z, which points to the left of the cart.
     assert abs(turned) == pytest.approx(rate * seconds, rel=0.01)
@@ -116,7 +91,7 @@ def test_a_roller_alone_stands_and_what_leans_stands_on_its_edge():
 
 def test_a_caster_that_is_askew_by_rounding_brakes_in_the_middle():
     block = Collision("caster", Box((0.03, 0.03, 0.04)), Pose(-0.3, 0.0, 0.015, roll=-1.57))
-    where, turned = drive(cart(0.02, 0.3, caster=block), 5.0, 5.0, 4.0, "cone_model")
+    where, turned = drive(scenes.cart(0.02, 0.3, caster=block), 5.0, 5.0, 4.0, "cone_model")
     assert abs(turned) < 1e-3
     assert abs(where[1]) < 2e-3
 

@@ -25,6 +25,7 @@ from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sp
 from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
 from gazelle.engines.mujoco.laws.extras import Rub
 from gazelle.engines.mujoco.surfaces import (
+    condim_of,
     friction_of,
     needs_cone,
     rigid_terms,
@@ -243,9 +244,7 @@ def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list
 def _friction_terms(first: Solid, second: Solid) -> dict[str, Any]:
     one, two = friction_between(first.collision, second.collision)
     spin = max(torsional_friction_of(first.collision), torsional_friction_of(second.collision))
-    rubs = max(one, two, spin) > 0.0
-    condim = 4 if spin > 0.0 else 3
-    return {"condim": condim if rubs else 1, "friction": [one, two, spin, 0.0, 0.0]}
+    return {"condim": condim_of(max(one, two), spin), "friction": [one, two, spin, 0.0, 0.0]}
 
 
 def _geoms(model: mujoco.MjModel, pair: int) -> tuple[int, int]:

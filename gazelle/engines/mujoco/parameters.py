@@ -19,7 +19,7 @@ from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.motors import stiffen_worlds
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.retuning import retune
-from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION
+from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION, LEAST_FRICTION
 from gazelle.engines.mujoco.tyres import compiled_slip, set_slip
 from gazelle.errors import EngineError
 
@@ -28,6 +28,9 @@ Key = tuple[str, str]
 
 # MuJoCo has no infinite limits.
 _FAR = 1e10
+
+# Directions of a contact that rubs but does not resist turning about its normal.
+_SLIDING = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,6 +183,9 @@ def _write_friction(target: _Target, name: str, values: Floats) -> None:
     slipperiness = (LARGEST_FRICTION - friction[:, :, 0]) * 1e6
     target.batch.expand("geom_priority")[:] = slipperiness.astype(np.int32)
     model = target.batch.model
+    spins = model.geom_condim[geoms] > _SLIDING
+    condim = np.where(values > LEAST_FRICTION, _SLIDING, 1)
+    target.batch.expand("geom_condim")[:, geoms] = np.where(spins, model.geom_condim[geoms], condim)
     touched = np.isin(model.pair_geom1, geoms) | np.isin(model.pair_geom2, geoms)
     own = values[:, 0] != model.geom_friction[geoms[0], 0] if geoms else []
     if touched.any() and np.any(own):
@@ -187,6 +193,9 @@ def _write_friction(target: _Target, name: str, values: Floats) -> None:
         ends = friction[:, model.pair_geom1, 0], friction[:, model.pair_geom2, 0]
         changed = np.ix_(own, touched, np.arange(2))
         target.batch.expand("pair_friction")[changed] = np.minimum(*ends)[changed[:2]]
+        pairs = np.ix_(own, touched)
+        dims = np.where(np.minimum(*ends)[pairs] > LEAST_FRICTION, _SLIDING, 1)
+        target.batch.expand("pair_dim")[pairs] = np.maximum(model.pair_dim[touched], dims)
 
 
 def _write_gravity(target: _Target, _: str, values: Floats) -> None:

@@ -16,6 +16,9 @@ from gazelle.description import Collision
 # Files say "never slip" with 1e5 and more. At 100 nothing slips on slopes of up to 89 degrees.
 LARGEST_FRICTION = 100.0
 
+# Less friction is none: in a pyramid it would be as stiff as it is small, and throw what lies.
+LEAST_FRICTION = 1e-4
+
 # From here on a direction does not matter: nothing slips in either [-].
 _NEVER_SLIPS = 10.0
 
@@ -110,6 +113,11 @@ def needs_cone(moving: Iterable[float], resting: Iterable[float]) -> bool:
     return min(fast[0], other) > _LARGEST_IN_A_PYRAMID
 
 
+def condim_of(mu: float, spin: float) -> int:
+    """The directions that a contact acts in, for sliding and torsional friction."""
+    return 4 if spin > 0.0 else 3 if mu > LEAST_FRICTION else 1
+
+
 def surface_options(
     collision: Collision, time_step: float, ranks: dict[float, int]
 ) -> dict[str, Any]:
@@ -120,7 +128,7 @@ def surface_options(
     mask = _signed(surface.contact.collide_bitmask) if touches else 0
     return {
         "friction": [mu, spin, 0.0],
-        "condim": 4 if spin > 0.0 else 3,
+        "condim": condim_of(mu, spin),
         "priority": ranks[mu],
         "contype": mask,
         "conaffinity": mask,
