@@ -125,8 +125,11 @@ class Robot(Ports):
         return self.simulation.engine.model_placement(self.name, worlds)
 
     def motion(self, worlds: Worlds | None = None) -> Motion:
-        """Velocity of the canonical link in many worlds, in the world frame."""
-        first = next(iter(self._links.values()))
+        """Velocity of the canonical link in many worlds, in the world frame; 0 without a link."""
+        first = next(iter(self._links.values()), None)
+        if first is None:
+            count = self.simulation.nworld if worlds is None else len(worlds)
+            return Motion(np.zeros((count, 3)), np.zeros((count, 3)))
         return first.motion(worlds)
 
     def set_pose(
@@ -163,13 +166,16 @@ class Robot(Ports):
     ) -> None:
         """Give the robot a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
 
+        One without links has nothing that could move, and stays.
+
         Raises:
             SimulationError: A value cannot be.
         """
         engine = self.simulation.engine
         some = chosen(worlds, engine.nworld)
         twist = motion(self.name, linear, angular, size_of(some, engine.nworld))
-        self.simulation.requests.call(lambda: engine.set_model_motion(self.name, *twist, some))
+        if self._links:
+            self.simulation.requests.call(lambda: engine.set_model_motion(self.name, *twist, some))
 
     def set_configuration(
         self,

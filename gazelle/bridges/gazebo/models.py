@@ -160,7 +160,7 @@ class ModelServices:
     def _place(self, robot: Robot, state: State) -> None:
         engine, worlds = self._simulation.engine, self._entities.worlds
         engine.set_model_placement(robot.name, state.position, state.quaternion, worlds)
-        if not robot.description.static:
+        if robot.links and not robot.description.static:
             engine.set_model_motion(robot.name, state.linear, state.angular, worlds)
 
     def set_configuration(self, request: Any) -> Answer:

@@ -26,6 +26,7 @@ from gazelle.engines.mujoco.contacts import (
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
+from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, set_options
@@ -161,15 +162,15 @@ def draft_world(recipe: Recipe) -> Draft:
     """
     spec = mujoco.MjSpec()
     set_options(spec, recipe.world, recipe.time_step, recipe.kinematic)
+    models = list(map(with_link, recipe.world.models))
     trees = {
-        model.name: tree_of(model, kinematic=model.name in recipe.kinematic)
-        for model in recipe.world.models
+        model.name: tree_of(model, kinematic=model.name in recipe.kinematic) for model in models
     }
     bodies = {name: tree.bodies for name, tree in trees.items()}
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.tyres - held)
     builder = _Builder(spec, recipe, bodies, slips)
-    for model in recipe.world.models:
+    for model in models:
         builder.add_model(model)
     for tree in trees.values():
         add_couplings(spec, tree.bodies, recipe.time_step)

@@ -177,3 +177,35 @@ def test_a_model_that_was_moved_is_back_after_a_reset(graph):
     assert graph.sim.time == 0.0
     assert graph.sim.robots["ball"].pose.z == pytest.approx(3.0)
     assert np.abs(graph.sim.robots["ball"].twist.linear).max() == 0.0
+
+
+@pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+def test_a_model_without_links_is_there_with_its_pose(graph):
+    """A wrapper whose include is not found; the others must not suffer from it."""
+    wrapper = (
+        "<sdf version='1.6'><model name='wrap'><include><uri>model://nowhere</uri></include>"
+        "</model></sdf>"
+    )
+    assert spawn(graph, wrapper, "wrap", initial_pose=pose(1.0, 2.0, 3.0)).success
+    heard = graph.client.listen("/gazebo/model_states", "gazebo_msgs/ModelStates")
+    links = graph.client.listen("/gazebo/link_states", "gazebo_msgs/LinkStates")
+    graph.sim.run(seconds=0.05)
+
+    def told():
+        graph.sim.run(seconds=0.001)
+        return bool(heard) and bool(links)
+
+    until(told)
+    states = heard[-1]
+    place = states.pose[states.name.index("wrap")].position
+    assert (place.x, place.y, place.z) == (1.0, 2.0, 3.0)
+    assert "r1" in states.name
+    answer = graph.client.call("get_model_state", "GetModelState", model_name="wrap")
+    assert answer.success
+    assert answer.pose.position.z == 3.0
+    assert graph.client.call(
+        "set_model_state", "SetModelState", model_state=model_state("wrap", pose(5.0))
+    ).success
+    assert graph.sim.robots["wrap"].pose.x == 5.0
+    found = graph.client.call("get_model_properties", "GetModelProperties", model_name="wrap")
+    assert (found.success, found.body_names) == (True, [])
