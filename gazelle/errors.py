@@ -7,6 +7,8 @@ about it (hint). The text is one line: ``FILE:LINE: <ELEMENT>: MESSAGE; HINT``.
 from __future__ import annotations
 
 import difflib
+import re
+from collections import Counter
 from collections.abc import Iterable
 from typing import Protocol
 
@@ -140,12 +142,48 @@ def located(message: str, source: Source | None) -> str:
     return message if source is None else describe(message, file=source.file, line=source.line)
 
 
+_CLOSE = 0.6
+_REST_CLOSE = 0.75
+_MANY = 20
+_COMMON = 1 / 8
+_WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^\W\d_]+")
+
+
+def _closest(name: str, names: list[str]) -> str | None:
+    """The name that is most like another; None if none is like it."""
+    close = difflib.get_close_matches(name, names, n=5, cutoff=_CLOSE)
+    if len(names) < _MANY:
+        return close[0] if close else None
+    counts = Counter(word for each in names for word in set(_words(each)))
+    common = {word for word, count in counts.items() if count > len(names) * _COMMON}
+    own = _rest(name, common)
+    return next((each for each in close if _alike(own, _rest(each, common))), None)
+
+
+def _words(name: str) -> list[str]:
+    return [word.lower() for word in _WORD.findall(name)]
+
+
+def _rest(name: str, common: set[str]) -> str:
+    return "_".join(word for word in _words(name) if word not in common)
+
+
+def _alike(one: str, other: str) -> bool:
+    if not one or not other:
+        return one == other
+    return difflib.SequenceMatcher(None, one, other).ratio() >= _REST_CLOSE
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A hint that names the closest of the known names, else all of them (the first 20)."""
+    """A hint that names the closest of the known names, else all of them (the first 20).
+
+    Names must be alike in what makes them different: words that many of the known names have,
+    such as ``libgazebo``, ``ros`` and ``so``, do not count.
+    """
     names = sorted(known)
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    if close:
-        return f"did you mean '{close[0]}'?"
+    close = _closest(name, names)
+    if close is not None:
+        return f"did you mean '{close}'?"
     if not names:
         return "there are none"
     more = "" if len(names) <= 20 else f" and {len(names) - 20} more"

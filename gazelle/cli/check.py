@@ -2,6 +2,7 @@
 A file that can be read is also built with the engine and its plugins.
 
   gazelle check my.world my_robot.urdf.xacro
+  gazelle check --urdf my_robot.urdf my_robot.srdf
   gazelle check --json my.world > findings.json
 
 The exit code is 1 if there is any error; warnings alone leave it 0.
@@ -31,6 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "files", nargs="+", metavar="FILE", help="a file, a model's folder, or a bundled name"
     )
     parser.add_argument("--json", action="store_true", help="for tools: one JSON list")
+    parser.add_argument("--urdf", metavar="FILE", help="the robot that an SRDF is judged against")
     parser.add_argument("--engine", metavar="NAME", default="mujoco", help="default mujoco")
     parser.add_argument(
         "--files-only", action="store_true", help="do not build them with the engine"
@@ -52,9 +54,11 @@ def run(args: argparse.Namespace) -> int:
 def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
     """The findings about one file."""
     from gazelle.formats import check
-    from gazelle.formats.check import TOLERATED
+    from gazelle.formats.check import TOLERATED, is_semantic
 
-    found = check(file)
+    found = check(file, urdf=args.urdf)
+    if is_semantic(Path(file)):
+        return found
     stopped = any(each.severity == "error" and each.rule != TOLERATED for each in found)
     if not args.files_only and not stopped:
         found += _build(file, args.engine)

@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from gazelle.description import Source
 from gazelle.errors import Error
-from gazelle.formats.judge import Finding, judge
+from gazelle.formats import srdf, xml
+from gazelle.formats.judge import Finding, judge, semantics
 from gazelle.formats.loader import PathLike, find_file, read_path
 from gazelle.formats.reading import Note, Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.formats.urdf.tree import read_tree
 
 TOLERATED = "tolerated"
 """Rule of the faults that a load goes on with, as Gazebo does."""
@@ -49,24 +52,29 @@ def check(
     *,
     paths: Sequence[PathLike] = (),
     xacro_args: Mapping[str, str] | None = None,
+    urdf: PathLike | None = None,
 ) -> list[Problem]:
     """Load a file and list its problems instead of raising them, errors first.
 
     Args:
-        path: As for ``load``.
+        path: As for ``load``; or an SRDF.
         paths: As for ``load``.
         xacro_args: As for ``load``.
+        urdf: The robot that an SRDF is for, whose links and joints it must name.
     """
     reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
     problems: list[Problem] = []
     judged: list[Problem] = []
     try:
-        world = read_path(find_file(path, reading), reading)
-        judged = [_judged(finding) for finding in judge(world)]
+        file = find_file(path, reading)
+        if is_semantic(file):
+            judged = _check_semantics(file, urdf, reading)
+        else:
+            judged = [_judged(finding) for finding in judge(read_path(file, reading))]
     except Error as error:
-        file = error.file or os.fspath(path)
+        name = error.file or os.fspath(path)
         problems.append(
-            Problem("error", error.message, file, error.line, error.element, error.hint)
+            Problem("error", error.message, name, error.line, error.element, error.hint)
         )
     problems += [_noted(note) for note in reading.notes if note.severity == "error"]
     problems += [
@@ -77,10 +85,36 @@ def check(
     return problems + judged
 
 
-def _judged(finding: Finding) -> Problem:
+def is_semantic(file: Path) -> bool:
+    """Whether a file is an SRDF: by its name, or an ``.xml`` by what is in it."""
+    if any(suffix.lower() == ".srdf" for suffix in file.suffixes):
+        return True
+    try:
+        return file.suffix == ".xml" and srdf.is_srdf(xml.read_file(file))
+    except Error:
+        return False
+
+
+def _check_semantics(file: Path, urdf: PathLike | None, reading: Reading) -> list[Problem]:
+    """Read an SRDF, and judge it against its URDF; what that says wrong is another check's."""
+    with reading.inside(file):
+        root = srdf.read_root(file, reading)
+        srdf.read_semantics(root, reading)
+    if urdf is None:
+        return []
+    other = Reading(reading.resolver, xacro_args=reading.xacro_args)
+    robot = find_file(urdf, other)
+    with other.inside(robot):
+        node = srdf.read_root(robot, other)
+        tree = read_tree(node, other)
+    name = node.attributes.get("name", "")
+    return [_judged(finding, "error") for finding in semantics.judge(root, name, tree)]
+
+
+def _judged(finding: Finding, severity: Literal["error", "warning"] = "warning") -> Problem:
     place = finding.source or Source()
     return Problem(
-        "warning",
+        severity,
         finding.message,
         place.file,
         place.line,

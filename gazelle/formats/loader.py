@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, FormatWarning, ResolveError, did_you_mean
-from gazelle.formats import sdf, stage, urdf, xacro, xml
+from gazelle.formats import sdf, srdf, stage, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
 from gazelle.formats.occupancy import load_map
@@ -256,6 +256,12 @@ def read_root(root: Parameters, reading: Reading) -> World:
     Raises:
         FormatError: It is of no known format.
     """
+    if root.tag == "robot" and srdf.is_srdf(root):
+        raise FormatError(
+            "this is an SRDF, which describes no robot by itself",
+            source=root.source,
+            hint="gazelle.formats.load_srdf() reads it; load the URDF it is for",
+        )
     if root.tag == "robot":
         return World(models=(urdf.read_robot(root, reading),), source=root.source)
     if root.tag in {"sdf", "gazebo"}:

@@ -69,12 +69,24 @@ def load_srdf(
         raise ResolveError("there is no such file", file=os.fspath(path))
     reading = Reading(Resolver(paths, file=file), xacro_args=dict(xacro_args or {}))
     with reading.inside(file):
-        root = xml.read_file(file, reading.misread)
-        if xacro.is_xacro(root):
-            root = xacro.expand(file, reading)
-        semantics = read_semantics(root, reading)
+        semantics = read_semantics(read_root(file, reading), reading)
     reading.report(strict=False)
     return semantics
+
+
+def read_root(file: Path, reading: Reading) -> Parameters:
+    """The root element of an SRDF file, expanded if it uses xacro.
+
+    Raises:
+        FormatError: The file is no XML, or no valid xacro.
+    """
+    root = xml.read_file(file, reading.misread)
+    return xacro.expand(file, reading) if xacro.is_xacro(root) else root
+
+
+def is_srdf(root: Parameters) -> bool:
+    """Whether a ``<robot>`` holds what SRDF has, and no link as a URDF does."""
+    return "link" not in root and any(child.tag in _KNOWN for child in root.children)
 
 
 def load_srdf_string(text: str | bytes, *, name: str = "string") -> Semantics:

@@ -1,6 +1,11 @@
 """What is in the worlds of gazebo_ros_pkgs: models, topics, and what has no model here."""
 
 WORLDS = {
+    "test/test_worlds/gazebo_ros_depth_camera.world": (
+        "box_reflectance model_1 model_2",
+        "",
+        "model_1::link_1::sensor_camera",
+    ),
     "test/bumper_test/gazebo_ros_bumper.world": (
         "model_1 gplane",
         "/test_bumper",
@@ -143,6 +148,5 @@ WORLDS = {
     ),
 }
 REFUSED = {
-    "test/test_worlds/gazebo_ros_depth_camera.world": "the inertia is not positive definite",
     "test2/worlds/empty.world": r"worlds of Gazebo before 1\.0 cannot be read",
 }

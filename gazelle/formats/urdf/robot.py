@@ -37,6 +37,7 @@ from gazelle.formats.urdf.parts import (
     read_sensors,
     read_visuals,
 )
+from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
 from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, bodies, read_tree
 
@@ -54,6 +55,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     name = root.attributes.get("name", "")
     if not name:
         raise values.fail(root, "the attribute 'name' is required in <robot>", hint=ONLY_MACROS)
+    note_unknown(root, reading)
     tree = read_tree(root, reading)
     extensions = read_extensions(root)
     note_unused(extensions, set(tree.links), set(tree.joints), reading)
