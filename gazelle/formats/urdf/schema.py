@@ -63,7 +63,7 @@ _LINK = _kind(
 )
 _JOINT = _kind(
     "name type",
-    axis=_kind("xyz"),
+    axis=_kind("xyz rpy"),  # the tutorial of URDF itself writes an rpy
     calibration=_kind("rising falling reference_position"),
     child=_kind("link"),
     dynamics=_kind("damping friction"),
