@@ -96,7 +96,7 @@ def clustered_rate(
     share = hits.sum() / sizes.sum()
     variance = float(((hits - share * sizes) ** 2).sum()) / sizes.sum() ** 2
     draws = share * (1.0 - share) / variance * many / (many + 2)
-    return Rate(count, total, min(max(draws, alike), total))
+    return Rate(count, total, float(min(max(draws, alike), total)))
 
 
 class EpisodeLog:
