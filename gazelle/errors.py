@@ -181,7 +181,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     such as ``libgazebo``, ``ros`` and ``so``, do not count.
     """
     names = sorted(known)
-    close = _closest(name, names)
+    close = _closest(str(name), names)
     if close is not None:
         return f"did you mean '{close}'?"
     if not names:

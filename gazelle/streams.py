@@ -11,9 +11,13 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import operator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gazelle.errors import SimulationError
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
@@ -89,8 +93,22 @@ class Stream:
         return (self.uniform(size, worlds) * high).astype(np.intp)
 
 
+def seed_of(seed: Any) -> int:
+    """A seed of random numbers: any whole number.
+
+    Raises:
+        SimulationError: It is none.
+    """
+    try:
+        return operator.index(seed)
+    except TypeError:
+        raise SimulationError(
+            f"a seed must be a whole number, not {seed!r}", hint="such as 0 or 42"
+        ) from None
+
+
 def _keys_of(seed: int, name: str, nworld: int) -> Uint64:
-    digest = hashlib.blake2b(f"{seed}:{name}".encode(), digest_size=8).digest()
+    digest = hashlib.blake2b(f"{seed_of(seed)}:{name}".encode(), digest_size=8).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
     return _mix(_mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest)))
 

@@ -60,8 +60,12 @@ class Pose:
         written and read stays the same. One of length zero becomes the identity, as in Gazebo.
         """
         norm = math.sqrt(sum(q * q for q in quaternion))
+        if norm in (0.0, math.inf):  # the squares of very small or large numbers
+            largest = max(map(abs, quaternion))
+            if 0.0 < largest < math.inf:
+                return cls.from_quaternion(position, [q / largest for q in quaternion])
         pose = cls(*position)
-        if norm > 0.0:
+        if norm != 0.0:
             scale = 1.0 if abs(norm - 1.0) < _ROUNDING else norm
             x, y, z, w = (float(q) / scale for q in quaternion)
             pose._quaternion = (x, y, z, w)  # its own class

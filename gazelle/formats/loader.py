@@ -92,6 +92,8 @@ def load_string(
         FormatError: The text cannot be read, or says something that cannot be.
         ResolveError: A file is not found, and ``strict`` is set.
     """
+    if not isinstance(text, str | bytes):
+        raise FormatError(f"text is a string or bytes, not {text!r}", hint="load() reads files")
     reading = _reading(paths, xacro_args)
     data = text.encode() if isinstance(text, str) else text
     if stage.is_stage(data):
@@ -138,6 +140,20 @@ def _only_model(world: World, name: str) -> Model:
     return world.models[0]
 
 
+def path_text(path: object) -> str:
+    """A path, URI or bundled name as text.
+
+    Raises:
+        ResolveError: It is none of them.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise ResolveError(
+            f"a file is found by its path, URI or name, not by {path!r}",
+            hint='such as "robot.urdf", "model://ground_plane" or "turtlebot3_world"',
+        )
+    return str(os.fspath(path))
+
+
 def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     """The file that a path, URI or bundled name means.
 
@@ -149,7 +165,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     Raises:
         ResolveError: There is none.
     """
-    text = os.fspath(path)
+    text = path_text(path)
     if "://" not in text:
         plain = Path(text).expanduser()
         # Any folder here may be called "office": only that of a model hides what is bundled.

@@ -299,7 +299,13 @@ class JointHandle:
 
     def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
-        self._engine.set_motor_velocity(self.name, velocity, worlds)
+        try:
+            self._engine.set_motor_velocity(self.name, velocity, worlds)
+        except (TypeError, ValueError) as error:
+            raise SimulationError(
+                f"the velocity of the motor on '{self.name}' cannot be {velocity!r}: {error}",
+                hint="give a number, one for each world, or a row of axes for each world",
+            ) from None
 
     def set_properties(
         self,
@@ -342,10 +348,17 @@ def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> Array
         SimulationError: Both are given.
     """
     if quaternion is None:
-        return from_yaw(np.asarray(0.0 if yaw is None else yaw, np.float64))
+        return from_yaw(_headings(0.0 if yaw is None else yaw))
     if yaw is not None:
         raise SimulationError("give a quaternion or a yaw, not both")
     return quaternion
+
+
+def _headings(yaw: ArrayLike) -> Floats:
+    try:
+        return np.asarray(yaw, np.float64)
+    except (TypeError, ValueError):
+        raise SimulationError(f"a heading must be numbers [rad], not {yaw!r}") from None
 
 
 def _set_parameters(

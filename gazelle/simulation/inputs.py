@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import operator
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.description import Model
+from gazelle.engines.limits import FARTHEST
 from gazelle.errors import SimulationError
 
 Floats = NDArray[np.float64]
@@ -16,6 +18,9 @@ Worlds = NDArray[np.intp]
 
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
+
+# A quaternion's largest number is taken as it is up to so many decades from one.
+_FAR_FROM_UNIT = 100.0
 
 # Characters of a value that a message shows.
 _LONGEST = 60
@@ -90,12 +95,20 @@ def placement(
     """A position and a quaternion that something can be put at in so many worlds.
 
     Raises:
-        SimulationError: They are not finite, or of another shape.
+        SimulationError: They are not finite, too far away, no orientation, or of another shape.
     """
-    return (
-        finite(f"the position of '{name}'", position, 3, count),
-        finite(f"the orientation of '{name}'", quaternion, 4, count),
-    )
+    place = finite(f"the position of '{name}'", position, 3, count)
+    turn = finite(f"the orientation of '{name}'", quaternion, 4, count)
+    if not (np.abs(place) <= FARTHEST).all():
+        raise SimulationError(f"the position of '{name}' is too far away: {_short(position)}")
+    largest = np.abs(turn).max(axis=-1, keepdims=True)
+    if not largest.all():
+        raise SimulationError(
+            f"the orientation of '{name}' must not be all zeros",
+            hint="no turn is (0, 0, 0, 1): x, y, z, w",
+        )
+    # So that neither very large nor very small numbers lose their squares.
+    return place, turn / largest if (np.abs(np.log10(largest)) > _FAR_FROM_UNIT).any() else turn
 
 
 def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:
@@ -105,9 +118,27 @@ def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tupl
         SimulationError: They are not finite, or of another shape.
     """
     return (
-        finite(f"the velocity of '{name}'", linear, 3, count),
-        finite(f"the angular velocity of '{name}'", angular, 3, count),
+        _bounded(f"the velocity of '{name}'", linear, count),
+        _bounded(f"the angular velocity of '{name}'", angular, count),
     )
+
+
+def _bounded(what: str, values: ArrayLike, count: int) -> Floats:
+    given = finite(what, values, 3, count)
+    if not (np.abs(given) <= FARTHEST).all():
+        raise SimulationError(f"{what} is too large: {_short(values)}")
+    return given
+
+
+def number(what: str, value: object) -> float:
+    """A single number.
+
+    Raises:
+        SimulationError: It is none.
+    """
+    if not isinstance(value, Real):
+        raise SimulationError(f"{what} must be a number, not {value!r}")
+    return float(value)
 
 
 def steps(count: int) -> int:
@@ -131,7 +162,11 @@ def duration(seconds: float) -> float:
     Raises:
         SimulationError: It is negative or not finite.
     """
-    if not 0.0 <= seconds < math.inf:
+    try:
+        possible = 0.0 <= seconds < math.inf
+    except TypeError:
+        raise SimulationError(f"cannot run for {seconds!r}: that is no time in seconds") from None
+    if not possible:
         raise SimulationError(f"cannot run for {seconds} s; time goes forward only, and ends")
     return seconds
 
@@ -152,6 +187,10 @@ def placeable(model: Model) -> Model:
     if not np.isfinite((*model.pose.position, *model.pose.quaternion)).all():
         raise SimulationError(
             f"the pose of model '{name}' must be finite, not {model.pose}", source=model.source
+        )
+    if not all(abs(each) <= FARTHEST for each in model.pose.position):
+        raise SimulationError(
+            f"model '{name}' cannot be at {model.pose}: that is too far away", source=model.source
         )
     return model
 

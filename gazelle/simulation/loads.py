@@ -18,6 +18,7 @@ from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.rotations import cross, rotate
 from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.inputs import number
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -174,6 +175,8 @@ class Loads:
 
     def _span(self, start: float | None, duration: float | None) -> tuple[int, int | None]:
         now = self._clock.now_ns
+        start = None if start is None else number("the start of a force", start)
+        duration = None if duration is None else number("the duration of a force", duration)
         if start is not None and not math.isfinite(start):
             raise SimulationError(f"the start of a force must be finite, not {start}")
         begin = now if start is None else max(now, round(start * NANOSECONDS))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
-from gazelle.simulation.inputs import VECTORS, chosen, numbers, size_of
+from gazelle.simulation.inputs import VECTORS, chosen, finite, numbers, placement, size_of
 from gazelle.streams import Stream
 
 if TYPE_CHECKING:
@@ -72,9 +72,10 @@ class SensorNoise:
         return self._model(name).noise.stddev
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
-        spread = np.broadcast_to(np.asarray(values, np.float64), (self._simulation.nworld,))
-        if not (np.isfinite(spread).all() and (spread >= 0.0).all()):
-            raise SimulationError(f"the noise of '{name}' must be finite and not negative")
+        what, nworld = f"the noise of '{name}'", self._simulation.nworld
+        spread = np.broadcast_to(finite(what, values, 1, nworld)[..., 0], (nworld,))
+        if not (spread >= 0.0).all():
+            raise SimulationError(f"{what} must not be negative")
         model = self._model(name)
         self._simulation.requests.call(lambda: setattr(model.noise, "stddev", spread))
 
@@ -104,11 +105,10 @@ class InitialPoses:
         return np.tile((*pose.position, *pose.quaternion), (self._simulation.nworld, 1))
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
-        shape = self[name].shape
-        poses = np.array(np.broadcast_to(np.asarray(values, np.float64), shape))
-        if not np.isfinite(poses).all():
-            raise SimulationError(f"the initial poses of '{name}' must be finite")
-        self._poses[name] = poses
+        count, width = self[name].shape
+        given = finite(f"the initial poses of '{name}'", values, width, count)
+        placement(name, given[..., :3], given[..., 3:], count)
+        self._poses[name] = np.array(np.broadcast_to(given, (count, width)))
 
     def apply(self, worlds: Worlds | None) -> None:
         """Put the models there; part of a reset."""
@@ -231,7 +231,11 @@ class WorldParameters:
         engine = self._simulation.engine
         width = engine.parameter(engine_kind, name, np.array([0])).shape[1]
         share = self.stream(f"{engine_kind}/{name}").uniform(width, worlds)
-        drawn: Floats = np.asarray(low) + share * (np.asarray(high) - np.asarray(low))
+        least, most = (
+            finite(f"a bound of {kind} of '{name}'", bound, width, len(share), alike=True)
+            for bound in (low, high)
+        )
+        drawn: Floats = least + share * (most - least)
         self._simulation.requests.call(
             lambda: engine.set_parameter(engine_kind, name, drawn, worlds)
         )

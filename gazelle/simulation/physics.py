@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import operator
 import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -9,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.description import Atmosphere, Physics, Vector3, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.simulation.inputs import finite
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
@@ -45,6 +48,9 @@ _WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
 _FRICTION_MODELS = ("pyramid_model", "box_model", "cone_model")
 
 _CONTACTS = ("exact", "fast")
+
+# Whole numbers among the properties.
+_WHOLE = ("iterations", "max_contacts", "precon_iterations")
 
 _POSITIVE = ("time_step", "iterations")
 _NOT_NEGATIVE = (
@@ -338,6 +344,8 @@ def _check(name: str, value: Any) -> None:
         raise SimulationError(
             f"there is no physics property '{name}'", hint=did_you_mean(name, _NAMES)
         )
+    if name in (*_POSITIVE, *_NOT_NEGATIVE):
+        _check_number(name, value)
     if name in _POSITIVE and not value > 0:
         raise SimulationError(f"the physics property '{name}' must be positive, not {value}")
     if name in _NOT_NEGATIVE and not value >= 0:
@@ -350,5 +358,15 @@ def _check(name: str, value: Any) -> None:
         raise SimulationError(
             f"there are no contacts '{value}'", hint=did_you_mean(str(value), _CONTACTS)
         )
-    if name in ("gravity", "magnetic_field", "wind") and len(value) != 3:
-        raise SimulationError(f"the physics property '{name}' needs three numbers, not {value}")
+    if name in ("gravity", "magnetic_field", "wind"):
+        finite(f"the physics property '{name}'", value, 3, 1)
+
+
+def _check_number(name: str, value: Any) -> None:
+    try:
+        possible = math.isfinite(operator.index(value) if name in _WHOLE else value)
+    except (TypeError, OverflowError):
+        possible = False
+    if not possible:
+        wanted = "a whole number" if name in _WHOLE else "a finite number"
+        raise SimulationError(f"the physics property '{name}' must be {wanted}, not {value!r}")

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.errors import SimulationError
+from gazelle.simulation.inputs import chosen, size_of
 from gazelle.simulation.settings import Setting, Tuning
 
 Floats = NDArray[np.float64]
@@ -53,24 +54,46 @@ class TwistInput:
         """Command a velocity.
 
         Args:
-            linear: Forward velocity [m/s], shape () or (n,), or vectors, shape (n, 3).
-            angular: Turning rate about z [rad/s], shape () or (n,), or vectors, shape (n, 3).
+            linear: Forward velocity [m/s], shape () or (n,), or vectors, shape (n, 3); of one
+                world a vector may be (3,).
+            angular: Turning rate about z [rad/s], likewise.
             worlds: Which worlds; all if None.
 
         Raises:
-            SimulationError: A value is not finite.
+            SimulationError: A value is no number, not finite, or of another shape.
         """
-        for array, given, axis in ((self.linear, linear, 0), (self.angular, angular, 2)):
-            values = np.asarray(given, np.float64)
-            if not np.isfinite(values).all():
-                raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
-            rows: slice | Worlds = slice(None) if worlds is None else worlds
-            if values.ndim == 2:
-                array[rows] = values
-            else:
-                array[rows] = 0.0
-                array[rows, axis] = values
+        some = chosen(worlds, len(self.linear))
+        rows: slice | Worlds = slice(None) if some is None else some
+        count = size_of(some, len(self.linear))
+        forward = self._vectors(linear, 0, count)
+        self.angular[rows] = self._vectors(angular, 2, count)
+        self.linear[rows] = forward
         self.revision += 1
+
+    def _vectors(self, given: ArrayLike, axis: int, count: int) -> Floats:
+        """Vectors of so many worlds, shape (count, 3) or (1, 3)."""
+        try:
+            values = np.asarray(given, np.float64)
+        except (TypeError, ValueError):
+            raise SimulationError(
+                f"the command on '{self.topic}' must be numbers, not {given!r}"
+            ) from None
+        if not np.isfinite(values).all():
+            raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
+        if values.shape in ((count, 3), (1, 3)):
+            return values
+        if values.shape == (3,) and count == 1:
+            return values[None]
+        if values.shape not in ((), (1,), (count,)):
+            worlds = "" if count == 1 else f", one for each of {count} worlds"
+            raise SimulationError(
+                f"the command on '{self.topic}' must be a number{worlds}, or three, not of "
+                f"shape {values.shape}",
+                hint=f"vectors of {count} worlds have the shape ({count}, 3)",
+            )
+        vectors = np.zeros((count, 3))
+        vectors[:, axis] = values
+        return vectors
 
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last command: stand still."""

@@ -40,6 +40,7 @@ from gazelle.simulation.stepping import (
     update_plugins,
     update_sensors,
 )
+from gazelle.streams import seed_of
 
 Worlds = NDArray[np.intp]
 
@@ -88,7 +89,7 @@ class Simulation:
         loaded = world if isinstance(world, World) else formats.load(world)
         self.engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
         self.engine_name = engine
-        self.seed = seed
+        self.seed = seed_of(seed)
         self.clock = Clock(self.engine.time_step)
         self.requests = RequestQueue()
         self.plugins: list[ScheduledPlugin] = []
@@ -273,7 +274,8 @@ class Simulation:
             time: Whether the clock goes back to zero when all worlds are reset.
         """
         chosen = indices_of(worlds, self.nworld)
-        self.requests.call(lambda: self._reset(chosen, seed=seed, time=time))
+        given = None if seed is None else seed_of(seed)
+        self.requests.call(lambda: self._reset(chosen, seed=given, time=time))
 
     def attach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
         """Hold two links together as they are to each other now, until ``detach`` or a reset.

@@ -9,9 +9,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.errors import SimulationError
 from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import Clock, Schedule
+from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.sensors import SensorUnit
 
@@ -124,8 +124,4 @@ def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None
     """
     if worlds is None:
         return None
-    given = np.asarray(worlds)
-    indices = np.flatnonzero(given) if given.dtype == np.bool_ else np.unique(given)
-    if indices.size and (indices[0] < 0 or indices[-1] >= nworld):
-        raise SimulationError(f"worlds must be in 0 to {nworld - 1}, not {worlds}")
-    return indices.astype(np.intp)
+    return np.unique(np.asarray(chosen(worlds, nworld)))

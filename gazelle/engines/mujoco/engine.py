@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call, DivergenceError, Floats, Worlds
 from gazelle.engines.laws import laws_of, with_profile
+from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.compiler import Compiled, Recipe, compile_world
@@ -24,7 +24,7 @@ from gazelle.engines.mujoco.layout import Layout, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.motors import motor_again, motor_of, refuse_motors
 from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
-from gazelle.engines.mujoco.parameters import ParameterStore, check
+from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.process import settle
 from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.transfer import carry_over
@@ -59,15 +59,12 @@ class MujocoEngine(ForcedSteps):
         threads: int | None = None,
     ) -> None:
         settle()
-        step = world.profile.max_step_size if time_step is None else time_step
-        if nworld < 1:
-            raise EngineError(f"nworld must be at least 1, not {nworld}")
-        if threads is not None and threads < 1:
-            raise EngineError(f"threads must be at least 1, not {threads}")
-        if not 0.0 < step < math.inf:
-            raise EngineError(f"the physics step must be positive and finite, not {step:g} s")
+        step = physics_step(world.profile.max_step_size if time_step is None else time_step)
+        nworld = whole_number("nworld", nworld)
+        threads = None if threads is None else whole_number("threads", threads)
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
+        check_world(world)
         self._nworld = nworld
         self._threads = min(threads or os.cpu_count() or 1, nworld)
         self._parameters = ParameterStore(nworld)
@@ -125,6 +122,7 @@ class MujocoEngine(ForcedSteps):
 
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` physics steps."""
+        count = whole_number("the number of steps", count, 0)
         self._now()
         self._stale = True
         self._find_dropped()
@@ -244,10 +242,7 @@ class MujocoEngine(ForcedSteps):
         """Take over all of a world but its models: physics, gravity, air, lights, scene."""
         self._now()
         old, profile = self._recipe.world, world.profile
-        if not profile.max_step_size > 0.0:
-            raise EngineError(f"the physics step must be positive, not {profile.max_step_size:g} s")
-        if not np.isfinite([*world.gravity, *world.magnetic_field, *world.wind]).all():
-            raise EngineError("gravity, magnetic field and wind must be finite")
+        check_world(world)
         recipe = replace(
             self._recipe,
             world=replace(world, models=old.models),
@@ -296,7 +291,8 @@ class MujocoEngine(ForcedSteps):
         """Change a physical parameter, shape (width,) or (n, width); a reset does not undo it."""
         layout = self._now()
         every = self._parameters.read(self._batch, layout, kind, name)
-        every[rows_of(worlds)] = values
+        rows = rows_of(worlds)
+        every[rows] = as_rows(kind, name, every[rows].shape, values)
         check(kind, name, every)
         if kind == "wheel_slip":
             self._fit_tyre(name)

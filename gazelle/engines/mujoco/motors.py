@@ -88,7 +88,12 @@ def motor_of(joint: str, max_effort: ArrayLike, parts: Iterable[Sequence[Body]])
             f"joint '{joint}' has no axis that a motor could turn",
             hint=f"joints that can have one are {', '.join(sorted(_AXES))}",
         )
-    given = np.asarray(max_effort, np.float64)
+    try:
+        given = np.asarray(max_effort, np.float64)
+    except (TypeError, ValueError):
+        raise EngineError(
+            f"the largest effort of the motor on '{joint}' must be a number, not {max_effort!r}"
+        ) from None
     if given.shape not in ((), (1,), (axes,)):
         raise EngineError(f"joint '{joint}' has {axes} axes, not {given.size}")
     efforts = np.broadcast_to(given, (axes,))

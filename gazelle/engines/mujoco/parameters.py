@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
@@ -306,6 +306,22 @@ class ParameterStore:
         other = ParameterStore(self._nworld)
         other._values = dict(self._values)  # its own class
         return other
+
+
+def as_rows(kind: str, name: str, shape: tuple[int, ...], values: ArrayLike) -> Floats:
+    """Values of some worlds, shape (n, width).
+
+    Raises:
+        EngineError: They are no numbers, or too many or too few.
+    """
+    try:
+        rows: Floats = np.broadcast_to(np.asarray(values, np.float64), shape)
+    except (TypeError, ValueError):
+        raise EngineError(
+            f"the {kind} of '{name}' must be numbers of the shape ({shape[1]},) or {shape}, "
+            f"not {' '.join(str(values).split())[:60]}"
+        ) from None
+    return rows
 
 
 def check(kind: str, name: str, values: Floats) -> None:

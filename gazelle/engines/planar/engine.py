@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call, Floats, Worlds
 from gazelle.engines.laws import with_profile
+from gazelle.engines.limits import check_world, physics_step
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.access import PlanarAccess, rows_of
 from gazelle.engines.planar.build import Layout, Recipe, build
@@ -51,11 +52,10 @@ class PlanarEngine(Refusals, PlanarAccess):
         time_step: float | None = None,
         threads: int | None = None,
     ) -> None:
-        step = world.profile.max_step_size if time_step is None else time_step
-        if not step > 0.0:
-            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        step = physics_step(world.profile.max_step_size if time_step is None else time_step)
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
+        check_world(world)
         self._threads = threads
         recipe = Recipe(world, step, {})
         self._run(recipe, *build(recipe, nworld, threads))

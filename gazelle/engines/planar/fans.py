@@ -40,6 +40,9 @@ class Fan:
         count: Number of beams.
         reach: How far they go [m].
         begin: What is nearer is not met [m].
+
+    Raises:
+        EngineError: A number is not finite.
     """
 
     start: float
@@ -47,6 +50,11 @@ class Fan:
     count: int
     reach: float
     begin: float = 0.0
+
+    def __post_init__(self) -> None:
+        numbers = (self.start, self.step, self.reach, self.begin)
+        if not all(map(math.isfinite, numbers)):
+            raise EngineError(f"the angles and distances of a fan must be finite: {self}")
 
     @classmethod
     def spread(cls, fov: float, count: int, reach: float, begin: float = 0.0) -> Fan:
@@ -79,6 +87,10 @@ class Mount:
     yaw: float = 0.0
     z: float = 0.0
 
+    def __post_init__(self) -> None:
+        if not all(map(math.isfinite, (self.x, self.y, self.yaw, self.z))):
+            raise EngineError(f"the place of a sensor must be finite: {self}")
+
 
 @dataclass(frozen=True, slots=True)
 class RangeNoise:
@@ -86,6 +98,10 @@ class RangeNoise:
 
     constant: float = 0.0
     share: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (0.0 <= self.constant < math.inf and 0.0 <= self.share < math.inf):
+            raise EngineError(f"noise on ranges must be finite and not negative: {self}")
 
 
 @dataclass(frozen=True, slots=True)

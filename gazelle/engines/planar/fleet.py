@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.engines.limits import physics_step, whole_number
 from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_step
@@ -104,10 +105,8 @@ class Fleet:
         cell: float = _CELL,
         threads: int | None = None,
     ) -> None:
-        if nworld < 1:
-            raise EngineError(f"nworld must be at least 1, not {nworld}")
-        if not time_step > 0.0 or not math.isfinite(time_step):
-            raise EngineError(f"the time step must be positive, not {time_step:g} s")
+        nworld, time_step = whole_number("nworld", nworld), physics_step(time_step)
+        threads = None if threads is None else whole_number("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
         self.time_step, self.euler, self.sweep = time_step, euler, sweep
         self.crew = Crew(threads)
@@ -292,7 +291,12 @@ class Fleet:
     # -- time --------------------------------------------------------------------------
 
     def step(self, count: int = 1) -> None:
-        """Advance every world by ``count`` steps."""
+        """Advance every world by ``count`` steps.
+
+        Raises:
+            EngineError: It is no number of steps.
+        """
+        count = whole_number("the number of steps", count, 0)
         if self.alone:
             self._advance(0, self.nworld, count)
             return

@@ -7,6 +7,7 @@ from pathlib import Path
 from gazelle import formats
 from gazelle.description import StageWorld, World
 from gazelle.errors import SimulationError
+from gazelle.formats.loader import path_text
 from gazelle.formats.stage import is_stage, load_stage
 from gazelle.formats.xml import read_bytes
 
@@ -20,7 +21,7 @@ def stage_of(world: StageWorld | World | str | Path) -> StageWorld:
     """
     if isinstance(world, StageWorld):
         return world
-    file = None if isinstance(world, World) else Path(world)
+    file = None if isinstance(world, World) else Path(path_text(world))
     if file is not None and file.is_file() and is_stage(read_bytes(file), file.suffix):
         return load_stage(file)
     loaded = world if isinstance(world, World) else formats.load(world)

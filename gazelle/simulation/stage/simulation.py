@@ -26,6 +26,7 @@ from gazelle.simulation.stage.opening import stage_of
 from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.senses import Senses
 from gazelle.simulation.stage.steering import Steering
+from gazelle.streams import seed_of
 
 Floats = NDArray[np.float64]
 Worlds = NDArray[np.intp]
@@ -82,7 +83,7 @@ class StageSimulation(Senses):
         controllers: bool = True,
     ) -> None:
         self.stage = stage_of(world)
-        self.seed, self.nworld = seed, nworld
+        self.seed, self.nworld = seed_of(seed), nworld
         with no_garbage():
             layout = layout_of(self.stage)
             self.fleet = Fleet(

@@ -1,0 +1,82 @@
+"""What no engine can simulate: judged once, for all engines."""
+
+from __future__ import annotations
+
+import math
+import operator
+from typing import Any
+
+from gazelle.description import World
+from gazelle.errors import EngineError
+
+# Clocks count whole nanoseconds, and a step of weeks is a mistake [s].
+SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6
+
+# What is further off or faster is broken, for MuJoCo too [m, m/s or rad/s].
+FARTHEST = 1e10
+
+# More does not fit into the numbers that native code counts with.
+_MOST = 2**31 - 1
+
+
+def whole_number(what: str, value: Any, least: int = 1) -> int:
+    """A number of worlds, threads or steps.
+
+    Raises:
+        EngineError: It is no whole number, or too small or large.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise EngineError(f"{what} must be a whole number, not {value!r}") from None
+    if not least <= number <= _MOST:
+        raise EngineError(f"{what} must be at least {least} and at most {_MOST}, not {number}")
+    return number
+
+
+def physics_step(step: Any) -> float:
+    """A physics step [s].
+
+    Raises:
+        EngineError: It is no number, not positive, or of no length that a clock could count.
+    """
+    try:
+        seconds = float(step)
+    except (TypeError, ValueError):
+        raise EngineError(f"the physics step must be a number [s], not {step!r}") from None
+    if not seconds > 0.0 or seconds == math.inf:
+        raise EngineError(f"the physics step must be positive and finite, not {seconds:g} s")
+    if not SHORTEST_STEP <= seconds <= LONGEST_STEP:
+        raise EngineError(
+            f"a physics step of {seconds:g} s cannot be counted",
+            hint=f"take {SHORTEST_STEP:g} to {LONGEST_STEP:g} s, such as 0.001",
+        )
+    return seconds
+
+
+def check_world(world: World) -> None:
+    """Refuse a world whose laws, names or places cannot be.
+
+    Raises:
+        EngineError: Gravity, magnetic field or wind are not finite, a model's name holds what
+            parts names, or a model is infinitely far off.
+    """
+    physics_step(world.profile.max_step_size)
+    laws = {"gravity": world.gravity, "magnetic field": world.magnetic_field, "wind": world.wind}
+    for name, values in laws.items():
+        if not all(map(math.isfinite, values)):
+            raise EngineError(
+                f"the {name} must be finite, not {' '.join(f'{each:g}' for each in values)}"
+            )
+    for model in world.models:
+        if "::" in model.name:
+            raise EngineError(
+                f"a model cannot be called '{model.name}': '::' parts the names of models and links",
+                source=model.source,
+                hint=f"call it '{model.name.replace('::', '_')}'",
+            )
+        if not all(abs(each) <= FARTHEST for each in model.pose.position):
+            raise EngineError(
+                f"model '{model.name}' cannot be at {model.pose}: that is too far away",
+                source=model.source,
+            )
