@@ -118,16 +118,9 @@ def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tupl
         SimulationError: They are not finite, or of another shape.
     """
     return (
-        _bounded(f"the velocity of '{name}'", linear, count),
-        _bounded(f"the angular velocity of '{name}'", angular, count),
+        finite(f"the velocity of '{name}'", linear, 3, count),
+        finite(f"the angular velocity of '{name}'", angular, 3, count),
     )
-
-
-def _bounded(what: str, values: ArrayLike, count: int) -> Floats:
-    given = finite(what, values, 3, count)
-    if not (np.abs(given) <= FARTHEST).all():
-        raise SimulationError(f"{what} is too large: {_short(values)}")
-    return given
 
 
 def number(what: str, value: object) -> float:

@@ -10,13 +10,13 @@ from typing import Any, Self
 
 from gazelle.description import Link, Model, World
 from gazelle.engines import CHANGES, DivergenceError
-from gazelle.errors import SimulationError
+from gazelle.errors import EngineError, SimulationError
 from gazelle.simulation.encoding import decode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
 
 # What values of a wrong kind or shape raise, wherever they are used.
-_DAMAGE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+_DAMAGE = (ArithmeticError, AttributeError, EngineError, LookupError, TypeError, ValueError)
 
 
 class Replay:

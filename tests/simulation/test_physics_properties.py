@@ -74,7 +74,7 @@ def test_wrong_physics_is_refused_and_nothing_changes():
             sim.physics.set(time_steps=0.1)
         with pytest.raises(SimulationError, match="positive"):
             sim.physics.time_step = 0.0
-        with pytest.raises(SimulationError, match="three numbers"):
+        with pytest.raises(SimulationError, match="3 numbers"):
             sim.physics.gravity = (0.0, 1.0)
         with pytest.raises(SimulationError, match="did you mean 'cone_model'"):
             sim.physics.friction_model = "cone_modell"

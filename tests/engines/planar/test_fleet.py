@@ -232,7 +232,7 @@ def test_a_reset_world_starts_again():
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(EngineError, match="time step"):
+    with pytest.raises(EngineError, match="physics step"):
         one(Drive(), time_step=0.0)
     with pytest.raises(EngineError, match="drive must be one of"):
         one(Drive("hover"))

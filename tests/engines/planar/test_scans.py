@@ -176,8 +176,10 @@ def test_noise_has_its_deviation_and_is_the_same_again():
 
 def test_a_fan_that_cannot_be_is_refused():
     fleet = Fleet([Body(())])
+    with pytest.raises(EngineError, match="must be finite"):
+        Fan(0.0, 1.0, 1, math.inf)
     with pytest.raises(EngineError, match="finite reach"):
-        Scanner(fleet, Fan(0.0, 1.0, 1, math.inf), [Mount(0)])
+        Scanner(fleet, Fan(0.0, 1.0, 1, 0.0), [Mount(0)])
     with pytest.raises(EngineError, match="once around"):
         Scanner(fleet, Fan(0.0, 0.1, 100, 3.0), [Mount(0)])
     with pytest.raises(EngineError, match="no body 3"):
