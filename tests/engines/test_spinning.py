@@ -25,6 +25,7 @@ from gazelle.errors import EngineWarning
 from gazelle.rotations import rotate
 
 G = 9.8
+LEFT = "burger::wheel_left_link"
 
 
 def axis_of(engine, link):
@@ -201,5 +202,8 @@ def test_what_turns_about_changing_axes_is_found():
     assert found(scenes.burger()) == (0, 3)
     assert found(chain(1).world.models[0]) == (0, 0)
     assert found(chain(2).world.models[0]) == (2, 0)
+    tyred = Recipe(scenes.world(scenes.burger()), 0.001, tyres=frozenset({LEFT}))
+    hinges, _ = unbalanced_dofs(compile_world(tyred).model)
+    assert len(hinges) == 1  # how fast the tyre slips on its wheel
     assert found(scenes.box()) == (0, 0)
     assert found(top(100.0, 0.001)[0].world.models[0]) == (0, 3)

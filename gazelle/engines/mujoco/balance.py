@@ -22,26 +22,24 @@ def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
     """
     hinges: list[int] = []
     spins: list[int] = []
-    for tree in range(model.ntree):
-        bodies = np.flatnonzero(model.body_treeid == tree)
-        joints = [joint for joint in range(model.njnt) if model.jnt_bodyid[joint] in bodies]
-        kinds = [int(model.jnt_type[joint]) for joint in joints]
-        if len(joints) == 1 and kinds[0] != _BALL:
-            continue
-        for joint, kind in zip(joints, kinds, strict=True):
-            dof = int(model.jnt_dofadr[joint])
-            if kind in (_FREE, _BALL):
-                first = dof + 3 if kind == _FREE else dof
-                spins += range(first, first + 3)
-            elif kind == _HINGE and not _is_wheel(model, joint):
-                hinges.append(dof)
+    trees = model.body_treeid[model.jnt_bodyid]
+    alone = np.bincount(trees, minlength=model.ntree)[trees] == 1
+    for joint in np.flatnonzero(~alone | (model.jnt_type == _BALL)).tolist():
+        kind, dof = int(model.jnt_type[joint]), int(model.jnt_dofadr[joint])
+        if kind in (_FREE, _BALL):
+            first = dof + 3 if kind == _FREE else dof
+            spins += range(first, first + 3)
+        elif kind == _HINGE and not _is_wheel(model, joint):
+            hinges.append(dof)
     return hinges, spins
 
 
 def _is_wheel(model: mujoco.MjModel, joint: int) -> bool:
     """Whether a hinge carries nothing but a body of revolution about its axis."""
     body = int(model.jnt_bodyid[joint])
-    if (model.body_parentid == body).any() or model.body_jntnum[body] != 1:
+    # A tyre that slips weighs next to nothing, see ``tyres``.
+    carried = float(model.body_subtreemass[body] - model.body_mass[body])
+    if carried > _TOLERANCE * model.body_mass[body] or model.body_jntnum[body] != 1:
         return False
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[body])
