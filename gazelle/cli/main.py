@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import sys
 import traceback
@@ -43,8 +44,23 @@ def main(argv: Sequence[str] | None = None) -> int:
         return WRONG_USAGE
     if argv is None:
         call_process(process_name(arguments))
-    with _one_line_warnings(show_all=debug):
+    with _one_line_warnings(show_all=debug), _progress():
         return _run(command, arguments[1:], debug=debug)
+
+
+@contextlib.contextmanager
+def _progress() -> Iterator[None]:
+    """What takes long is told on stderr while it lasts: the log of what works on meshes."""
+    log, handler = logging.getLogger("gazelle.formats.convex"), logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("gazelle: %(message)s"))
+    before = log.level
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        log.setLevel(before)
+        log.removeHandler(handler)
 
 
 def _without_debug(arguments: list[str]) -> tuple[list[str], bool]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -18,14 +18,18 @@ from gazelle.formats.mujoco_geometry import hulls_of
 from gazelle.formats.surface import Floats, Surface
 from gazelle.formats.voxels import Bools, voxels_of
 
-MOST_BLOCKS = 160
+MOST_BLOCKS = 128
 
 _DIRECTIONS = 162
 _FACES = 32
 """Normals of the largest faces that are directions too."""
-_TRIED = 2000
+_TRIED = 500
 """Points by which a cut is judged."""
+_FEWER = 3
+"""Of so many directions one serves for that."""
 _AT_ONCE = 24
+_FEW_PLACES = 1000
+"""Places in the air up to which it matters which of them are in a hull exactly."""
 _EARLY = 32
 """Blocks after which it is asked whether there is hope."""
 _HOPELESS = 0.3
@@ -61,18 +65,24 @@ class _Block:
         air: Places in the hull of the points that should not be [m], shape (k, 3).
         low: Corner [m], shape (3,).
         high: Corner [m], shape (3,).
+        hull: The outermost of the points [m], shape (m, 3).
     """
 
     points: Floats
     air: Floats
     low: Floats
     high: Floats
+    hull: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
 
-def blocks_of(surface: Surface, side: float) -> Blocks | None:
-    """Blocks of a surface, in a grid of cubes of this size [m]; the worst are cut on first.
+def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks | None:
+    """Blocks of a surface; the worst are cut on first.
 
-    None for a vessel or the like, of which too many would be needed.
+    Args:
+        surface: Any triangles.
+        side: Of the cubes of the grid [m].
+        patient: Whether to go on where too many would be needed, as of a vessel; else the
+            result is None.
     """
     grid = voxels_of(surface, side)
     directions = _directions(surface)
@@ -84,8 +94,7 @@ def blocks_of(surface: Surface, side: float) -> Blocks | None:
     def take(block: _Block) -> None:
         if not len(block.points):
             return
-        near = block.air[_inside(block.points, block.air, directions)]
-        block.air = near[_held(_outermost(block.points, directions, grid.side), near)]
+        _enclose(block, directions, grid.side)
         if len(block.air):
             heapq.heappush(queue, (-len(block.air), next(number), block))
         else:
@@ -94,7 +103,8 @@ def blocks_of(surface: Surface, side: float) -> Blocks | None:
     take(_Block(grid.points, grid.air, low, high))
     most = _HOPELESS * sum(-rank for rank, _, _ in queue)
     while queue and len(queue) + len(done) < MOST_BLOCKS:
-        if len(queue) + len(done) == _EARLY and sum(-rank for rank, _, _ in queue) > most:
+        early = len(queue) + len(done) == _EARLY and not patient
+        if early and sum(-rank for rank, _, _ in queue) > most:
             return None
         block = heapq.heappop(queue)[2]
         parts = _cut(block, grid.side, directions)
@@ -103,19 +113,32 @@ def blocks_of(surface: Surface, side: float) -> Blocks | None:
         if not parts:
             done.append(block)
     done += [block for _, _, block in queue]
-    hulls = [_outermost(block.points, directions, grid.side) for block in done]
-    return Blocks(hulls, grid.distance(np.concatenate([block.air for block in done])))
+    air = np.concatenate([block.air for block in done])
+    return Blocks([block.hull for block in done], grid.distance(air))
+
+
+def _enclose(block: _Block, directions: Floats, side: float) -> None:
+    """Find a block's hull, and which of its air is in there."""
+    along = directions @ block.points.T
+    top = along.argmax(axis=1)
+    low, high = block.points.min(axis=0), block.points.max(axis=0)
+    near = block.air[((block.air >= low) & (block.air <= high)).all(axis=1)]
+    near = near[_behind(near, directions, along[np.arange(len(top)), top])]
+    block.hull = _thickened(block.points[np.unique(top)], side)
+    block.air = near[_held(block.hull, near)] if len(near) <= _FEW_PLACES else near
 
 
 def _cut(block: _Block, side: float, directions: Floats) -> list[_Block]:
     """The two blocks of the cut that leaves the least air in their hulls; none if too small."""
-    some, points, air = directions[::2], _thinned(block.points), _thinned(block.air)
+    some, points, air = directions[::_FEWER], _thinned(block.points), _thinned(block.air)
+    points_along, air_along = some @ points.T, some @ air.T
     best: tuple[float, int, float] | None = None
     for axis, level in _levels(block, side):
         below = points[:, axis] <= level
         if below.all() or not below.any():
             continue
-        held = _inside(points[below], air, some) | _inside(points[~below], air, some)
+        held = (air_along <= points_along[:, below].max(axis=1)[:, None]).all(axis=0)
+        held |= (air_along <= points_along[:, ~below].max(axis=1)[:, None]).all(axis=0)
         cost = float(held.sum()) + _EVEN * len(air) * abs(float(below.mean()) - 0.5)
         if best is None or cost < best[0]:
             best = (cost, axis, level)
@@ -144,11 +167,6 @@ def _levels(block: _Block, side: float) -> list[tuple[int, float]]:
     return found
 
 
-def _inside(points: Floats, air: Floats, directions: Floats) -> Bools:
-    """Which places in the air no direction tells to be outside of the hull of points, shape (k,)."""
-    return _behind(air, directions, (points @ directions.T).max(axis=0))
-
-
 def _held(points: Floats, air: Floats) -> Bools:
     """Which places in the air lie in the hull of points, shape (k,)."""
     for corners, faces in hulls_of([points]) if len(air) else ():
@@ -167,7 +185,7 @@ def _behind(air: Floats, normals: Floats, offsets: Floats) -> Bools:
         if not len(rows):
             break
         part = slice(start, start + _AT_ONCE)
-        held[rows] = (air[rows] @ normals[part].T <= offsets[part]).all(axis=1)
+        held[rows] = (normals[part] @ air[rows].T <= offsets[part, None]).all(axis=0)
     return held
 
 
@@ -188,12 +206,11 @@ def _directions(surface: Surface) -> Floats:
     return np.concatenate([np.eye(3), -np.eye(3), largest, around])
 
 
-def _outermost(points: Floats, directions: Floats, side: float) -> Floats:
-    """The points that reach farthest in each direction; a sheet is given a thickness."""
-    found: Floats = points[np.unique((points @ directions.T).argmax(axis=0))]
-    _, _, axes = np.linalg.svd(found - found.mean(axis=0), full_matrices=True)
+def _thickened(points: Floats, side: float) -> Floats:
+    """Points, and if they lie in a plane or on a line, so many that they have a hull."""
+    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)
     for axis in axes[1:]:
-        if np.ptp(found @ axis) < _SHEET:
+        if np.ptp(points @ axis) < _SHEET:
             shift = axis * min(_SHEET, 0.5 * side) / 2.0
-            found = np.concatenate([found + shift, found - shift])
-    return found
+            points = np.concatenate([points + shift, points - shift])
+    return points

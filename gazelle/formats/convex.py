@@ -30,16 +30,19 @@ SLOW = 0.1
 """Seconds from which on the pieces are kept on disk."""
 
 _LOG = logging.getLogger(__name__)
-_LARGE = 30_000
-"""Triangles from which on one waits long enough to be told."""
+_LARGE = 100_000
+_PATIENCE = 2.0
+"""Triangles, and seconds spent on meshes in this process, from which on one is told to wait."""
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
 _SIDES = (0.0125, 0.008)
 _LONGEST_SIDE = 0.04
 """Cubes of the grids in which blocks are cut: shares of the size, a length [m]."""
-_FEW_BLOCKS = 64
+_FEW_BLOCKS = 24
 """Blocks up to which the finer grid is tried."""
+_MOST_MOVING = 2000
+"""Solids along its surface that what moves may have."""
 _FEW_PATCHES = 128
 """Solids up to which what moves is followed along its surface too."""
 _REACH = 0.07
@@ -55,6 +58,7 @@ _FIRST_LOOK = 256
 _MAX_PAIRS = 2_000_000
 
 _MEMORY: dict[str, Pieces] = {}
+_SPENT = {"seconds": 0.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,11 +109,13 @@ def _made(key: str, mesh: MeshData, *, static: bool) -> Pieces:
     """The pieces of a mesh from disk, or cut."""
     stored = piece_cache.load(key)
     if stored is None:
-        if len(mesh.faces) > _LARGE:
+        if len(mesh.faces) > _LARGE or _SPENT["seconds"] > _PATIENCE:
             _LOG.info("cutting a mesh of %d triangles into convex pieces", len(mesh.faces))
         start = time.perf_counter()
         stored = _cut(clean(mesh.vertices, mesh.faces), static=static)
-        if time.perf_counter() - start > SLOW:
+        spent = time.perf_counter() - start
+        _SPENT["seconds"] += spent
+        if spent > SLOW:
             piece_cache.store(key, *stored)
     solids, whole, gap = stored
     for vertices, faces in solids:
@@ -149,7 +155,7 @@ def _cut(surface: Surface, *, static: bool) -> tuple[list[Solid], bool, float]:
         return solids, False, _ROUNDING * surface.size
     remains = surface.part(rest)
     along = joined_flat(remains)
-    blocks = None if static or along.count <= _FEW_PATCHES else _blocks(remains)
+    blocks = None if static or along.count <= _FEW_PATCHES else _blocks(remains, along.count)
     if blocks is not None:
         return solids + hulls_of(blocks.hulls), False, blocks.gap
     patches = thick_patches(along, closed[number[rest]])
@@ -165,12 +171,17 @@ def _solids_of(surface: Surface, number: NDArray[np.intp], parts: NDArray[np.int
     return [(part.vertices, part.faces.astype(np.int32)) for part in map(surface.part, rows)]
 
 
-def _blocks(surface: Surface) -> Blocks | None:
-    """Blocks that are as near to the surface as promised, nearer if few are enough; or none."""
+def _blocks(surface: Surface, polygons: int) -> Blocks | None:
+    """Blocks, on a finer grid if few are enough.
+
+    None if they are farther from the surface than promised, and there is another way: its
+    polygons are not too many for what moves.
+    """
     found: Blocks | None = None
+    patient, promised = polygons > _MOST_MOVING, _promised(surface.size)
     for share in _SIDES:
-        finer = blocks_of(surface, min(share * surface.size, _LONGEST_SIDE))
-        if finer is None or finer.gap > _promised(surface.size):
+        finer = blocks_of(surface, min(share * surface.size, _LONGEST_SIDE), patient=patient)
+        if finer is None or (finer.gap > promised and (found is not None or not patient)):
             break
         found = finer
         if len(found.hulls) > _FEW_BLOCKS:

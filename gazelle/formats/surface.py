@@ -12,6 +12,10 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 
+_BITS = 21
+"""Of a coordinate that places are told apart by: a two-millionth of the size."""
+
+
 @dataclass(frozen=True)
 class Surface:
     """Triangles whose equal corners are one vertex.
@@ -58,12 +62,16 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
     is kept.
     """
     corners = vertices[faces].reshape(-1, 3)
-    step = max(float(np.ptp(corners, axis=0).max()) * 1e-7, 1e-300)
-    keys = np.round((corners - corners.min(axis=0)) / step).astype(np.int64)
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    step = max(float(np.ptp(corners, axis=0).max()) / (2.0**_BITS - 2.0), 1e-300)
+    keys = _packed(np.round((corners - corners.min(axis=0)) / step).astype(np.int64))
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     points = corners[first]
     welded = inverse.reshape(-1, 3).astype(np.intp)
-    _, kept = np.unique(np.sort(welded, axis=1), axis=0, return_index=True)
+    alike = np.sort(welded, axis=1)
+    if len(points) < 1 << _BITS:
+        _, kept = np.unique(_packed(alike), return_index=True)
+    else:
+        _, kept = np.unique(alike, axis=0, return_index=True)
     welded = welded[np.sort(kept)]
     a, b, c = (points[welded[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
@@ -71,6 +79,11 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
     real = doubled > step * step
     normals = normals[real] / doubled[real, None]
     return Surface(points, welded[real], normals, doubled[real] / 2.0)
+
+
+def _packed(rows: Indices) -> NDArray[np.int64]:
+    """Three numbers below 2^21 a row as one, shape (n,)."""
+    return (rows[:, 0] << 2 * _BITS) + (rows[:, 1] << _BITS) + rows[:, 2]
 
 
 def components(surface: Surface) -> Indices:

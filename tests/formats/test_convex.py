@@ -272,3 +272,12 @@ def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
     pieces_low = np.min([piece.vertices.min(axis=0) for piece in pieces], axis=0)
     pieces_high = np.max([piece.vertices.max(axis=0) for piece in pieces], axis=0)
     np.testing.assert_allclose((pieces_low, pieces_high), (low, high), atol=1e-6)
+
+
+def test_what_takes_long_is_told(monkeypatch, caplog):
+    caplog.set_level("INFO", logger="gazelle.formats.convex")
+    convex_pieces(data(l_shape()))
+    assert not caplog.records
+    monkeypatch.setattr(convex, "_SPENT", {"seconds": 3.0})
+    convex_pieces(data(ring()))
+    assert "cutting a mesh of 256 triangles" in caplog.text
