@@ -83,7 +83,8 @@ class MujocoTracer:
 
     def trace(self, origins: Floats, directions: Floats) -> Sight:
         """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
-        distance, geom, normal = self._batch.ray(origins + BESIDE, directions, normal=True)
+        start = origins + BESIDE if self._batch.model.nmesh else origins
+        distance, geom, normal = self._batch.ray(start, directions, normal=True)
         missed = geom[0] < 0
         if not self._owner:
             visual = np.full(len(origins), -1, dtype=np.intp)
