@@ -267,5 +267,7 @@ def test_shapes_without_volume_are_nothing_to_hit():
 
 def test_velocity_decay_is_not_dropped_in_silence():
     link = Link("link", inertial=Inertial(), velocity_decay_linear=0.01)
-    with pytest.warns(EngineWarning, match="<velocity_decay> of link 'm::link' has no effect"):
+    with pytest.warns(
+        EngineWarning, match="link 'm::link' has a <velocity_decay>, which has no effect"
+    ):
         make(Model("m", links=(link,)))

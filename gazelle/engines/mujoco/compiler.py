@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import warnings
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -30,6 +29,7 @@ from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, set_options
+from gazelle.engines.mujoco.remarks import LEAST_MOMENT, warn_of_links
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
@@ -41,7 +41,7 @@ from gazelle.engines.mujoco.surfaces import (
 from gazelle.engines.mujoco.treads import possible_treads
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
-from gazelle.errors import EngineError, EngineWarning
+from gazelle.errors import EngineError
 
 COLLISION_GROUP = 0
 VISUAL_GROUP = 1
@@ -182,6 +182,7 @@ def draft_world(recipe: Recipe) -> Draft:
     if ask_for_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_losses(bodies.values(), slips)
+    warn_of_links(bodies.values())
     pairs = add_pairs(spec, builder.solids, recipe.time_step, math.hypot(*recipe.world.gravity))
     if pairs.springs or pairs.bounces or pairs.rubs:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
@@ -315,13 +316,6 @@ def _set_inertial(handle: Any, body: Body) -> None:
     handle.inertia, handle.iquat = principal
     if not body.link.gravity:
         handle.gravcomp = 1.0
-    if body.link.velocity_decay_linear or body.link.velocity_decay_angular:
-        warnings.warn(
-            EngineWarning(
-                f"<velocity_decay> of link '{body.name}' has no effect; give its joints <damping>"
-            ),
-            stacklevel=2,
-        )
 
 
 def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float]]:
@@ -338,6 +332,7 @@ def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float
             f"(principal moments {', '.join(f'{m:.3g}' for m in moments)} kg m²)",
             source=inertial.source or body.link.source,
         )
+    moments = np.maximum(moments, LEAST_MOMENT)
     lack = moments[2] - moments[0] - moments[1]
     if lack > 0.0:
         moments[:2] += lack / 2.0 * (1.0 + 1e-9)

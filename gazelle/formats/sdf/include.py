@@ -39,6 +39,9 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
     if not uri:
         reading.fault("an <include> needs a <uri>: it is left out", node)
         return None
+    params = node.find("experimental:params")
+    if params is not None:
+        reading.note("<experimental:params> is not supported: the model stays as it is", params)
     found = reading.find(uri, node.find("uri") or node)
     if found is None:
         return None

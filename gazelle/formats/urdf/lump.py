@@ -14,14 +14,16 @@ from gazelle.formats.urdf.tree import Body
 def body_inertial(body: Body) -> Inertial | None:
     """The inertial of a body; None when none of its links has a mass.
 
-    A body of one link keeps its numbers to the last bit.
+    A body of one link keeps its numbers to the last bit. A lumped link without mass gives its
+    inertia all the same, as in libsdformat.
     """
     parts = [
         (member.pose, member.link.inertial)
         for member in body.members
-        if member.link.inertial is not None and member.link.inertial.mass > 0.0
+        if member.link.inertial is not None
+        and (member.link.inertial.mass > 0.0 or member.link.inertial.inertia.matrix().any())
     ]
-    if not parts:
+    if not any(inertial.mass > 0.0 for _, inertial in parts):
         return None
     own = body.link.inertial
     if len(parts) == 1 and parts[0][1] is own:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from gazelle.description import (
     Collision,
     Light,
     Material,
     Parameters,
+    Pose,
     Sensor,
     Visual,
 )
+from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.materials import with_script_colors, with_urdf_color
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.plugin import read_plugins
-from gazelle.formats.sdf.pose import read_pose
+from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.urdf.applied import LUMP, applied, blob, material, real, surface
 from gazelle.formats.urdf.elements import Paint, read_geometry, read_origin, read_paint
@@ -29,11 +31,19 @@ from gazelle.formats.urdf.upright import upright
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """What the parts of a robot are read with."""
+    """What the parts of a robot are read with.
+
+    Attributes:
+        extensions: The ``<gazebo>`` elements.
+        paints: Materials by name.
+        reading: Takes remarks.
+        frames: Poses of links and joints in the model.
+    """
 
     extensions: Extensions
     paints: Mapping[str, Paint]
     reading: Reading
+    frames: Mapping[str, Pose] = field(default_factory=dict)
 
 
 def part_names(body: Body, tag: str) -> list[tuple[Member, Parameters, str, str]]:
@@ -135,15 +145,31 @@ def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
     for member in body.members:
         for node in robot.extensions.of(member.link.name):
             if node.tag == "sensor":
-                sensor = read_sensor(node, _placer(member))
+                sensor = read_sensor(node, _placer(member, body, robot))
                 sensors.append(_renamed(sensor, renamed))
     return tuple(sensors)
 
 
-def _placer(member: Member) -> Placer:
-    if member.joint is None:
-        return lambda part: read_pose(part.find("pose"))
-    return lambda part: upright(member.pose * read_pose(part.find("pose")))
+def _placer(member: Member, body: Body, robot: Robot) -> Placer:
+    """A function that gives the pose of a part in the body's frame.
+
+    A pose ``relative_to`` a link or joint is one in that frame; any other is in the link's.
+    """
+
+    def place(part: Parameters) -> Pose:
+        node = part.find("pose")
+        pose, frame = read_pose(node), frame_of(node)
+        if node is not None and frame not in {"", member.link.name}:
+            if frame in robot.frames:
+                return body.pose.inverse() * robot.frames[frame] * pose
+            robot.reading.fault(
+                f"there is no frame '{frame}' here: that of the link was taken",
+                node,
+                did_you_mean(frame, robot.frames),
+            )
+        return pose if member.joint is None else upright(member.pose * pose)
+
+    return place
 
 
 def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:

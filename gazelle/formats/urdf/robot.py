@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from gazelle.description import (
@@ -15,6 +16,7 @@ from gazelle.description import (
     Link,
     Model,
     Parameters,
+    Pose,
 )
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
@@ -39,7 +41,7 @@ from gazelle.formats.urdf.parts import (
 )
 from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
-from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, bodies, read_tree
+from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, Tree, bodies, read_tree
 
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
 
@@ -59,8 +61,8 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     tree = read_tree(root, reading)
     extensions = read_extensions(root)
     note_unused(extensions, set(tree.links), set(tree.joints), reading)
-    robot = Robot(extensions, _paints(root, reading), reading)
     found = bodies(tree, extensions)
+    robot = Robot(extensions, _paints(root, reading), reading, _poses(found, tree))
     kept = _with_mass(found, root, reading)
     model = Model(
         name=name,
@@ -74,6 +76,15 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
         source=root.source,
     )
     return _with_model_extensions(model, robot, plugins(found, extensions))
+
+
+def _poses(found: Iterable[Body], tree: Tree) -> dict[str, Pose]:
+    """Poses of links and joints in the model; a joint's frame is that of its child."""
+    links = {member.link.name: body.pose * member.pose for body in found for member in body.members}
+    joints = {
+        name: links[joint.child] for name, joint in tree.joints.items() if joint.child in links
+    }
+    return {**joints, **links}
 
 
 def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:

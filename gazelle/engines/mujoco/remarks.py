@@ -1,0 +1,51 @@
+"""What is not simulated of links as their files say: one warning for all links of a world."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from gazelle.engines.mujoco.tree import Body
+from gazelle.errors import EngineWarning, located
+
+LEAST_MOMENT = 1e-12
+"""A moment of inertia that is less is taken for this; MuJoCo refuses 1e-15 [kg m²]."""
+
+_NAMED = 5
+
+
+def warn_of_links(models: Iterable[Sequence[Body]]) -> None:
+    """Say which links have an inertia too small to simulate, or a decay of velocity."""
+    moving = [body for bodies in models for body in bodies if body.root != "static"]
+    _warn(
+        [body for body in moving if _is_tiny(body)],
+        f"a moment of inertia below {LEAST_MOMENT:g} kg m², which was taken for it",
+    )
+    _warn(
+        [body for body in moving if _decays(body)],
+        "a <velocity_decay>, which has no effect; give their joints <damping>",
+    )
+
+
+def _is_tiny(body: Body) -> bool:
+    inertial = body.link.inertial
+    return inertial is not None and bool(
+        np.linalg.eigvalsh(inertial.inertia.matrix())[0] < LEAST_MOMENT
+    )
+
+
+def _decays(body: Body) -> bool:
+    return bool(body.link.velocity_decay_linear or body.link.velocity_decay_angular)
+
+
+def _warn(bodies: Sequence[Body], what: str) -> None:
+    if not bodies:
+        return
+    names = ", ".join(f"'{body.name}'" for body in bodies[:_NAMED])
+    more = f" and {len(bodies) - _NAMED} more" if len(bodies) > _NAMED else ""
+    source = (bodies[0].link.inertial or bodies[0].link).source
+    verb = "link {} has {}" if len(bodies) == 1 else "links {} have {}"
+    text = located(verb.format(names + more, what), source)
+    warnings.warn(EngineWarning(text), stacklevel=4)
