@@ -174,6 +174,12 @@ def _alike(one: str, other: str) -> bool:
     return difflib.SequenceMatcher(None, one, other).ratio() >= _REST_CLOSE
 
 
+def closest_of(name: str, known: Iterable[str]) -> str | None:
+    """A hint that names the closest of the known names; None if none is close."""
+    close = _closest(str(name), sorted(known))
+    return None if close is None else f"did you mean '{close}'?"
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A hint that names the closest of the known names, else all of them (the first 20).
 
@@ -181,9 +187,9 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     such as ``libgazebo``, ``ros`` and ``so``, do not count.
     """
     names = sorted(known)
-    close = _closest(str(name), names)
+    close = closest_of(name, names)
     if close is not None:
-        return f"did you mean '{close}'?"
+        return close
     if not names:
         return "there are none"
     more = "" if len(names) <= 20 else f" and {len(names) - 20} more"

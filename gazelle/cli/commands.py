@@ -48,6 +48,7 @@ COMMANDS = {
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),
         Command("launch", "run a roslaunch file", "ROS 1", "launch"),
         Command("exec", "run a Python script written for ROS 1", "ROS 1", "execute"),
+        Command("shell", "a shell with roscore, rostopic, rosrun ...", "ROS 1", "shell"),
         Command("topic", "list, show, publish and measure topics", "ROS 1", "topic"),
         Command("service", "list, show and call services", "ROS 1", "service"),
         Command("node", "list, show, ping and end nodes", "ROS 1", "node"),
@@ -59,6 +60,7 @@ COMMANDS = {
         Command("robots", "list the bundled robots", "what there is", "robots"),
         Command("worlds", "list the bundled worlds", "what there is", "worlds"),
         Command("plugins", "list the supported plugins", "what there is", "plugins"),
+        Command("completion", "tab completion for bash and zsh", "what there is", "completion"),
         Command("bench", "run the benchmarks of a source checkout", "measure", "bench"),
     )
 }

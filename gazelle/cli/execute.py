@@ -8,7 +8,7 @@
 rospy, tf, actionlib, std_msgs.msg and the rest are Gazelle's own; an installed
 ROS is not touched. Packages on ROS_PACKAGE_PATH give their messages and their
 Python code. A package and a program in it may stand for the script, as with
-rosrun.
+rosrun. So may a command of ROS: 'gazelle exec rostopic list'.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -34,6 +34,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
-    from gazelle.ros.compat.script import run_named
+    from gazelle.ros.compat.script import run_named, runs_tool
 
+    if runs_tool(args.script, args.arguments):
+        from gazelle.cli.main import main
+
+        return main([args.script, *args.arguments])
     return run_named(args.script, args.arguments, sim_sleep=args.sim_sleep, debug=args.debug)

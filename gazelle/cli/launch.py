@@ -13,8 +13,11 @@ started if there is none.
 from __future__ import annotations
 
 import argparse
+import contextlib
+import os
 import signal
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -83,8 +86,6 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.write(shown)
         return 0
     if args.pid:
-        import os
-
         Path(args.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
     if args.test:
         return _test(args, plan, packages)
@@ -205,12 +206,27 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
         signal.signal(number, end)
     if not args.no_summary:
         sys.stdout.write(describing.summary(plan) + f"\nROS_MASTER_URI={launch.master_uri}\n\n")
-    with launch:
+    with _same_terminal(), launch:
         launch.start()
         code = launch.spin()
         _say("shutting down")
     _say("done")
     return code
+
+
+@contextlib.contextmanager
+def _same_terminal() -> Iterator[None]:
+    """Give the terminal back as it was, should a node that read keys be killed."""
+    if sys.stdin is None or not sys.stdin.isatty() or os.name != "posix":
+        yield
+        return
+    import termios
+
+    before = termios.tcgetattr(sys.stdin)
+    try:
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSANOW, before)
 
 
 def _say(text: str) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.description import Model, Parameters, World
-from gazelle.errors import FormatError, FormatWarning, ResolveError, did_you_mean
+from gazelle.errors import FormatError, FormatWarning, ResolveError, closest_of
 from gazelle.formats import sdf, srdf, stage, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
@@ -25,6 +25,7 @@ _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 _EXPANDED = {"robot", "sdf", "gazebo"}
 _MAP_SUFFIXES = (".yaml", ".yml")
+_BUNDLED_HINT = "'gazelle worlds' and 'gazelle robots' list what is bundled"
 
 
 def load(
@@ -177,7 +178,8 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     if found is None:
         looked = reading.resolver.looked_in(text)
         names = bundled_names(reading.resolver.assets)
-        hint = f"{looked}" if "://" in text or "/" in text else did_you_mean(text, names)
+        close = closest_of(text, names)
+        hint = f"{looked}" if "://" in text or "/" in text else close or _BUNDLED_HINT
         if text.startswith(("/", "~", ".")):
             hint = _beside(Path(text).expanduser())
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
@@ -194,7 +196,8 @@ def _beside(file: Path) -> str:
     folder = file.absolute().parent
     if not folder.is_dir():
         return f"there is no folder {folder}"
-    return did_you_mean(file.name, (path.name for path in folder.iterdir()))
+    close = closest_of(file.name, (path.name for path in folder.iterdir()))
+    return close or f"there is nothing of that name or a similar one in {folder}"
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:

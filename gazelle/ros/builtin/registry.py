@@ -74,6 +74,10 @@ _OWN = {
         BuiltinPackage("rospack", {"rospack": "gazelle.ros.builtin.rospack:main"}),
         BuiltinPackage("rosservice", {"rosservice": "gazelle.ros.builtin.commands:service"}),
         BuiltinPackage("rosparam", {"rosparam": "gazelle.ros.builtin.commands:param"}),
+        BuiltinPackage("teleop_twist_keyboard", dict.fromkeys(("teleop_twist_keyboard", "teleop_twist_keyboard.py"), "gazelle.ros.builtin.teleop.twist:main")),
+        BuiltinPackage("turtlebot3_teleop", {
+            "turtlebot3_teleop_key": "gazelle.ros.builtin.teleop.turtlebot3:main",
+        }, folder=_SHARE / "turtlebot3_teleop"),
         BuiltinPackage("tf", {
             "static_transform_publisher": "gazelle.ros.builtin.static_transform:main_tf",
             "tf_echo": "gazelle.ros.builtin.tf_tools:echo",

@@ -96,6 +96,20 @@ def run_named(
     return _become([*program.command, *arguments[1:]])
 
 
+def runs_tool(word: str, arguments: Sequence[str]) -> bool:
+    """Whether a command line names a tool of ROS, such as ``rostopic``, and no script or program.
+
+    Some tools are packages, too: ``rosbag record`` is a program of one.
+    """
+    from gazelle.ros import tool_names
+    from gazelle.ros.builtin import registry
+
+    if word not in {**tool_names.COMMANDS, **tool_names.NODES} or Path(word).is_file():
+        return False
+    known = registry.package(word)
+    return known is None or not arguments or arguments[0] not in known.nodes
+
+
 def _become(command: list[str]) -> int:
     """Run a program in place of this process, so that signals reach it."""
     if os.name == "posix":

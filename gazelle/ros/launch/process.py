@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -41,6 +42,11 @@ class Start:
     folder: Path
     log: Path | None
     """Where standard output goes; None for that of this process."""
+
+
+def _terminal_input() -> int | None:
+    """What nodes read: the keys of the launcher's terminal, if it has one, as with roslaunch."""
+    return None if sys.stdin is not None and sys.stdin.isatty() else subprocess.DEVNULL
 
 
 class NodeProcess:
@@ -86,7 +92,7 @@ class NodeProcess:
                 self.how.arguments,
                 env=self.how.environment,
                 cwd=self.how.folder,
-                stdin=subprocess.DEVNULL,
+                stdin=_terminal_input(),
                 stdout=log,
                 start_new_session=True,
             )

@@ -1,0 +1,121 @@
+"""Print what lets bash or zsh complete Gazelle's commands.
+
+  echo 'eval "$(gazelle completion bash)"' >> ~/.bashrc
+  echo 'eval "$(gazelle completion zsh)"' >> ~/.zshrc
+
+Commands, sub-commands and options are completed, the names of topics,
+services, nodes and parameters of the running graph, and files.
+"""  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from gazelle.cli.commands import COMMANDS
+from gazelle.cli.parsing import Parser
+from gazelle.ros import tool_names
+
+_GRAPH = ("node", "param", "service", "topic")
+"""Commands whose sub-command ``list`` gives the names that their others take."""
+_ZSH = """autoload -Uz compinit bashcompinit
+whence compdef > /dev/null || compinit
+bashcompinit
+"""
+_SCRIPT = """_gazelle_words() {{
+  case "$1" in
+{cases}
+  esac
+}}
+_gazelle_complete() {{
+  local word="${{COMP_WORDS[COMP_CWORD]}}" key="" i=1 first="${{COMP_WORDS[0]##*/}}" words names
+  case "$first" in
+{tools}
+    *) [ "$COMP_CWORD" -gt 1 ] && key="${{COMP_WORDS[1]}}"; i=2 ;;
+  esac
+  case "$key" in
+{aliases}
+  esac
+  words="$(_gazelle_words "$key")"
+  if [ -n "$key" ] && [ "$COMP_CWORD" -gt "$i" ]; then
+    case "$key" in
+      {graph})
+        words="$(_gazelle_words "$key ${{COMP_WORDS[i]}}")"
+        case "$word" in
+          -*) ;;
+          *) names="$(gazelle "$key" list 2> /dev/null)" ;;
+        esac ;;
+      {nested}) words="$(_gazelle_words "$key ${{COMP_WORDS[i]}}")" ;;
+    esac
+  fi
+  COMPREPLY=($(compgen -W "$words $names" -- "$word"))
+  [ "${{#COMPREPLY[@]}}" -gt 0 ] || COMPREPLY=($(compgen -f -- "$word"))
+}}
+complete -o filenames -F _gazelle_complete gazelle
+"""
+_TOOLS = "complete -o filenames -F _gazelle_complete {tools}\n"
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("shell", choices=("bash", "zsh"))
+    parser.add_argument(
+        "--tools",
+        action="store_true",
+        help="for rostopic, roslaunch ... too, as in 'gazelle shell'",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    sys.stdout.write(script_for(args.shell, tools=args.tools))
+    return 0
+
+
+def script_for(shell: str, *, tools: bool = True) -> str:
+    """What a shell is to evaluate.
+
+    Args:
+        shell: ``bash`` or ``zsh``.
+        tools: Complete ROS's commands, too.
+    """
+    words = _words()
+    nested = sorted({key.partition(" ")[0] for key in words if " " in key} - set(_GRAPH))
+    same = {name: known[0] for name, known in tool_names.COMMANDS.items()}
+    text = _SCRIPT.format(
+        cases="\n".join(f"    '{key}') echo '{' '.join(each)}' ;;" for key, each in words.items()),
+        tools="\n".join(f"    {name}) key={command} ;;" for name, command in same.items()),
+        aliases="\n".join(f"    {name}) key={command} ;;" for name, command in same.items()),
+        graph="|".join(_GRAPH),
+        nested="|".join(nested) or "''",
+    )
+    if tools:
+        text += _TOOLS.format(tools=" ".join(same))
+    return (_ZSH if shell == "zsh" else "") + text
+
+
+def _words() -> dict[str, list[str]]:
+    """From a command, or a command and its sub-command, to what may follow it."""
+    found = {"": [*COMMANDS, *tool_names.COMMANDS, "--help", "--version"]}
+    for name, command in COMMANDS.items():
+        if name == "completion":
+            found[name] = ["bash", "zsh"]
+            continue
+        parser = Parser(prog=name)
+        command.load().configure(parser)
+        inner = _sub_parsers(parser)
+        found[name] = [*inner, *_options(parser)]
+        found |= {f"{name} {sub}": _options(each) for sub, each in inner.items()}
+    return found
+
+
+def _sub_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    for action in parser._actions:  # noqa: SLF001  # argparse has no public way to ask
+        if isinstance(action, argparse._SubParsersAction):  # noqa: SLF001  # the same
+            return dict(action.choices)
+    return {}
+
+
+def _options(parser: argparse.ArgumentParser) -> list[str]:
+    shown = (each for each in parser._actions if each.help != argparse.SUPPRESS)  # noqa: SLF001
+    return [option for action in shown for option in action.option_strings if option[:2] == "--"]

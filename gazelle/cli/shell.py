@@ -1,0 +1,80 @@
+"""Open a shell in which roscore, rostopic, rosrun and roslaunch are Gazelle's.
+
+  gazelle shell
+  gazelle shell -c 'rostopic list'
+
+So are rosbag, rosnode, rosparam, rosservice, rosmsg, rospack, xacro, gzserver
+and python, which finds rospy. Leave the shell with 'exit' or Ctrl-D; nothing
+outside it is changed.
+"""  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from gazelle.cli.completion import script_for
+from gazelle.errors import Error
+
+_RC = """{user}
+PATH={path}
+export PATH
+{completion}
+PS1="(gazelle) $PS1"
+"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("-c", dest="command", metavar="COMMAND", help="run this instead, and end")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.ros.builtin.on_path import offer
+
+    env = dict(os.environ)
+    if offer(env) is None:
+        raise Error(
+            "the commands of ROS cannot be put on PATH here",
+            hint="set XDG_CACHE_HOME to a folder that you may write to; on Windows there is none",
+        )
+    env["GAZELLE_SHELL"] = "1"
+    shell = env.get("SHELL") or "/bin/sh"
+    if args.command is not None:
+        return subprocess.call([shell, "-c", args.command], env=env)  # noqa: S603  # the user's own
+    with tempfile.TemporaryDirectory(prefix="gazelle-shell-") as folder:
+        command = _interactive(shell, env, Path(folder))
+        sys.stdout.write(
+            "roscore, rostopic, rosrun, roslaunch ... are Gazelle's; leave with 'exit'\n"
+        )
+        sys.stdout.flush()
+        return subprocess.call(command, env=env)  # noqa: S603  # the user's own shell
+
+
+def _interactive(shell: str, env: dict[str, str], folder: Path) -> list[str]:
+    """The command line of a shell that reads the user's settings first, then ours."""
+    name = Path(shell).name
+    if name == "bash":
+        _write(folder / "rc", name, "[ -f ~/.bashrc ] && . ~/.bashrc", env)
+        return [shell, "--rcfile", str(folder / "rc"), "-i"]
+    if name == "zsh":
+        home = shlex.quote(env.get("ZDOTDIR") or str(Path.home()))
+        _write(
+            folder / ".zshrc", name, f"ZDOTDIR={home}\n[ -f {home}/.zshrc ] && . {home}/.zshrc", env
+        )
+        env["ZDOTDIR"] = str(folder)
+        return [shell, "-i"]
+    return [shell]
+
+
+def _write(file: Path, name: str, user: str, env: Mapping[str, str]) -> None:
+    path = f"{shlex.quote(env['PATH'].partition(os.pathsep)[0])}{os.pathsep}$PATH"
+    text = _RC.format(user=user, path=path, completion=script_for(name))
+    file.write_text(text, encoding="utf-8")
