@@ -16,7 +16,12 @@ from typing import Any
 
 from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import add_environment_options, add_file_options, environment_options
+from gazelle.cli.parsing import (
+    add_environment_options,
+    add_file_options,
+    add_scenario_options,
+    environment_options,
+)
 from gazelle.cli.train import report
 
 _TASK = "TurtleBot3Stage1"
@@ -36,6 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--out", metavar="DIR", type=Path, default=Path("runs"), help="where the run goes"
     )
     add_file_options(parser)
+    add_scenario_options(parser)
     add_environment_options(parser)
 
 
@@ -60,7 +66,8 @@ def run(args: argparse.Namespace) -> int:
     sys.stdout.write(f"trained:  {showing.training(result, indent=10)}\n")
     folder = result.run.folder
     again = showing.program()
-    found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000)
+    asked = {name: options[name] for name in ("goals", "starts") if name in options}
+    found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000, **asked)
     sys.stdout.write(f"evaluated on {found.episodes} fresh goals:\n{showing.evaluation(found)}")
     sys.stdout.write(
         f"in all {time.perf_counter() - began:.0f} s; the run's files are in {folder}\n"

@@ -92,7 +92,8 @@ class FreeSpace:
         if not passable[tuple(first)]:
             raise TaskError(
                 f"the start at ({start[0]:g}, {start[1]:g}) is within {PASSAGE} m of something",
-                hint="give goals of your own, or ask for those as published",
+                hint='goals and starts as published (goals="published", starts="published") '
+                "need no free space",
             )
         self._within = _flooded(passable, first)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import warnings
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engines.planar import PlanarEngine
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.free_space import FreeSpace, floor_plan_of
 from gazelle.envs.goals import GoalTable
@@ -16,7 +16,7 @@ from gazelle.envs.options import NavigationSettings
 from gazelle.envs.starts import RandomStarts
 from gazelle.envs.turtlebot3.rules import STAGES, stage_goals
 from gazelle.envs.turtlebot3.scene import Scene
-from gazelle.errors import Error, TaskError
+from gazelle.errors import Error, GazelleWarning, TaskError
 from gazelle.sensors import LidarModel
 
 Floats = NDArray[np.float64]
@@ -88,20 +88,23 @@ class Layout:
         """
         flat = dataclasses.replace(self._settings, engine="planar", threads=1, time_step=None)
         try:
-            scene = Scene(STAGES[self._stage], flat, 1)
+            with warnings.catch_warnings():
+                # What there is to tell was told when the task's own scene was made.
+                warnings.simplefilter("ignore", GazelleWarning)
+                scene = Scene(STAGES[self._stage], flat, 1)
         except Error as error:
             raise TaskError(
                 f"free space is looked for in the plane, where this does not go: {error}",
-                hint='give goals of your own, and starts="published"',
+                hint='goals and starts as published (goals="published", starts="published") '
+                "need no free space",
             ) from error
         with scene.simulation:
-            robot, engine = scene.robot, scene.simulation.engine
-            model = robot.sensors[scene.lidar.sensor].model
-            if not isinstance(engine, PlanarEngine) or not isinstance(model, LidarModel):
+            model = scene.robot.sensors[scene.lidar.sensor].model
+            if not isinstance(model, LidarModel):
                 raise TaskError("the sensor of this task must be a lidar")
-            caster = engine.caster(model.link, model.origins, model.directions)
-            height = float(robot.position[0, 2] + caster.scanner.mounts[0].z)
-            return floor_plan_of(robot, height)
+            link = scene.simulation.engine.link_placement(model.link, None)
+            height = float(link.position[0, 2] + model.origins[:, 2].max())
+            return floor_plan_of(scene.robot, height)
 
     @functools.cached_property
     def space(self) -> FreeSpace:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import gymnasium as gym
 import numpy as np
 import pytest
 
 import gazelle.envs  # noqa: F401  registers the environments
+from gazelle import formats
+from gazelle.description import Pose
 from gazelle.envs.options import NavigationSettings, held_out_options
 from gazelle.envs.turtlebot3.layout import Layout
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
@@ -195,7 +199,29 @@ def test_a_start_in_an_obstacle_says_what_to_do():
     settings = NavigationSettings(world="turtlebot3_world", **HELD_OUT)
     with pytest.raises(TaskError, match=r"within 0\.2 m of something") as raised:
         Layout(1, settings).goals()
-    assert "goals of your own" in str(raised.value.hint)
+    assert 'starts="published"' in str(raised.value.hint)
+
+
+@pytest.mark.filterwarnings("ignore:the lidar 'lds_lfcd_sensor'")
+def test_a_robot_whose_lidar_leans_has_places_too():
+    """Its rays cannot be cast in the plane, where free space is looked for."""
+    robot = formats.load_model("turtlebot3_burger")
+    links = [
+        dataclasses.replace(
+            link,
+            sensors=tuple(
+                dataclasses.replace(each, pose=Pose(0.0, 0.0, 0.0, 0.0, 0.3, 0.0))
+                for each in link.sensors
+            ),
+        )
+        for link in robot.links
+    ]
+    tilted = dataclasses.replace(robot, links=tuple(links))
+    usual, leaning = (
+        Layout(1, NavigationSettings(robot=each, **HELD_OUT)).goals().points
+        for each in (None, tilted)
+    )
+    np.testing.assert_array_equal(leaning, usual)
 
 
 @pytest.mark.parametrize("starts", ["published", "held-out"])
