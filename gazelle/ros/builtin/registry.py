@@ -135,6 +135,16 @@ def package(name: str) -> BuiltinPackage | None:
     return None
 
 
+def stand_in(name: str) -> Path | None:
+    """A folder with the manifest of a package whose work is done here, or None.
+
+    ``rospkg`` and ``$(find)`` find such packages by it, as they do where ROS is installed.
+    """
+    folder = _SHARE / name
+    plain = name and name not in {".", ".."} and "/" not in name
+    return folder if plain and (folder / "package.xml").is_file() else None
+
+
 def main_of(name: str, kind: str) -> Main:
     """The function that runs a built-in node.
 

@@ -84,16 +84,18 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
     @staticmethod
     def _package(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
-        if name not in bundled_packages():
-            other = PathFinder.find_spec(name, path)
-            if other is not None and other.loader is not None:
-                return None  # Python code of the user's, which is found without us
-            folder = find_packages().get(name)
-            if folder is None:
-                return ModuleSpec(name, PackageLoader(), is_package=True) if _known(name) else None
-            source = folder / "src" / name / "__init__.py"
-            if source.is_file():
-                return importlib.util.spec_from_file_location(name, source)
+        """A package's own Python code, the user's first; an empty module where it has none.
+
+        Gazelle has the definitions of many packages, but the code of few: that of ``openai_ros``,
+        say, is the user's.
+        """
+        other = PathFinder.find_spec(name, path)
+        if other is not None and other.loader is not None:
+            return None  # it is found without us
+        folder = find_packages().get(name)
+        source = None if folder is None else folder / "src" / name / "__init__.py"
+        if source is not None and source.is_file():
+            return importlib.util.spec_from_file_location(name, source)
         if _known(name):
             return ModuleSpec(name, PackageLoader(), is_package=True)
         return None

@@ -45,7 +45,7 @@ class Packages:
         if found is None:
             known = registry.package(package)
             found = known.folder if known is not None else None
-        return found
+        return found or registry.stand_in(package)
 
     def folder(self, package: str) -> Path:
         """The folder of a package, installed or built in.

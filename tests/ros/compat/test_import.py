@@ -8,6 +8,7 @@ import pytest
 
 import gazelle.ros as ros
 from gazelle.ros.compat.finder import own_modules
+from gazelle.ros.messages import search
 
 MODULES = [
     "actionlib",
@@ -130,3 +131,40 @@ def test_packages_of_the_user_bring_messages_and_code(tmp_path, monkeypatch):
             rospkg.RosPack().get_path("no_robot")
     for name in [name for name in sys.modules if name.startswith("my_robot")]:
         del sys.modules[name]
+
+
+def openai_ros(folder):
+    """A package whose messages Gazelle has too, with Python code of its own."""
+    code = folder / "src" / "openai_ros"
+    (code / "robot_envs").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>openai_ros</name></package>")
+    (code / "__init__.py").write_text("own = True\n")
+    (code / "robot_envs" / "__init__.py").write_text("")
+    (code / "robot_envs" / "cube.py").write_text(
+        "from openai_ros.msg import RLExperimentInfo\nname = RLExperimentInfo.__name__\n"
+    )
+    return code.parent
+
+
+@pytest.mark.parametrize("where", ["ROS_PACKAGE_PATH", "PYTHONPATH"])
+def test_the_code_of_a_package_whose_messages_are_bundled_is_the_users(
+    where, tmp_path, monkeypatch
+):
+    source = openai_ros(tmp_path / "deep" / "openai_ros")
+    if where == "PYTHONPATH":
+        monkeypatch.syspath_prepend(str(source))
+    else:
+        monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    search.forget()
+    with ros.install():
+        assert importlib.import_module("openai_ros").own
+        assert importlib.import_module("openai_ros.robot_envs.cube").name == "RLExperimentInfo"
+        assert importlib.import_module("openai_ros.msg").RLExperimentInfo
+    for name in [each for each in sys.modules if each.startswith("openai_ros")]:
+        del sys.modules[name]
+    search.forget()
+
+
+def test_a_package_without_code_still_has_its_messages():
+    with ros.install():
+        assert importlib.import_module("openai_ros.msg").RLExperimentInfo

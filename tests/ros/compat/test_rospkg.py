@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import gazelle.ros as ros
+from gazelle.ros.messages import search
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.2.3</version>
 <description>A robot</description><license>BSD</license><author>Ann</author>
@@ -149,3 +150,32 @@ def test_addresses_are_read(rosgraph, monkeypatch):
     monkeypatch.delenv("ROS_HOSTNAME", raising=False)
     assert network.get_host_name() == "127.0.0.5"
     assert rosgraph.get_master_uri({"ROS_MASTER_URI": "http://a:1"}) == "http://a:1"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "robot_state_publisher", "map_server", "tf", "tf2_ros", "controller_manager", "rospy",
+        "roscpp", "std_msgs", "sensor_msgs", "gazebo_msgs", "gazebo_ros", "gazebo_plugins", "xacro",
+        "joint_state_publisher", "actionlib", "rostopic", "roslaunch", "topic_tools", "stage_ros",
+        "effort_controllers", "joint_trajectory_controller", "turtlebot3_description",
+    ],
+)  # fmt: skip
+def test_what_is_built_in_has_a_folder_with_its_manifest(rospkg, name, monkeypatch, tmp_path):
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    pack = rospkg.RosPack()
+    folder = pack.get_path(name)
+    assert Path(folder, "package.xml").is_file()
+    assert pack.get_manifest(name).name == name
+    mine = tmp_path / "deep" / name
+    mine.mkdir(parents=True)
+    (mine / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    search.forget()
+    assert rospkg.RosPack().get_path(name) == str(mine)
+    search.forget()
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "../xacro", "no_such_package"])
+def test_what_nobody_has_is_not_found(rospkg, name):
+    with pytest.raises(rospkg.ResourceNotFound):
+        rospkg.RosPack().get_path(name)
