@@ -48,9 +48,11 @@ class Inertial:
         mass: [kg].
         pose: The inertial frame in the link frame; its origin is the centre of mass.
         inertia: About the centre of mass, in the inertial frame.
+        written: What the file says where no body can have that; it is saved again.
     """
 
     mass: float = 1.0
     pose: Pose = field(default_factory=Pose)
     inertia: Inertia = field(default_factory=Inertia)
+    written: Inertia | None = field(default=None, compare=False, repr=False, kw_only=True)
     source: Source | None = field(default=None, compare=False, repr=False)

@@ -65,7 +65,8 @@ def sound_inertial(
         node.find("inertia") or node,
         _HINT,
     )
-    return replace(inertial, inertia=taken)
+    finite = np.isfinite(given.matrix()).all()
+    return replace(inertial, inertia=taken, written=given if finite else None)
 
 
 def is_sound(inertial: Inertial) -> bool:

@@ -336,4 +336,69 @@ _BODIES = {
     "no gravity": gazebo("a", "<turnGravityOff>false</turnGravityOff>"),
     "joint in the model": "<gazebo><joint name='fix' type='fixed'><parent>world</parent><child>a</child></joint></gazebo>",
 }
-EXTENDED = {name: _extended(body) for name, body in _BODIES.items()}
+_PLUGIN = "<plugin name='p' filename='f.so'>{}</plugin>"
+_LUMPS = (
+    urdf_link("a", inertial(2) + shape("collision", "1 0 0", BALL, "own"))
+    + urdf_link("b", inertial(3) + shape("collision", "0 1 0", BRICK, "a_like"))
+    + urdf_link("c", inertial(1) + shape("collision", "0 1 0", BRICK, "other"))
+    + urdf_link("d", inertial(0, moments=(1e-3, 1e-3, 1e-3, 0, 0, 0)))
+    + urdf_link("e", inertial(1e-7))
+    + urdf_joint("ab", "a", "b", "fixed", ORIGIN)
+    + urdf_joint("bc", "b", "c", "fixed", "<origin xyz='0 0 1' rpy='0 1.57 0'/>")
+    + urdf_joint("cd", "c", "d", "fixed", ORIGIN)
+    + urdf_joint("ae", "a", "e", "continuous", ORIGIN)
+)
+_RED, _BLUE = "<color rgba='1 0 0 1'/>", "<color rgba='.1 .2 .8 .5'/>"
+
+
+def _painted(material, name=""):
+    return shape("visual", "0 0 1", BALL, name).replace(
+        "</visual>", f"<material name='m'>{material}</material></visual>"
+    )
+
+
+_WHOLE = {
+    "named collisions": _LUMPS
+    + "".join(gazebo(link, f"<mu1>.{n}</mu1><kp>{n}e5</kp>") for n, link in enumerate("abc", 1)),
+    "plugins of lumped links": _LUMPS
+    + "<gazebo>"
+    + _PLUGIN.format("<bodyName>c</bodyName>")
+    + _PLUGIN.replace("'p'", "'q'").format("<bodyName>c</bodyName><frameName>c</frameName>")
+    + _PLUGIN.replace("'p'", "'r'").format(
+        "<bodyName>b</bodyName><xyzOffset>1 2 3</xyzOffset><rpyOffset>.1 .2 .3</rpyOffset>"
+    )
+    + _PLUGIN.replace("'p'", "'s'").format("<bodyName>a</bodyName><frameName>world</frameName>")
+    + "</gazebo>",
+    "noise of old": _LUMPS
+    + gazebo(
+        "a",
+        "<sensor name='s' type='imu'><imu><noise><type>gaussian</type><rate><stddev>.1</stddev>"
+        "</rate><accel><stddev>.2</stddev></accel></noise></imu></sensor>",
+    ),
+    "nearly upright": _LUMPS
+    + urdf_link("f", inertial(1) + shape("visual", "0 1 0", BALL).replace(".1 .2 .3", ".3 1.57 0"))
+    + urdf_joint("af", "a", "f", "continuous")
+    + gazebo("c", "<sensor name='s' type='imu'><pose>0 0 0 .3 0 .2</pose></sensor>"),
+    "colours": "<material name='m'>"
+    + _RED
+    + "</material>"
+    + urdf_link("a", inertial(1) + _painted(_BLUE) + _painted("")),
+    "colours in passing": urdf_link("a", inertial(1) + _painted(_BLUE) + _painted(_RED)),
+    "a colour and a script": urdf_link("a", inertial(1) + _painted(_BLUE))
+    + gazebo("a", "<material>Gazebo/Red</material>"),
+    "a script in a material": urdf_link("a", inertial(1) + _painted(_BLUE))
+    + gazebo(
+        "a",
+        "<visual><material><ambient>1 0 1 1</ambient></material></visual>"
+        "<material>Gazebo/Red</material>",
+    ),
+    "plugin of a visual": urdf_link("a", inertial(1) + _painted(_BLUE))
+    + gazebo("a", f"<visual>{_PLUGIN.format('<x>1</x>')}</visual>"),
+    "a package": urdf_link(
+        "a", inertial(1) + shape("visual", "0 0 0", "<mesh filename='package://none/a.stl'/>")
+    ),
+}
+EXTENDED = {
+    **{name: _extended(body) for name, body in _BODIES.items()},
+    **{name: robot(body) for name, body in _WHOLE.items()},
+}

@@ -331,3 +331,16 @@ def test_libsdformat_finds_it_valid(corpus, tmp_path, monkeypatch, name):
     world = formats.load(corpus / name, paths=[corpus / "osrf__gazebo_models"])
     formats.save(world, tmp_path / "saved.sdf")
     assert valid(tmp_path / "saved.sdf")
+
+
+@quiet
+@pytest.mark.parametrize("diagonal", ["0 0 0", "0.002 0 0", "1 1 -1"])
+def test_a_mended_inertia_is_saved_as_the_file_had_it(diagonal):
+    xx, yy, zz = diagonal.split()
+    robot = formats.load_model_string(
+        f"<robot name='r'><link name='a'><inertial><mass value='2'/><inertia ixx='{xx}' iyy='{yy}' "
+        f"izz='{zz}' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>"
+    )
+    found = ET.fromstring(formats.to_string(robot, "sdf")).find(".//inertia")
+    assert [found.findtext(name) for name in ("ixx", "iyy", "izz")] == diagonal.split()
+    assert again(robot).models == (robot,)

@@ -2,32 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from gazelle.description import Inertia, Inertial, Pose
 from gazelle.formats.solids import Solid, joined
 from gazelle.formats.urdf.tree import Body
+from gazelle.formats.urdf.upright import upright
+
+NO_MASS = 1e-6
+"""A mass up to this [kg] is none, as it is to libsdformat."""
 
 
 def body_inertial(body: Body) -> Inertial | None:
-    """The inertial of a body; None when none of its links has a mass.
+    """The inertial of a body; None when all its links together have no mass.
 
-    A body of one link keeps its numbers to the last bit. A lumped link without mass gives its
-    inertia all the same, as in libsdformat.
+    A body of one link keeps its numbers to the last bit. A link without mass may still add an
+    inertia, as it does in libsdformat.
     """
     parts = [
-        (member.pose, member.link.inertial)
+        (member.upright, member.link.inertial)
         for member in body.members
         if member.link.inertial is not None
         and (member.link.inertial.mass > 0.0 or member.link.inertial.inertia.matrix().any())
     ]
-    if not any(inertial.mass > 0.0 for _, inertial in parts):
+    if math.fsum(inertial.mass for _, inertial in parts) <= NO_MASS:
         return None
     own = body.link.inertial
     if len(parts) == 1 and parts[0][1] is own:
         return own
+    parts = [(place, replace(part, pose=upright(part.pose))) for place, part in parts]
     rotation = Pose() if own is None else Pose.from_quaternion((0, 0, 0), own.pose.quaternion)
     return combine(parts, rotation)
 

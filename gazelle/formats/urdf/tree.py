@@ -15,6 +15,7 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.elements import read_inertial
 from gazelle.formats.urdf.extensions import Extensions
 from gazelle.formats.urdf.joint import UrdfJoint, read_joint
+from gazelle.formats.urdf.upright import upright
 
 WORLD = "world"
 ONLY_MACROS = "a xacro file that only defines macros is meant to be included by another"
@@ -31,11 +32,15 @@ class UrdfLink:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A link that is part of a body, its pose there, and the fixed joint that lumps it."""
+    """A link that is part of a body, its pose there, and the fixed joint that lumps it.
+
+    Masses are lumped at ``upright``, by angles that urdfdom gives: see there.
+    """
 
     link: UrdfLink
     pose: Pose
     joint: UrdfJoint | None = None
+    upright: Pose = field(default_factory=Pose)
 
 
 @dataclass(slots=True)
@@ -211,7 +216,8 @@ def _gather(tree: Tree, body: Body, extensions: Extensions) -> None:
         for joint in tree.below.get(member.link.name, ()):
             if lumps(joint, extensions):
                 pose = member.pose * joint.origin
-                lumped.append(Member(tree.links[joint.child], pose, joint))
+                stood = member.upright * upright(joint.origin)
+                lumped.append(Member(tree.links[joint.child], pose, joint, stood))
             else:
                 body.children.append(_hung(tree, joint, body, member.pose))
         waiting.extend(reversed(lumped))

@@ -65,7 +65,7 @@ def _inertial(link: Link, writing: Writing, *, static: bool) -> Parameters | Non
 
 
 def write_inertial(inertial: Inertial) -> Parameters:
-    """``<inertial>``, with every number.
+    """``<inertial>``, with every number; a mended inertia as the file had it, as libsdformat does.
 
     Raises:
         FormatError: It is that of no body, which readers of SDF refuse.
@@ -73,7 +73,8 @@ def write_inertial(inertial: Inertial) -> Parameters:
     place = Parameters("inertial", source=inertial.source)
     values.positive(place, inertial.mass, "the mass")
     check_inertia(inertial.inertia, place)
-    inertia = (leaf(name, getattr(inertial.inertia, name)) for name in _MOMENTS)
+    tensor = inertial.written or inertial.inertia
+    inertia = (leaf(name, getattr(tensor, name)) for name in _MOMENTS)
     return element(
         "inertial",
         pose_leaf(inertial.pose),
