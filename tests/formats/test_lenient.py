@@ -472,3 +472,39 @@ def test_parameters_of_an_include_are_not_dropped_in_silence(tmp_path):
     found, text = one_warning(formats.load, file)
     assert "<experimental:params> is not supported" in text
     assert len(found.models) == 1
+
+
+RANGE = "<sensor name='s' type='ray'><pose>0 0 1</pose><ray><range><min>{}</min><max>{}</max></range></ray></sensor>"
+NOISE = (
+    "<sensor name='s' type='imu'><imu><angular_velocity><x><noise type='{}'><mean>1</mean></noise>"
+    "</x></angular_velocity></imu></sensor>"
+)
+
+
+@pytest.mark.parametrize(
+    ("limits", "taken"), [((3, 1), (1, 3)), ((-1, 5), (0, 5)), ((-3, -5), (0, 0))]
+)
+def test_the_range_of_a_lidar_grows_from_zero(limits, taken):
+    text = RANGE.format(*limits).replace("<pose>0 0 1</pose>", "")
+    found, said = one_warning(model, f"<link name='l'>{text}</link>")
+    lidar = found.links[0].sensors[0].lidar
+    assert (lidar.range_min, lidar.range_max) == taken
+    assert "the range must grow" in said
+
+
+def test_an_unknown_noise_is_none():
+    found, said = one_warning(model, f"<link name='l'>{NOISE.format('gausian')}</link>")
+    assert found.links[0].sensors[0].imu.angular_velocity[0].type == "none"
+    assert "unknown noise 'gausian'" in said
+
+
+def test_sensors_in_gazebo_elements_are_mended_too():
+    text = robot(
+        f"<link name='l'>{INERTIAL}</link><gazebo reference='l'>{RANGE.format(3, 1)}</gazebo>"
+    )
+    with pytest.warns(FormatWarning) as caught:
+        found = formats.load_model_string(text)
+    assert len(caught) == 2
+    sensor = found.links[0].sensors[0]
+    assert sensor.pose.position == (0, 0, 1)
+    assert (sensor.lidar.range_min, sensor.lidar.range_max) == (1, 3)

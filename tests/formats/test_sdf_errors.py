@@ -37,15 +37,6 @@ LINK = "<link name='l'/>"
             "frame[@name='a']",
             "circle",
         ),
-        (
-            (
-                "<link name='l'><sensor name='s' type='ray'><ray>\n<range><min>2</min><max>1</max>"
-                "</range></ray></sensor></link>"
-            ),
-            5,
-            "link[@name='l']/sensor[@name='s']/ray/range",
-            "range must grow",
-        ),
     ],
 )
 def test_errors_name_file_line_and_element(body, line, element, reason):

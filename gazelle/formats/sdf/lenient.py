@@ -16,11 +16,13 @@ from gazelle.description import Parameters
 from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.build import made, with_attributes, with_child
 
 _START = re.compile(r"[+-]?(\d+\.?\d*([eE][+-]?\d+)?|\.\d+([eE][+-]?\d+)?)")
 _FACTORS = {"scale", "size"}
 """A single number in one of these stands for all directions."""
 _POSE, _POSITION = 6, 3
+_NOISES = {"", "custom", "gaussian", "gaussian_quantized", "none"}
 
 
 def real(node: Parameters, text: str, what: str, reading: Reading) -> str:
@@ -109,6 +111,55 @@ def pose(node: Parameters, reading: Reading) -> Parameters:
         zeros = ["0"] * (_POSE - len(kept))
         return replace(node, text=_taken([*kept, *zeros], error, reading))
     return node
+
+
+def noise(node: Parameters, reading: Reading) -> Parameters:
+    """A ``<noise>``; one of an unknown type is none."""
+    child = node.find("type")
+    kind = node.attributes.get("type", "") or ("" if child is None else child.text)
+    if kind in _NOISES:
+        return node
+    reading.fault(
+        f"unknown noise '{kind}': none was taken",
+        node,
+        f"there are: {', '.join(sorted(_NOISES - {''}))}",
+    )
+    return with_attributes(node, type="none")
+
+
+def span(node: Parameters, reading: Reading) -> Parameters:
+    """A ``<range>`` of a lidar: it grows from 0.
+
+    Raises:
+        FormatError: A limit is no number.
+    """
+    if node.find("min") is None or node.find("max") is None:
+        return node
+    near, far = values.real(node, "min", 0.0), values.limit(node, "max", 0.0)
+    if 0.0 <= near <= far:
+        return node
+    least, most = sorted(max(limit, 0.0) for limit in (near, far))
+    reading.fault(
+        f"the range must grow from 0, found {near:g} to {far:g}: {least:g} to {most:g} was taken",
+        node,
+    )
+    for tag, limit in (("min", least), ("max", most)):
+        node = with_child(node, made(tag, repr(limit), like=node))
+    return node
+
+
+PARTS: dict[str, Callable[[Parameters, Reading], Parameters]] = {
+    "noise": noise,
+    "pose": pose,
+    "range": span,
+}
+"""What is mended by its tag, wherever it stands."""
+
+
+def part(node: Parameters, reading: Reading) -> Parameters:
+    """The element, mended if it is one of ``PARTS``."""
+    mend = PARTS.get(node.tag)
+    return node if mend is None else mend(node, reading)
 
 
 def _numbers(text: str) -> list[str]:

@@ -50,7 +50,8 @@ def checked(node: Parameters, kind: str, reading: Reading) -> Parameters:
     if read is not None and node.text:
         text = read(node, node.text, f"<{node.tag}>", reading)
         node = node if text is node.text else replace(node, text=text)
-    return with_children(node, lambda child: _child(child, node, entry["children"], reading))
+    node = with_children(node, lambda child: _child(child, node, entry["children"], reading))
+    return lenient.part(node, reading)
 
 
 def with_children(node: Parameters, change: Callable[[Parameters], Parameters]) -> Parameters:
@@ -86,22 +87,21 @@ def _child(
         with suppress(FormatError):
             return checked(child, kind, reading)
         return child
-    return _opaque(child, reading) if kind in _OPAQUE else checked(child, kind, reading)
+    return tolerated(child, reading) if kind in _OPAQUE else checked(child, kind, reading)
 
 
-def _opaque(node: Parameters, reading: Reading) -> Parameters:
-    """An element that the schema does not judge: only the poses and models in it."""
+def tolerated(node: Parameters, reading: Reading) -> Parameters:
+    """An element that the schema does not judge: only poses and the like in it, and models."""
     if node.tag == "plugin":
         return node
-    if node.tag == "pose":
-        return lenient.pose(node, reading)
     whole = {"model", "light"} if node.tag in _HOLDERS else set()
-    return with_children(
+    node = with_children(
         node,
         lambda child: (
-            checked(child, child.tag, reading) if child.tag in whole else _opaque(child, reading)
+            checked(child, child.tag, reading) if child.tag in whole else tolerated(child, reading)
         ),
     )
+    return lenient.part(node, reading)
 
 
 def _note_unknown(

@@ -13,6 +13,7 @@ from gazelle.description import Parameters
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf import schema
 
 _YES = {"true", "yes", "1"}
 
@@ -77,12 +78,12 @@ def text(node: Parameters) -> str:
     return node.attributes.get("value", "").strip() or node.text
 
 
-def read_extensions(root: Parameters) -> Extensions:
+def read_extensions(root: Parameters, reading: Reading) -> Extensions:
     """All ``<gazebo>`` elements of a ``<robot>``."""
     extensions = Extensions()
     for node in root.find_all("gazebo"):
         reference = node.attributes.get("reference", "")
-        extensions.by_reference.setdefault(reference, []).append(node)
+        extensions.by_reference.setdefault(reference, []).append(schema.tolerated(node, reading))
     return extensions
 
 

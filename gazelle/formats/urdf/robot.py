@@ -59,7 +59,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
         raise values.fail(root, "the attribute 'name' is required in <robot>", hint=ONLY_MACROS)
     note_unknown(root, reading)
     tree = read_tree(root, reading)
-    extensions = read_extensions(root)
+    extensions = read_extensions(root, reading)
     note_unused(extensions, set(tree.links), set(tree.joints), reading)
     found = bodies(tree, extensions)
     robot = Robot(extensions, _paints(root, reading), reading, _poses(found, tree))
