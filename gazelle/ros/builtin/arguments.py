@@ -15,6 +15,7 @@ from gazelle.ros.node import Node
 from gazelle.ros.signals import stopping
 
 _MASTER_LOOK_S = 0.02
+_END_LOOK_S = 0.2
 _QUIET_S = 1.0
 """A master that was started at the same time is there by then [s]."""
 
@@ -97,6 +98,8 @@ def spin(node: Node) -> int:
     """Wait until Ctrl-C, SIGTERM, or until the node is asked to end; returns 0."""
     with stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
-        stop.wait()
+        # It may have been asked to end while it began, before there was a hook.
+        while not node.closed and not stop.wait(_END_LOOK_S):
+            pass
     node.close()
     return 0

@@ -9,6 +9,7 @@ from typing import TextIO
 from gazelle.errors import Error, GazelleWarning
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.registry import package as built_in
+from gazelle.ros.errors import NodeClosedError
 from gazelle.ros.process_name import call_process
 
 
@@ -20,6 +21,8 @@ def main(arguments: list[str]) -> int:
     warnings.showwarning = _show_warning
     try:
         return main_of(package, kind)(rest)
+    except NodeClosedError:
+        return 0  # somebody asked the node to end while it began
     except Error as error:
         sys.stderr.write(f"[{package}/{kind}] {error}\n")
         return 1
