@@ -51,7 +51,7 @@ def first_hits(
         type=mujoco.mjtGeom.mjGEOM_MESH, meshname="mesh", contype=0, conaffinity=0
     )
     # What meets an edge exactly would pass between its two triangles.
-    start = (origins - middle) * scale + 1e-5 * directions + 1e-8 * np.array([0.613, 0.371, 0.697])
+    start = (origins - middle) * scale + 1e-5 * directions + 1e-6 * np.array([0.613, 0.371, 0.697])
     distance, _, normal = Batch(spec.compile(), 1).ray(start, directions, normal=True)
     met = distance[0] >= 0.0
     found = np.where(met, (distance[0] + 1e-5) / scale, np.inf)

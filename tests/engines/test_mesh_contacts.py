@@ -114,9 +114,57 @@ def test_balls_come_to_rest_on_the_ground_that_rays_see(tmp_path, seed):
         engine.step()
     for ball in balls:
         position = engine.model_placement(ball.name).position[0]
-        _, distance, _ = closest(mesh, position)
+        distance = closest(mesh, position)[1]
         assert position[2] > 0.05  # it did not fall through
         assert distance == pytest.approx(0.1, abs=0.006)
+
+
+def land(count, rough, *, flipped=False, scattered=False):
+    """Rolling ground over 10 m by 6 m, with cells split one way or the other."""
+    chance = np.random.default_rng(3)
+    x, y = np.meshgrid(np.linspace(-4, 6, count), np.linspace(-2, 4, count))
+    if scattered:
+        inner = (slice(1, -1), slice(1, -1))
+        x[inner] += chance.uniform(-0.3, 0.3, x[inner].shape) * 10.0 / count
+        y[inner] += chance.uniform(-0.3, 0.3, y[inner].shape) * 6.0 / count
+    z = 0.4 * np.sin(x) * np.cos(1.3 * y) + chance.uniform(-rough, rough, x.shape)
+    a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
+    b, c, d = a + 1, a + count, a + count + 1
+    halves = [(a, b, c), (b, d, c)] if flipped else [(a, b, d), (a, d, c)]
+    faces = np.concatenate([np.stack(each, 1) for each in halves])
+    return trimesh.Trimesh(np.column_stack([x.ravel(), y.ravel(), z.ravel()]), faces)
+
+
+@pytest.mark.parametrize(
+    ("mesh", "fields"),
+    [
+        (land(60, 0.05), 1),
+        (land(60, 0.05, flipped=True), 1),
+        (land(60, 0.0, scattered=True), 1),
+        (land(20, 0.05), 0),
+    ],
+    ids=["grid", "flipped", "scattered", "small"],
+)
+def test_ground_of_many_triangles_is_one_field_of_heights(tmp_path, mesh, fields):
+    pose = Pose(1.0, -2.0, 0.5, 0.05, -0.1, 0.7)
+    ground = standing(tmp_path, mesh, "land", pose=pose, mu=1.0)
+    chance = np.random.default_rng(0)
+    places = [pose.apply((*chance.uniform((-2, -1), (4, 3)), 0.7)) for _ in range(5)]
+    balls = [scenes.ball(f"ball_{i}", pose=Pose(*place)) for i, place in enumerate(places)]
+    engine = make_engine("mujoco", scenes.world(ground, *balls))
+    assert engine._batch.model.nhfield == fields
+    placed = mesh.copy().apply_transform(pose.matrix())
+    touched = 0
+    for _ in range(8):
+        for _ in range(100):
+            engine.step()
+        for ball in balls:
+            name = f"{ball.name}::{ball.links[0].name}::{ball.links[0].collisions[0].name}"
+            if len(engine.contacts([name]).depth):
+                touched += 1
+                position = engine.model_placement(ball.name).position[0]
+                assert closest(placed, position)[1] == pytest.approx(0.1, abs=0.012)
+    assert touched > 5
 
 
 def closest(mesh, point):

@@ -16,8 +16,8 @@ _SEEN = (COLLISION_GROUP, CLOSED_GROUP, OPEN_GROUP)
 _GROUPS = np.array([group in _SEEN for group in range(6)], dtype=np.uint8)
 
 # By this rays start beside where they should [m]. MuJoCo's pass between two triangles of a mesh
-# if they meet the edge exactly, as the middle of a symmetric thing seen along an axis is met.
-BESIDE = 1e-8 * np.array([0.613, 0.371, 0.697])
+# if they meet the edge but for single precision, as the middle of a symmetric thing is met.
+BESIDE = 3e-6 * np.array([0.613, 0.371, 0.697])
 
 # How far behind a surface that is passed through a ray goes on [m].
 _BEHIND = 1e-6

@@ -33,6 +33,7 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.errors import EngineWarning, located
+from gazelle.formats.ground import Ground
 
 CONTACT_GROUP = 2
 """Of what collides and is not seen by rays, since a mesh stands for it."""
@@ -45,6 +46,8 @@ _SIDES = 24
 _ELEVATION_FILES = {".asc", ".dem", ".hgt"}
 _GROUND = 1.0
 """Depth of the ground below the lowest point of a heightmap [m]."""
+_LARGE = 60_000
+"""Triangles from which on ground is a height field, however rough it is."""
 _THIN = 1e-6
 _FLAT = 1e-3
 """Thickness over length below which a mesh counts as a sheet."""
@@ -62,6 +65,7 @@ class ShapeBuilder:
     spec: mujoco.MjSpec
     meshes: dict[Any, str] = field(default_factory=dict)
     heightmaps: dict[Heightmap, str] = field(default_factory=dict)
+    grounds: dict[Any, Ground | None] = field(default_factory=dict)
 
     def options(
         self, shape: Geometry, pose: Pose, source: Source | None, *, static: bool = False
@@ -83,6 +87,9 @@ class ShapeBuilder:
         from gazelle.formats.convex import decompose
         from gazelle.formats.mesh import load_mesh
 
+        ground = self._ground(shape) if static else None
+        if ground is not None:
+            return [self._ground_geom(shape, ground, pose, source)]
         pieces = decompose(load_mesh(shape), static=static)
         if pieces.gap > pieces.promised:
             _warn_of_gap(shape, pieces.gap, source)
@@ -90,6 +97,51 @@ class ShapeBuilder:
             self.mesh_geom((_key_of(shape), static, number), piece.vertices, piece.faces, pose)
             for number, piece in enumerate(pieces.solids)
         ]
+
+    def _ground(self, shape: Mesh) -> Ground | None:
+        """The heights of a mesh that is ground, if they are near enough or it is too large."""
+        from gazelle.formats.convex import PROMISED
+        from gazelle.formats.ground import ground_of
+        from gazelle.formats.mesh import load_mesh
+
+        key = _key_of(shape)
+        if key not in self.grounds:
+            data = load_mesh(shape)
+            found = ground_of(data)
+            rough = found is not None and min(found.gaps) > PROMISED
+            self.grounds[key] = None if rough and len(data.faces) < _LARGE else found
+        return self.grounds[key]
+
+    def _ground_geom(
+        self, shape: Mesh, ground: Ground, pose: Pose, source: Source | None
+    ) -> dict[str, Any]:
+        """Ground as a height field, whose cells MuJoCo splits from (0, 0) to (1, 1).
+
+        Where the mesh has them split the other way, it is turned by a right angle.
+        """
+        from gazelle.formats.convex import PROMISED
+
+        gap, turned = min(ground.gaps), ground.gaps[1] < ground.gaps[0]
+        if gap > PROMISED:
+            _warn_of_gap(shape, gap, source)
+        heights = ground.heights.T[::-1] if turned else ground.heights
+        sides = [(b - a) / 2.0 for a, b in zip(ground.low, ground.high, strict=True)]
+        middle = [(b + a) / 2.0 for a, b in zip(ground.low, ground.high, strict=True)]
+        low, range_z = float(heights.min()), max(float(np.ptp(heights)), _THIN)
+        key = (_key_of(shape), "ground")
+        if key not in self.meshes:
+            self.meshes[key] = f"ground_{len(self.meshes)}"
+            self.spec.add_hfield(
+                name=self.meshes[key],
+                nrow=heights.shape[0],
+                ncol=heights.shape[1],
+                size=[*(sides[::-1] if turned else sides), range_z, _GROUND],
+                userdata=((heights - low) / range_z).ravel(),
+            )
+        x, y = middle
+        placed = pose * Pose(x, y, low, yaw=np.pi / 2.0 if turned else 0.0)
+        kind = mujoco.mjtGeom.mjGEOM_HFIELD
+        return {"type": kind, "hfieldname": self.meshes[key], **_placed(placed)}
 
     def seen(self, shape: Geometry, pose: Pose, *, static: bool) -> dict[str, Any] | None:
         """Arguments of ``add_geom`` for what rays meet, where that is not what collides.
@@ -104,7 +156,8 @@ class ShapeBuilder:
         from gazelle.formats.surface import clean
 
         data = load_mesh(shape)
-        if decompose(data, static=static).whole:
+        ground = self._ground(shape) if static else None
+        if ground is None and decompose(data, static=static).whole:
             return None
         surface = clean(data.vertices, data.faces)
         if not len(surface.faces):
