@@ -12,6 +12,7 @@ from gazelle.description import (
     Box,
     Collision,
     Cylinder,
+    Friction,
     Inertia,
     Inertial,
     Joint,
@@ -19,6 +20,7 @@ from gazelle.description import (
     Link,
     Model,
     Pose,
+    Surface,
 )
 from gazelle.engines import make_engine
 from gazelle.engines.laws import with_profile
@@ -136,3 +138,57 @@ def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
     # The link itself is where the file has it.
     x, _, _, w = engine.link_placement("m::arm").quaternion[0]
     assert 2.0 * math.atan2(x, w) == pytest.approx(1.57, abs=1e-12)
+
+
+def skid_steer(friction, width=0.1):
+    """Four driven wheels on fixed axles, at (0.2, 0.25) m from the middle."""
+    base = Link("base", inertial=Inertial(10.0, Pose(z=0.1), Inertia(0.2, 0.3, 0.4)))
+    surface = Surface(friction)
+
+    def wheel(name, x, y):
+        shape = Collision("c", Cylinder(RADIUS, width), surface=surface)
+        pose = Pose(x, y, RADIUS, roll=-math.pi / 2.0)
+        inertial = Inertial(0.5, inertia=Inertia(0.003, 0.003, 0.005))
+        return Link(name, pose=pose, inertial=inertial, collisions=(shape,))
+
+    wheels = [wheel(f"w{i}", x, y) for i, (x, y) in enumerate(CORNERS)]
+    joints = tuple(
+        Joint(f"w{i}_joint", "continuous", "base", f"w{i}", axes=(JointAxis(),)) for i in range(4)
+    )
+    return Model("cart", links=(base, *wheels), joints=joints)
+
+
+CORNERS = ((0.2, 0.25), (-0.2, 0.25), (0.2, -0.25), (-0.2, -0.25))
+ALONG_THE_AXLE = (0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("friction", "share"),
+    [
+        (Friction(0.3, 0.3), 0.25**2 / (0.2**2 + 0.25**2)),
+        (Friction(1.0, 1.0), 0.25**2 / (0.2**2 + 0.25**2)),
+        (Friction(0.05, 1.0, fdir1=ALONG_THE_AXLE), 1.0),
+        (Friction(0.5, 100.0, fdir1=ALONG_THE_AXLE), 1.0),
+        (Friction(1e5, 1e5, fdir1=ALONG_THE_AXLE), 0.0),
+        (Friction(100.0, 100.0), 0.0),
+    ],
+)
+def test_a_skid_steer_turns_by_what_its_friction_leaves(friction, share):
+    """Alike in both directions, the wheels' slips balance at b² / (a² + b²) of what is asked."""
+    rate, seconds = 0.5, 5.0
+    engine = make_engine("mujoco", scenes.world(scenes.ground(1e5), skid_steer(friction)))
+    for i, (_, y) in enumerate(CORNERS):
+        engine.add_motor(f"cart::w{i}_joint", 100.0)
+        engine.set_motor_velocity(f"cart::w{i}_joint", -rate * y / RADIUS)
+    engine.step(500)
+    turned, before = 0.0, None
+    for _ in range(round(seconds / 0.1)):
+        engine.step(100)
+        x, y, z, w = engine.link_placement("cart::base").quaternion[0]
+        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        if before is not None:
+            turned += math.remainder(yaw - before, 2.0 * math.pi)
+        before = yaw
+    asked = rate * (seconds - 0.1)
+    assert abs(turned) == pytest.approx(share * asked, rel=0.01, abs=0.002 * asked)
+    assert abs(engine.link_placement("cart::base").position[0, 2]) < 1e-3
