@@ -19,6 +19,7 @@ from gazelle.engines.mujoco.contacts import (
     Spring,
     add_pairs,
     ask_for_cone,
+    exits_of,
     may_slide,
     tune_springs,
 )
@@ -197,6 +198,7 @@ def draft_world(recipe: Recipe) -> Draft:
         motors=motor_count(recipe.motors),
         slides=slides,
         treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
+        exits=exits_of(builder.solids, recipe.world) if slides else {},
         swings=swings(recipe.world, bodies),
     )
     return Draft(

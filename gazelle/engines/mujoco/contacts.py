@@ -21,7 +21,7 @@ from typing import Any
 
 import mujoco
 
-from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere
+from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere, World
 from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
 from gazelle.engines.mujoco.laws.extras import Rub
 from gazelle.engines.mujoco.surfaces import (
@@ -164,6 +164,12 @@ def ask_for_cone(solids: Iterable[Solid]) -> bool:
 def may_slide(solids: Iterable[Solid]) -> bool:
     """Whether something that moves rubs."""
     return any(friction_of(each.collision) and math.isfinite(each.mass) for each in solids)
+
+
+def exits_of(solids: Iterable[Solid], world: World) -> dict[str, float]:
+    """The velocities at which geoms leave what they overlap, by name [m/s]."""
+    most = world.profile.ode.contact_max_correcting_vel
+    return {each.geom: min(each.collision.surface.contact.max_vel, most) for each in solids}
 
 
 def _rubs_of(solids: Iterable[Solid]) -> dict[str, Rub]:

@@ -25,6 +25,9 @@ from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
 # Physics steps between two rises of a surface, at most.
 PIECE = 10
 
+# Margin of what touches with other pieces of a body that is let out [m]: it marks them.
+_MARK = -1e-9
+
 # Least depth that is let out slowly [m]: a contact pushes out gently what is less deep.
 _SHALLOW = 2e-4
 
@@ -59,6 +62,7 @@ class Overlaps:
         self._rates = np.zeros(model.ngeom + model.npair)
         self._start = np.zeros(model.ngeom + model.npair)
         self._margins = np.zeros((nworld, model.ngeom + model.npair))
+        self._marked = np.zeros((nworld, model.ngeom), np.bool_)
         self._roots = model.body_rootid[model.geom_bodyid]
         self._moves = model.body_weldid[model.geom_bodyid] != 0
         self._scratch = mujoco.MjData(model)  # to make one takes longer than all that it is for
@@ -125,12 +129,32 @@ class Overlaps:
         """Take up the margins of the initial state again."""
         if self.any or self._start.any():
             self._margins[slice(None) if worlds is None else worlds] = self._start
+            self._marked[slice(None) if worlds is None else worlds] = False
             self._show(batch)
 
     def rise(self, batch: Batch, seconds: float) -> None:
         """Let out what overlaps for a time [s]."""
         np.minimum(self._margins + self._rates * seconds, 0.0, out=self._margins)
+        self._mark(batch)
         self._show(batch)
+
+    def _mark(self, batch: Batch) -> None:
+        """Mark all pieces of what is let out, until nothing of it is deep in anything."""
+        ngeom = self._model.ngeom
+        rising = self._margins < _MARK
+        self._margins[~rising] = 0.0
+        waiting = np.flatnonzero(self._marked.any(axis=1) & ~rising.any(axis=1))
+        if waiting.size:
+            out = waiting[self._deepest(batch, waiting) >= -self._shallow]
+            self._marked[out] = False
+        np.minimum(self._margins[:, :ngeom], self._marked * _MARK, out=self._margins[:, :ngeom])
+
+    def _pieces(self) -> None:
+        """Take down which pieces belong to what is let out now."""
+        ngeom = self._model.ngeom
+        self._marked |= self._margins[:, :ngeom] < 0.0
+        for world, geom in np.argwhere(self._margins[:, :ngeom] < _MARK).tolist():
+            self._marked[world] |= (self._roots == self._roots[geom]) & self._moves
 
     @property
     def size(self) -> int:
@@ -145,6 +169,7 @@ class Overlaps:
 
     def take(self, batch: Batch, saved: Floats) -> None:
         """Go on as when ``saved`` gave this."""
+        self._marked[:] = False
         if saved.shape[1]:
             margins, rates = np.split(saved, 2, axis=1)
             self._margins[:], self._rates[:] = margins, rates[0]
@@ -153,6 +178,7 @@ class Overlaps:
         self._show(batch)
 
     def _show(self, batch: Batch) -> None:
+        self._pieces()
         was, self.any = self.any, bool(self._margins.any())
         if was or self.any:
             ngeom = self._model.ngeom

@@ -12,6 +12,7 @@ from gazelle.engines.mujoco.balance import unbalanced_dofs
 from gazelle.engines.mujoco.laws.numbers import (
     BIAS_HEAD,
     BY_THE_NORMAL,
+    EXIT,
     GEOM_NUMBERS,
     HEAD,
     ITS_OWN,
@@ -57,6 +58,7 @@ class Extras:
         motors: How many motors hold a velocity.
         slides: Whether something that moves rubs.
         treads: Joints of wheels by what may be their treads, a geom.
+        exits: Velocities at which geoms leave overlaps, by name [m/s].
         swings: Whether joints get their bias forces at the middle of a step.
     """
 
@@ -66,6 +68,7 @@ class Extras:
     motors: int = 0
     slides: bool = False
     treads: Mapping[str, str] = field(default_factory=dict)
+    exits: Mapping[str, float] = field(default_factory=dict)
     swings: bool = False
 
     @property
@@ -87,7 +90,7 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
     if extras.swings:
         size += BIAS_HEAD + 3 * len(spec.joints)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
-    if extras.rubs or extras.treads:
+    if extras.rubs or extras.slides:
         spec.nuser_geom = GEOM_NUMBERS
 
 
@@ -137,6 +140,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         local = rotate(conjugate(np.array([x, y, z, w])), along)
         kind = BY_THE_NORMAL if rub.along is None else ITS_OWN
         model.geom_user[geom, :TREAD] = kind, *local, rub.coefficient
+    for name, speed in extras.exits.items():
+        model.geom_user[model.geom(name).id, EXIT] = speed
     install(vital=extras.vital)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
+from gazelle.engines.mujoco.laws.exits import leave_slowly
 from gazelle.engines.mujoco.laws.layouts import offsets
 from gazelle.engines.mujoco.laws.motors import drive_motors
 from gazelle.engines.mujoco.laws.numbers import (
@@ -89,6 +90,8 @@ def _correct(model: int, data: int, contact: int, row: int) -> None:
         _direct(model, data, contact, row, head[1])
     if head[5] > 0.0:
         stand_in_the_middle(model, data, contact, row, head[1])
+    if head[6] > 0.0:
+        leave_slowly(model, data, contact, row)
     if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
         _bounce(model, data, contact, row)
     if head[6] > 0.0:
