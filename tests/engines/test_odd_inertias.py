@@ -38,7 +38,7 @@ def test_thrusters_with_next_to_no_inertia_turn():
         (1, 0, 0, 0),
         (1, 0, 1, 1),
         (0.5, -1, 2, 1),
-        (1e-6, 0, 0, 0),
+        (1e-5, 0, 0, 0),
     ],
 )
 @pytest.mark.filterwarnings("ignore::gazelle.errors.EngineWarning")
