@@ -17,9 +17,9 @@ from gazelle.engines.planar.shapes import Part
 def compile_ahead() -> None:
     """Use every kernel once, so that it is kept for all later runs on this machine."""
     disc = (Part.circle(0.0, 0.0, 0.1),)
-    for threads, count in ((1, 1), (2, 200)):
+    for threads, count, sweep in ((1, 1, False), (2, 200, False), (1, 1, True), (2, 200, True)):
         bodies = [Body(disc, (0.5 * i, 0.0, 0.0), drive=Drive()) for i in range(count)]
-        fleet = Fleet(bodies, threads=threads)
+        fleet = Fleet(bodies, threads=threads, sweep=sweep)
         for noise in (None, RangeNoise(0.01)):
             scanner = Scanner(fleet, Fan.spread(1.0, 9, 2.0), [Mount(0)], noise=noise)
             Roaming(fleet, scanner).run(1)
