@@ -276,6 +276,7 @@ def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
 
 def test_what_takes_long_is_told(monkeypatch, caplog):
     caplog.set_level("INFO", logger="gazelle.formats.convex")
+    monkeypatch.setattr(convex, "_SPENT", {"seconds": 0.0})
     convex_pieces(data(l_shape()))
     assert not caplog.records
     monkeypatch.setattr(convex, "_SPENT", {"seconds": 3.0})

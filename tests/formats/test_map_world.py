@@ -64,7 +64,7 @@ def test_the_origin_turns_the_map(tmp_path):
 def test_a_robot_sees_the_walls(tmp_path, engine):
     file = write(tmp_path)
     with gazelle.Simulation(file, engine) as sim:
-        robot = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(x=-1.0, y=0.5))
+        robot = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(x=-1.0, y=0.25))
         sim.run(0.3)
         lidar = next(s for s in robot.sensors.values() if s.description.lidar is not None)
         ranges = lidar.measure()[0]
