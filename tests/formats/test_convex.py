@@ -255,7 +255,8 @@ def test_surfaces_are_welded_and_cleaned():
     assert components(surface).max() == 0
     starts = np.array([[0.0, 0.1, 0.2], [2, 0, 0], [-2, 0.1, 0.2]])
     hits, behind = first_hits(surface, starts, np.array([[1.0, 0, 0]] * 3))
-    np.testing.assert_allclose(hits, [0.5, np.inf, 1.5], atol=1e-6)
+    # Rays start 3 um beside where they should, so that none passes along an edge.
+    np.testing.assert_allclose(hits, [0.5, np.inf, 1.5], atol=3e-6)
     assert behind.tolist() == [True, False, False]
 
 
