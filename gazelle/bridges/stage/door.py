@@ -199,7 +199,8 @@ class StageDoor:
             topics.close()
         self._clock.close()
         self._tf.close()
-        self._node.on_new_master.remove(self._make_time)
+        if self._make_time in self._node.on_new_master:  # a second call finds it gone
+            self._node.on_new_master.remove(self._make_time)
         if self._reports is not None:
             self._reports.close()
 

@@ -102,7 +102,9 @@ def test_a_new_master_learns_that_time_is_simulated(tmp_path):
         port = master.port
         process = start(master, str(write(tmp_path, TWO)))
         with Node("client", master_uri=master.uri, clock=WallClock()) as node:
-            while "/b/odom" not in node.master.system_state()[0]:
+            end = time.monotonic() + 60.0
+            while "/robot_1/odom" not in node.master.system_state()[0]:
+                assert time.monotonic() < end
                 time.sleep(0.02)
             time.sleep(0.5)
     with process.stderr, Master(port=port, rosout=False) as again:
