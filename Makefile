@@ -7,6 +7,9 @@ VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
 # One stamp for each set of extras: another set is another installation.
 STAMP := $(VENV)/.installed
+# Tests run in so many processes, a file in one.
+WORKERS ?= 2
+PYTEST := $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile
 ALL := $(STAMP)-$(EXTRAS)
 
 .PHONY: help setup demo test test-slow ros-suites lint bench clean
@@ -39,10 +42,10 @@ demo: $(STAMP)-demo
 	$(VENV)/bin/gazelle demo
 
 test: $(ALL)
-	$(VENV)/bin/python -m pytest -q -m "not slow"
+	$(PYTEST) -m "not slow"
 
 test-slow: $(ALL)
-	$(VENV)/bin/python -m pytest -q
+	GAZELLE_EXAMPLES=fresh $(PYTEST)
 
 # ROS_SOURCES names a folder with checkouts; without it, Debian's source packages are fetched.
 ros-suites: $(ALL)

@@ -42,6 +42,8 @@ def pytest_collectreport(report: pytest.CollectReport) -> None:
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """Keep what was skipped in pytest's cache."""
+    if hasattr(session.config, "workerinput"):
+        return  # one of several processes: the first hears of all
     cache = getattr(session.config, "cache", None)  # with -p no:cacheprovider there is none
     if cache is not None:
         cache.set("gazelle/skipped", _skipped)

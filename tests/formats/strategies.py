@@ -58,6 +58,7 @@ from tests.formats.value_strategies import (
     counts,
     elements,
     flags,
+    masses,
     named_elements,
     names,
     noises,
@@ -201,9 +202,7 @@ def inertials(draw):
     a, b, c = draw(vectors(st.floats(1e-6, 1e3)))
     x, y, z = draw(vectors(st.floats(-0.3, 0.3)))
     small = min(a, b, c)
-    return Inertial(
-        draw(positive), draw(poses()), Inertia(a, b, c, x * small, y * small, z * small)
-    )
+    return Inertial(draw(masses), draw(poses()), Inertia(a, b, c, x * small, y * small, z * small))
 
 
 def distinct(strategy, size=2):

@@ -9,6 +9,7 @@ from gazelle.description import Noise, Parameters, Plugin, Pose
 flags = st.booleans()
 reals = st.floats(-1e6, 1e6) | st.sampled_from([0.0, 0.1, 1 / 3, 1e-300, 1e15])
 positive = st.floats(1e-6, 1e6)
+masses = st.floats(2e-6, 1e6)  # libsdformat takes 1 mg of a URDF's link for nothing
 not_negative = st.floats(0, 1e6)
 counts = st.integers(0, 10_000)
 names = st.text("abcxyz_-. é<&\"'", min_size=1, max_size=6).filter(lambda s: s == s.strip())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -29,7 +28,7 @@ def body_inertial(body: Body) -> Inertial | None:
         if member.link.inertial is not None
         and (member.link.inertial.mass > 0.0 or member.link.inertial.inertia.matrix().any())
     ]
-    if math.fsum(inertial.mass for _, inertial in parts) <= NO_MASS:
+    if sum(inertial.mass for _, inertial in parts) <= NO_MASS:
         return None
     own = body.link.inertial
     if len(parts) == 1 and parts[0][1] is own:
