@@ -11,12 +11,16 @@ import heapq
 import itertools
 import math
 from dataclasses import dataclass, field
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.formats.mujoco_geometry import hulls_of
 from gazelle.formats.surface import Floats, Surface
 from gazelle.formats.voxels import Bools, voxels_of
+
+Numbers: TypeAlias = NDArray[np.floating[Any]]
 
 MOST_BLOCKS = 128
 
@@ -70,8 +74,8 @@ class _Block:
         hull: The outermost of the points [m], shape (m, 3).
     """
 
-    points: Floats
-    air: Floats
+    points: Numbers
+    air: Numbers
     low: Floats
     high: Floats
     hull: Floats = field(default_factory=lambda: np.zeros((0, 3)))
@@ -119,7 +123,7 @@ def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks 
     return Blocks([block.hull for block in done], grid.distance(air))
 
 
-def _enclose(block: _Block, directions: Floats, side: float) -> None:
+def _enclose(block: _Block, directions: Numbers, side: float) -> None:
     """Find a block's hull, and which of its air is in there."""
     along = directions @ block.points.T
     top = along.argmax(axis=1)
@@ -130,7 +134,7 @@ def _enclose(block: _Block, directions: Floats, side: float) -> None:
     block.air = near[_held(block.hull, near)] if len(near) <= _FEW_PLACES else near
 
 
-def _cut(block: _Block, side: float, directions: Floats) -> list[_Block]:
+def _cut(block: _Block, side: float, directions: Numbers) -> list[_Block]:
     """The two blocks of the cut that leaves the least air in their hulls; none if too small."""
     some, points, air = directions[::_FEWER], _thinned(block.points), _thinned(block.air)
     points_along, air_along = some @ points.T, some @ air.T
@@ -169,7 +173,7 @@ def _levels(block: _Block, side: float) -> list[tuple[int, float]]:
     return found
 
 
-def _held(points: Floats, air: Floats) -> Bools:
+def _held(points: Floats, air: Numbers) -> Bools:
     """Which places in the air lie in the hull of points, shape (k,)."""
     for corners, faces in hulls_of([points]) if len(air) else ():
         a, b, c = (corners[faces[:, i]] for i in range(3))
@@ -179,7 +183,7 @@ def _held(points: Floats, air: Floats) -> Bools:
     return np.zeros(len(air), bool)
 
 
-def _behind(air: Floats, normals: Floats, offsets: Floats) -> Bools:
+def _behind(air: Numbers, normals: Numbers, offsets: Numbers) -> Bools:
     """Which places lie behind all of some planes, shape (k,)."""
     held = np.ones(len(air), bool)
     for start in range(0, len(normals), _AT_ONCE):
@@ -191,7 +195,7 @@ def _behind(air: Floats, normals: Floats, offsets: Floats) -> Bools:
     return held
 
 
-def _thinned(points: Floats) -> Floats:
+def _thinned(points: Numbers) -> Numbers:
     return points[:: max(1, len(points) // _TRIED)]
 
 
