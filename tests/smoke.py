@@ -18,6 +18,8 @@ from importlib.metadata import requires
 from pathlib import Path
 
 BIN = Path(sys.executable).parent
+OTHER_NAMES = {"google": "protobuf"}
+"""Distributions whose module is called otherwise."""
 ROBOT = """<robot name="arm"><link name="base"/><link name="hand"/>
 <joint name="elbow" type="revolute"><parent link="base"/><child link="hand"/>
 <origin xyz="0 0 1"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
@@ -63,7 +65,8 @@ def _excuse(module: str, error: Exception) -> None:
         if "extra ==" in line and not re.search(r"'(test|lint|oracle|bench)'|\"(test|lint)\"", line)
     }
     missing = getattr(error, "name", None) or getattr(error.__cause__, "name", None) or ""
-    if missing.split(".")[0].lower() not in optional:
+    top = missing.split(".")[0].lower()
+    if OTHER_NAMES.get(top, top) not in optional:
         raise SystemExit(f"{module} cannot be imported after a plain installation: {error}")
 
 
