@@ -10,16 +10,13 @@ from pathlib import Path
 
 from gazelle.errors import FormatError
 from gazelle.formats import xml
+from gazelle.package_folders import IGNORED, MANIFESTS, NOT_DEEPER, package_folders
 
 MAX_DEPTH = 5
 MAX_FOLDERS = 5_000
-CRAWL_DEPTH = 12
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(rb"<name>([^<]*\S[^<]*)</name>")
-_IGNORED = "CATKIN_IGNORE"
-_NOT_DEEPER = "rospack_nosubdirs"
-_MANIFESTS = {"package.xml", "manifest.xml"}
 _SKIPPED = {"node_modules", "__pycache__", "site-packages", "build", "install", "log", "venv"}
 
 
@@ -88,43 +85,20 @@ def crawl(root: Path) -> dict[str, Path]:
     that is rospack leaves to the file system, here folders go by the alphabet.
     """
     found: dict[str, Path] = {}
-    for folder in _packages_below(root, CRAWL_DEPTH, set()):
+    for folder in package_folders(root, most=MAX_FOLDERS):
         found.setdefault(package_name(folder), folder)
     return found
 
 
-def _packages_below(folder: Path, depth: int, seen: set[str]) -> Iterator[Path]:
-    real = os.path.realpath(folder)
-    if real in seen or len(seen) >= MAX_FOLDERS:  # links may lead in circles
-        return
-    seen.add(real)
-    try:
-        with os.scandir(folder) as entries:
-            listed = sorted(entries, key=lambda entry: entry.name)
-    except OSError:
-        return
-    names = {entry.name for entry in listed}
-    if _IGNORED in names:
-        return
-    if not _MANIFESTS.isdisjoint(names):
-        yield folder
-        return
-    if depth == 0 or _NOT_DEEPER in names:
-        return
-    for entry in listed:
-        if entry.name[0] != "." and entry.is_dir():
-            yield from _packages_below(Path(entry.path), depth - 1, seen)
-
-
 def is_package(folder: Path, name: str) -> bool:
     """Whether a folder holds the package of that name, and is not to be ignored."""
-    ignored = (folder / _IGNORED).exists()
+    ignored = (folder / IGNORED).exists()
     return not ignored and (folder / "package.xml").is_file() and package_name(folder) == name
 
 
 def is_searched(folder: Path) -> bool:
     """Whether packages below a folder are looked for: it is none, and does not say no."""
-    stops = (_IGNORED, _NOT_DEEPER, *_MANIFESTS)
+    stops = (IGNORED, NOT_DEEPER, *MANIFESTS)
     return not any((folder / name).exists() for name in stops)
 
 

@@ -9,16 +9,13 @@ from __future__ import annotations
 import os
 import warnings
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
 from pathlib import Path
 
 from gazelle.errors import FormatWarning
+from gazelle.package_folders import package_folders
 from gazelle.ros.messages.errors import InvalidDefinitionError
 from gazelle.ros.messages.library import Definition, PackageDefinitions
 
-_IGNORED = "CATKIN_IGNORE"
-_NOT_DEEPER = "rospack_nosubdirs"
-_DEEPEST = 12
 _FOLDERS = (("msg", "msg"), ("srv", "srv"), ("action", "action"))
 
 _crawled: dict[str, dict[str, Path]] = {}
@@ -39,7 +36,7 @@ def find_packages(path: str | None = None) -> dict[str, Path]:
     if path not in _crawled:
         found: dict[str, Path] = {}
         for root in filter(None, path.split(os.pathsep)):
-            for folder in _package_folders(Path(root), _DEEPEST, set()):
+            for folder in package_folders(Path(root)):
                 found.setdefault(_package_name(folder), folder)
         _crawled[path] = found
     return _crawled[path]
@@ -61,29 +58,6 @@ def read_definitions(folder: Path) -> PackageDefinitions:
             except InvalidDefinitionError as err:
                 warnings.warn(str(err), FormatWarning, stacklevel=2)
     return found
-
-
-def _package_folders(folder: Path, depth: int, seen: set[str]) -> Iterator[Path]:
-    real = os.path.realpath(folder)
-    if real in seen:  # links may lead in circles
-        return
-    seen.add(real)
-    try:
-        with os.scandir(folder) as entries:
-            listed = sorted(entries, key=lambda entry: entry.name)
-    except OSError:
-        return
-    names = {entry.name for entry in listed}
-    if _IGNORED in names:
-        return
-    if "package.xml" in names or "manifest.xml" in names:
-        yield folder
-        return
-    if depth == 0 or _NOT_DEEPER in names:
-        return
-    for entry in listed:
-        if entry.name[0] != "." and entry.is_dir():
-            yield from _package_folders(Path(entry.path), depth - 1, seen)
 
 
 def _package_name(folder: Path) -> str:
