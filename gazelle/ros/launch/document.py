@@ -14,7 +14,7 @@ _DEEPEST = 200
 
 @dataclass(slots=True)
 class Element:
-    """One element of a launch file."""
+    """One element of a launch file, or of a robot's description."""
 
     tag: str
     attributes: dict[str, str]
@@ -38,6 +38,10 @@ class Element:
             yield self
         for child in self.children:
             yield from child.all(tag)
+
+    def find(self, tag: str) -> Element | None:
+        """The first child that has a tag; None if there is none."""
+        return next((child for child in self.children if child.tag == tag), None)
 
     def error(self, message: str, hint: str | None = None) -> LaunchError:
         """An error that names this element."""
@@ -65,7 +69,7 @@ def parse_document(data: bytes, name: str) -> Element:
     Raises:
         LaunchError: It is not XML, or has not exactly one ``<launch>``.
     """
-    root = _Builder(name).parse(data)
+    root = parse_element(data, name)
     found = list(root.all("launch"))
     if not found:
         raise LaunchError(
@@ -74,6 +78,15 @@ def parse_document(data: bytes, name: str) -> Element:
     if len(found) > 1:
         raise LaunchError("there is more than one <launch> element", file=name, line=found[1].line)
     return found[0]
+
+
+def parse_element(data: bytes, name: str) -> Element:
+    """The root element of XML; ``name`` stands for the file in errors.
+
+    Raises:
+        LaunchError: It is not XML.
+    """
+    return _Builder(name).parse(data)
 
 
 class _Builder:

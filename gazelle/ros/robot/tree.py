@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gazelle.description import Parameters
-from gazelle.errors import FormatError, RosError
-from gazelle.formats import xml
+from gazelle.errors import RosError
+from gazelle.ros.launch.document import Element, parse_element
+from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.tf.rotations import IDENTITY, ORIGIN, Quaternion, Vector, add, multiply, rotate
 
 _TURNING = frozenset({"revolute", "continuous"})
@@ -78,13 +78,13 @@ def read_joints(text: str) -> JointTree:
         RosError: It is not XML, not a robot, or a joint is malformed.
     """
     try:
-        root = xml.parse(text, name="robot_description")
-    except FormatError as error:
+        root = parse_element(text.encode(), "robot_description")
+    except LaunchError as error:
         raise RosError(f"the robot description is not XML: {error}") from None
     if root.tag != "robot":
         raise RosError(f"the robot description is a <{root.tag}>, not a <robot>")
     joints: JointTree = {}
-    for element in root.find_all("joint"):
+    for element in (child for child in root.children if child.tag == "joint"):
         joint = _joint(element)
         if joint.name in joints:
             raise RosError(f"two joints are called '{joint.name}'", line=_line(element))
@@ -93,7 +93,7 @@ def read_joints(text: str) -> JointTree:
     return joints
 
 
-def _joint(element: Parameters) -> Joint:
+def _joint(element: Element) -> Joint:
     name, kind = element.attributes.get("name", ""), element.attributes.get("type", "")
     parent, child = element.find("parent"), element.find("child")
     if not name or kind not in _KINDS or parent is None or child is None:
@@ -122,7 +122,7 @@ def _joint(element: Parameters) -> Joint:
     )
 
 
-def _mimic(element: Parameters | None) -> Mimic | None:
+def _mimic(element: Element | None) -> Mimic | None:
     if element is None:
         return None
     return Mimic(
@@ -145,11 +145,11 @@ def _check_mimics(joints: JointTree) -> None:
             seen.add(each.name)
 
 
-def _line(element: Parameters | None) -> int | None:
-    return None if element is None or element.source is None else element.source.line
+def _line(element: Element | None) -> int | None:
+    return None if element is None else element.line
 
 
-def _number(element: Parameters | None, key: str, default: float) -> float:
+def _number(element: Element | None, key: str, default: float) -> float:
     text = None if element is None else element.attributes.get(key)
     if text is None:
         return default
@@ -159,7 +159,7 @@ def _number(element: Parameters | None, key: str, default: float) -> float:
         raise RosError(f"{key} is '{text}', not a number", line=_line(element)) from None
 
 
-def _three(element: Parameters, key: str, default: Vector) -> Vector:
+def _three(element: Element, key: str, default: Vector) -> Vector:
     text = element.attributes.get(key)
     if text is None:
         return default

@@ -1,6 +1,8 @@
 """From joints to transforms."""
 
 import math
+import subprocess
+import sys
 import time
 
 import pytest
@@ -133,3 +135,9 @@ def test_joints_nobody_measures_are_zero(make_node):
 def test_launch_files_find_both_nodes():
     assert callable(main_of("robot_state_publisher", "robot_state_publisher"))
     assert callable(main_of("joint_state_publisher", "joint_state_publisher"))
+
+
+def test_a_publisher_of_states_starts_without_arrays():
+    """It reads a description by itself: the readers of files take a third of a second to import."""
+    code = "import gazelle.ros.builtin.robot, sys; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
