@@ -82,13 +82,14 @@ class ServiceConnection:
         """Close the connection. Only for the leader."""
         if self._closed:
             return
-        self._closed = True
+        attended = self._attendant.active
+        if not attended:
+            self._loop.watch(self._sock, 0, self._ready)
+        self._closed = True  # from here on a worker may close the socket: it is watched no more
         self._on_close(self)
-        if self._attendant.active:
+        if attended:
             self._attendant.abandon(self._sock)
-            return
-        self._loop.watch(self._sock, 0, self._ready)
-        if not self._working:
+        elif not self._working:
             self._sock.close()
         else:  # the worker closes it; end its waiting
             with contextlib.suppress(OSError):
