@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, UInts64
 from gazelle.errors import SimulationError
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
@@ -24,9 +25,6 @@ _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)
 _BY_30, _BY_27, _BY_31, _BY_11 = (np.uint64(bits) for bits in (30, 27, 31, 11))
 _TWO_TO_MINUS_53 = 2.0**-53
-
-Uint64 = NDArray[np.uint64]
-Float64 = NDArray[np.float64]
 
 
 class Stream:
@@ -44,12 +42,12 @@ class Stream:
         self._counters = np.zeros(nworld, dtype=np.uint64)
 
     @property
-    def keys(self) -> Uint64:
+    def keys(self) -> UInts64:
         """What makes each world's numbers its own, shape (nworld,); writable, for restoring."""
         return self._keys
 
     @property
-    def counters(self) -> Uint64:
+    def counters(self) -> UInts64:
         """How many numbers each world has drawn, shape (nworld,); writable, for restoring."""
         return self._counters
 
@@ -63,7 +61,7 @@ class Stream:
         self._keys[chosen] = _keys_of(seed, self._name, len(self._keys))[chosen]
         self._counters[chosen] = 0
 
-    def uniform(self, size: int, worlds: NDArray[np.intp] | None = None) -> Float64:
+    def uniform(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
         """Uniform numbers in [0, 1), shape (n, size), n the number of worlds asked for."""
         chosen = slice(None) if worlds is None else worlds
         start = self._counters[chosen]
@@ -76,7 +74,7 @@ class Stream:
         drawn *= _TWO_TO_MINUS_53
         return drawn
 
-    def normal(self, size: int, worlds: NDArray[np.intp] | None = None) -> Float64:
+    def normal(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
         """Standard normal numbers, shape (n, size), by Box and Muller's transform (1958)."""
         pairs = (size + 1) // 2
         uniform = self.uniform(2 * pairs, worlds)
@@ -107,21 +105,21 @@ def seed_of(seed: Any) -> int:
         ) from None
 
 
-def _keys_of(seed: int, name: str, nworld: int) -> Uint64:
+def _keys_of(seed: int, name: str, nworld: int) -> UInts64:
     digest = hashlib.blake2b(f"{seed_of(seed)}:{name}".encode(), digest_size=8).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
     return _mix(_mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest)))
 
 
 @functools.lru_cache(maxsize=16)
-def _ladder(size: int) -> Uint64:
+def _ladder(size: int) -> UInts64:
     """The first multiples of the golden constant, modulo 2^64; read-only."""
     steps = np.arange(1, size + 1, dtype=np.uint64) * _GOLDEN
     steps.flags.writeable = False
     return steps
 
 
-def _mix(z: Uint64) -> Uint64:
+def _mix(z: UInts64) -> UInts64:
     """SplitMix64's output function, in place."""
     z ^= z >> _BY_30
     z *= _MIX_1

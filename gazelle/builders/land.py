@@ -12,16 +12,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.paint import Paint
 from gazelle.builders.placing import Zone
 from gazelle.builders.solids import ORIGIN, Part, assemble
 from gazelle.description import Box, Model, Pose
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
 
 _OVERLAP = 1.01  # slabs reach a little over their cells, so that no gap shows
 _MOST_CELLS = 10_000

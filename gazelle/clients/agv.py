@@ -13,16 +13,15 @@ from types import TracebackType
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
 from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
 from gazelle.ros import Node, load_message
-
-Floats = NDArray[np.float64]
 
 _PATIENCE_S = 30.0  # of wall time without a new pose
 _MOST_NAMES = 5  # in one message

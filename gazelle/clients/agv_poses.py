@@ -10,14 +10,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.errors import RosError
-
-Floats = NDArray[np.float64]
 
 _SECOND = 1_000_000_000
 

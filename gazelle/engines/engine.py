@@ -14,12 +14,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

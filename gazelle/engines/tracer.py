@@ -13,9 +13,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Pose, Visual, World
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,14 +10,11 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import with_idle
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 
-Bool = NDArray[np.bool_]
-Float32 = NDArray[np.float32]
-Float64 = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 Info = dict[str, NDArray[Any]]
 
 SCENARIO = "scenario"
@@ -36,10 +33,10 @@ class Transition:
         info: More arrays, shape (nworld, ...).
     """
 
-    observation: Float32
-    reward: Float64
-    terminated: Bool
-    truncated: Bool
+    observation: Floats32
+    reward: Floats
+    terminated: Bools
+    truncated: Bools
     info: Info
 
 
@@ -54,7 +51,7 @@ class Finals:
     """
 
     worlds: Worlds
-    observation: Float32
+    observation: Floats32
     info: Info
 
 
@@ -76,9 +73,9 @@ class Step:
 class Verdict:
     """A transition before the step limit is applied; see `Transition`."""
 
-    observation: Float32
-    reward: Float64
-    terminated: Bool
+    observation: Floats32
+    reward: Floats
+    terminated: Bools
     info: Info
 
 
@@ -136,7 +133,7 @@ class BatchedTask(ABC):
         """Start all random numbers over, as in a task just made with this seed."""
         self._seed(seed)
 
-    def begin(self, worlds: Worlds) -> tuple[Float32, Info]:
+    def begin(self, worlds: Worlds) -> tuple[Floats32, Info]:
         """Start new episodes.
 
         Args:
@@ -155,7 +152,7 @@ class BatchedTask(ABC):
             info[SCENARIO] = scenario
         return observation, info
 
-    def scenario(self, worlds: Worlds) -> Float64 | None:
+    def scenario(self, worlds: Worlds) -> Floats | None:
         """What sets the episodes apart that begin in these worlds now, shape (n, size).
 
         All that was drawn for them: where the robot starts, its goal, how obstacles stand. Two
@@ -286,7 +283,7 @@ class BatchedTask(ABC):
         """Put these worlds into the starting state of a new episode."""
 
     @abstractmethod
-    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         """Observation, shape (n, size), and info of these worlds at their start."""
 
     @abstractmethod

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Bools, Floats
 from gazelle.engines.planar import PlanarEngine
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import turned
@@ -15,9 +16,6 @@ from gazelle.errors import TaskError
 from gazelle.navigation.grid import dilate
 from gazelle.plugins.scripted_motion import ScriptedMotion
 from gazelle.simulation import Robot
-
-Bool = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 
 PASSAGE = 0.2
 """A robot can pass where its middle is farther than this from everything [m]."""
@@ -138,7 +136,7 @@ def _outline(plan: FloorPlan, step: float) -> Floats:
     return np.vstack((lines, plan.discs[which, :2] + rim))
 
 
-def _flooded(passable: Bool, first: NDArray[np.intp]) -> Bool:
+def _flooded(passable: Bools, first: NDArray[np.intp]) -> Bools:
     """The cells that hang together with the first, side by side."""
     reached = np.zeros(passable.size, np.bool_)
     rows = passable.shape[1]

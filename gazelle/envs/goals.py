@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Bools, Floats, Indices
 from gazelle.errors import TaskError
-
-Float64 = NDArray[np.float64]
-Index = NDArray[np.intp]
-Bool = NDArray[np.bool_]
 
 
 class GoalTable:
@@ -39,8 +35,8 @@ class GoalTable:
 
     def __init__(
         self,
-        points: Sequence[tuple[float, float]] | Float64,
-        follows: Bool | None = None,
+        points: Sequence[tuple[float, float]] | Floats,
+        follows: Bools | None = None,
         *,
         start: int = 0,
     ) -> None:
@@ -53,7 +49,7 @@ class GoalTable:
         self.counts = allowed.sum(axis=1)
         self.successors = np.argsort(~allowed, axis=1, kind="stable")
 
-    def first(self, uniform: Float64) -> Index:
+    def first(self, uniform: Floats) -> Indices:
         """Any place.
 
         Args:
@@ -64,7 +60,7 @@ class GoalTable:
         """
         return (uniform * len(self.points)).astype(np.intp)
 
-    def after(self, last: Index, uniform: Float64) -> Index:
+    def after(self, last: Indices, uniform: Floats) -> Indices:
         """Any place that may follow the last one.
 
         Args:
@@ -75,11 +71,11 @@ class GoalTable:
             Indices into ``points``, shape (n,).
         """
         choice = (uniform * self.counts[last]).astype(np.intp)
-        following: Index = self.successors[last, choice]
+        following: Indices = self.successors[last, choice]
         return following
 
 
-def _checked(points: Sequence[tuple[float, float]] | Float64) -> Float64:
+def _checked(points: Sequence[tuple[float, float]] | Floats) -> Floats:
     """The points as an array of their own, or an error that says what is wrong."""
     try:
         array = np.array(points, dtype=np.float64)

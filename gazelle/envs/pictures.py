@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Picture
 from gazelle.sensors import View
 from gazelle.sensors.rendering import directions_of_view
-
-Float64 = NDArray[np.float64]
-Picture = NDArray[np.uint8]
 
 GOAL_COLOUR = (220, 30, 30)
 _THICK = 0.005  # what is nearer to the ground than this does not hide a mark on it [m]
 
 
 def mark_square(
-    picture: Picture, view: View, ranges: Float64, centre: tuple[float, float], side: float
+    picture: Picture, view: View, ranges: Floats, centre: tuple[float, float], side: float
 ) -> Picture:
     """Tint a square on the ground, half transparent, where nothing stands before or on it.
 
@@ -40,7 +37,7 @@ def mark_square(
     return marked
 
 
-def ground_points(view: View) -> tuple[Float64, Float64]:
+def ground_points(view: View) -> tuple[Floats, Floats]:
     """Where the ray through each pixel's middle meets the ground z = 0.
 
     Returns:
@@ -50,5 +47,5 @@ def ground_points(view: View) -> tuple[Float64, Float64]:
     rays = directions_of_view(view, samples=1).reshape(view.height, view.width, 3)
     eye = np.asarray(view.pose.position)
     drop = np.where(rays[..., 2] < 0.0, rays[..., 2], np.nan)
-    away: Float64 = -eye[2] / drop
+    away: Floats = -eye[2] / drop
     return eye[:2] + away[..., None] * rays[..., :2], away

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Float64 = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 
-def distance_to(position: Float64, goal: Float64) -> Float64:
+def distance_to(position: Floats, goal: Floats) -> Floats:
     """Straight distance from robot to goal.
 
     Args:
@@ -18,11 +17,11 @@ def distance_to(position: Float64, goal: Float64) -> Float64:
     Returns:
         Distances [m], shape (n,).
     """
-    distance: Float64 = np.hypot(goal[:, 0] - position[:, 0], goal[:, 1] - position[:, 1])
+    distance: Floats = np.hypot(goal[:, 0] - position[:, 0], goal[:, 1] - position[:, 1])
     return distance
 
 
-def heading_to(position: Float64, yaw: Float64, goal: Float64) -> Float64:
+def heading_to(position: Floats, yaw: Floats, goal: Floats) -> Floats:
     """Angle from a robot's forward axis to its goal, counter-clockwise positive.
 
     Args:
@@ -36,5 +35,5 @@ def heading_to(position: Float64, yaw: Float64, goal: Float64) -> Float64:
     bearing = np.arctan2(goal[:, 1] - position[:, 1], goal[:, 0] - position[:, 0])
     angle = bearing - yaw
     angle = np.where(angle > np.pi, angle - 2.0 * np.pi, angle)
-    heading: Float64 = np.where(angle < -np.pi, angle + 2.0 * np.pi, angle)
+    heading: Floats = np.where(angle < -np.pi, angle + 2.0 * np.pi, angle)
     return heading

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Float64 = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 
-def clean_ranges(ranges: Float64, *, nearest: float, farthest: float) -> Float64:
+def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats:
     """Replace what is not a number by one.
 
     Args:
@@ -25,7 +25,7 @@ def clean_ranges(ranges: Float64, *, nearest: float, farthest: float) -> Float64
     return np.clip(cleaned, 0.0, farthest, out=cleaned)
 
 
-def nearest_obstacle(ranges: Float64) -> tuple[Float64, NDArray[np.intp]]:
+def nearest_obstacle(ranges: Floats) -> tuple[Floats, NDArray[np.intp]]:
     """The shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
     ray = ranges.argmin(axis=1)
     return ranges[np.arange(len(ranges)), ray], ray

@@ -8,7 +8,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.envs.batched_task import BatchedTask, Float32, Info
+from gazelle.array_types import Floats32
+from gazelle.envs.batched_task import BatchedTask, Info
 from gazelle.envs.errors import check_open
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.envs.vector_env import TaskVectorEnv
@@ -44,7 +45,7 @@ class TaskEnv(gym.Env[Any, Any]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Float32, dict[str, Any]]:
+    ) -> tuple[Floats32, dict[str, Any]]:
         """Start a new episode.
 
         Args:
@@ -64,7 +65,7 @@ class TaskEnv(gym.Env[Any, Any]):
             super().reset(seed=self._vector.np_random_seed)
         return observation[0], _of_world_0(info)
 
-    def step(self, action: Any) -> tuple[Float32, float, bool, bool, dict[str, Any]]:
+    def step(self, action: Any) -> tuple[Floats32, float, bool, bool, dict[str, Any]]:
         """Make one control step.
 
         Raises:

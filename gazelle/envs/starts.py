@@ -6,15 +6,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.errors import TaskError
 from gazelle.plugins.scripted_motion import ScriptedMotion
 from gazelle.simulation import Robot
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 APART = 0.5
 """A robot starts farther than this from its goal [m]."""

@@ -11,24 +11,16 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import autoreset_mode as mode_of
-from gazelle.envs.batched_task import (
-    BatchedTask,
-    Bool,
-    Finals,
-    Float32,
-    Float64,
-    Info,
-    Step,
-    Worlds,
-)
+from gazelle.envs.batched_task import BatchedTask, Finals, Info, Step
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
 
-class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
+class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
     """A batched task as a Gymnasium vector environment.
 
     What happens where an episode ends is said by ``autoreset_mode``, as Gymnasium defines it:
@@ -89,7 +81,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Float32, dict[str, Any]]:
+    ) -> tuple[Floats32, dict[str, Any]]:
         """Start new episodes.
 
         Args:
@@ -118,7 +110,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Float32, Any, NDArray[Any]]):
         self._observation[worlds] = observation
         return self._observation.copy(), self._spread(info, worlds)
 
-    def step(self, actions: ArrayLike) -> tuple[Float32, Float64, Bool, Bool, dict[str, Any]]:
+    def step(self, actions: ArrayLike) -> tuple[Floats32, Floats, Bools, Bools, dict[str, Any]]:
         """Make one control step in every world, and start over where an episode ended.
 
         Args:

@@ -16,9 +16,10 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Bools, Floats
 from gazelle.formats.mujoco_geometry import hulls_of
-from gazelle.formats.surface import Floats, Surface
-from gazelle.formats.voxels import Bools, voxels_of
+from gazelle.formats.surface import Surface
+from gazelle.formats.voxels import voxels_of
 
 Numbers: TypeAlias = NDArray[np.floating[Any]]
 

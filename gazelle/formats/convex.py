@@ -16,12 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.formats import piece_cache
 from gazelle.formats.blocks import Blocks, blocks_of
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import hulls_of
 from gazelle.formats.patches import Solid, joined_flat, thick_patches
-from gazelle.formats.surface import Floats, Surface, clean, components, twins_of
+from gazelle.formats.surface import Surface, clean, components, twins_of
 
 CACHED = 256
 PROMISED = 0.01

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.array_types import Floats, Indices
 from gazelle.formats.hull import planar_hull
-from gazelle.formats.surface import Floats, Indices, Surface, twins_of
+from gazelle.formats.surface import Surface, twins_of
 
 _COSINE = 0.8
 """Of the angle that two polygons that are joined may make."""

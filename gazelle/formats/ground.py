@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import Floats, Surface, clean
+from gazelle.formats.surface import Surface, clean
 
 FEWEST = 4000
 """Triangles from which on a mesh is asked whether it is ground; fewer collide as they are."""

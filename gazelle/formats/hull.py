@@ -12,10 +12,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Points = NDArray[np.float64]
-Indices = NDArray[np.intp]
+from gazelle.array_types import Floats, Indices
 
 _ATTEMPTS = 4
 _MAX_PAIRS = 20_000_000
@@ -33,20 +31,20 @@ class Hull:
     """
 
     faces: Indices
-    normals: Points
-    offsets: Points
+    normals: Floats
+    offsets: Floats
 
-    def depth(self, points: Points) -> Points:
+    def depth(self, points: Floats) -> Floats:
         """How deep points inside lie below the surface, shape (n,); negative outside."""
         gaps = self.offsets[:, None] - self.normals @ points.T
-        depth: Points = gaps.min(axis=0)
+        depth: Floats = gaps.min(axis=0)
         return depth
 
 
 @dataclass(slots=True)
 class _Face:
     corners: tuple[int, int, int]
-    normal: Points
+    normal: Floats
     offset: float
     outside: Indices
 
@@ -55,7 +53,7 @@ class _SpoiledError(Exception):
     """The hull is none by rounding: a face has no area, or the faces around a hole no ring."""
 
 
-def convex_hull(points: Points, tolerance: float) -> Hull | None:
+def convex_hull(points: Floats, tolerance: float) -> Hull | None:
     """The hull of points, shape (n, 3); None if they lie in a plane.
 
     Points that stand out of it by less than the tolerance may be left out. Where rounding
@@ -71,13 +69,13 @@ def convex_hull(points: Points, tolerance: float) -> Hull | None:
     return None
 
 
-def _holds(hull: Hull, points: Points, tolerance: float) -> bool:
+def _holds(hull: Hull, points: Floats, tolerance: float) -> bool:
     rows = max(1, _MAX_PAIRS // len(hull.offsets))
     parts = (points[start : start + rows] for start in range(0, len(points), rows))
     return all(float(hull.depth(part).min()) >= -tolerance for part in parts)
 
 
-def _hull(points: Points, tolerance: float) -> Hull | None:
+def _hull(points: Floats, tolerance: float) -> Hull | None:
     first = _tetrahedron(points, tolerance)
     if first is None:
         return None
@@ -92,7 +90,7 @@ def _hull(points: Points, tolerance: float) -> Hull | None:
     )
 
 
-def _tetrahedron(points: Points, tolerance: float) -> tuple[int, int, int, int] | None:
+def _tetrahedron(points: Floats, tolerance: float) -> tuple[int, int, int, int] | None:
     """Four points far from each other, positively oriented."""
     if len(points) < 4:
         return None
@@ -118,7 +116,7 @@ def _tetrahedron(points: Points, tolerance: float) -> tuple[int, int, int, int] 
 class _Builder:
     """Faces by number, and the face to the left of each directed edge."""
 
-    def __init__(self, points: Points, tolerance: float) -> None:
+    def __init__(self, points: Floats, tolerance: float) -> None:
         self.faces: dict[int, _Face] = {}
         self._points = points
         self._tolerance = tolerance
@@ -181,7 +179,7 @@ class _Builder:
             free = self._add((tail, head, top), free)
 
 
-def _unit_normal(a: list[float], b: list[float], c: list[float]) -> Points:
+def _unit_normal(a: list[float], b: list[float], c: list[float]) -> Floats:
     """Across a triangle; in plain numbers, which for three are ten times as fast as NumPy.
 
     Raises:
@@ -196,7 +194,7 @@ def _unit_normal(a: list[float], b: list[float], c: list[float]) -> Points:
     return np.array((x / size, y / size, z / size))
 
 
-def planar_hull(points: Points) -> Indices:
+def planar_hull(points: Floats) -> Indices:
     """The corners of the hull of points in the plane, shape (n, 2), counter-clockwise."""
     order = np.lexsort((points[:, 1], points[:, 0]))
     rows = [(float(points[i, 0]), float(points[i, 1]), int(i)) for i in order]
@@ -219,7 +217,7 @@ def _turn(
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def planar_area(points: Points) -> float:
+def planar_area(points: Floats) -> float:
     """Area of a polygon, shape (n, 2), positive if counter-clockwise (shoelace formula)."""
     x, y = points[:, 0], points[:, 1]
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0

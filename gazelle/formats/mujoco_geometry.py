@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Indices
 from gazelle.formats.hull import convex_hull
-from gazelle.formats.surface import Floats, Indices, Surface
+from gazelle.formats.surface import Surface
 
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""

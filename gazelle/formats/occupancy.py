@@ -18,11 +18,12 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Bytes
 from gazelle.description import Pose, Source
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import FormatError, ResolveError, did_you_mean
 from gazelle.formats import blanks, xml
-from gazelle.formats.picture import Bytes, read_picture
+from gazelle.formats.picture import read_picture
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 

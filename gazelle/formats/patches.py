@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.formats.flat import Polygon, Polygons
 from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import Floats, Surface
+from gazelle.formats.surface import Surface
 
 FINE = 5e-3
 """How far solids may be off a surface before there are as many as it takes [m]."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Bytes
 from gazelle.errors import FormatError
 
 if TYPE_CHECKING:
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 
 MAX_PIXELS = 2**27
 
-Bytes = NDArray[np.uint8]
 
 _WITH_ALPHA = {"LA", "La", "PA", "RGBa"}
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.formats.hull import planar_area, planar_hull
-from gazelle.formats.surface import Floats
 
 Outline = Sequence[tuple[float, float]]
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import (
     Box,
     Capsule,
@@ -32,8 +33,6 @@ from gazelle.description import (
 from gazelle.formats.mesh import load_mesh
 from gazelle.formats.patches import prism
 from gazelle.formats.polygon import convex_polygons
-
-Floats = NDArray[np.float64]
 
 WATER = 1000.0
 """The density that SDF takes where a file gives none [kg/m³]."""

@@ -17,11 +17,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.description import Collision, Inertia, Inertial, Parameters
 from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
-from gazelle.formats.solids import WATER, Floats, joined, solid_of
+from gazelle.formats.solids import WATER, joined, solid_of
 
 _WRONG = "the inertia is not positive definite"
 _HINT = "the diagonal must be positive and outweigh the products of inertia"

@@ -8,9 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.intp]
-
+from gazelle.array_types import Floats, Indices
 
 _BITS = 21
 """Of a coordinate that places are told apart by: a two-millionth of the size."""

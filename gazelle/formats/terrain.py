@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Bytes, Floats
 from gazelle.description import Heightmap, Image, Source
 from gazelle.errors import FormatError
-from gazelle.formats.picture import Bytes, read_picture
-
-Floats = NDArray[np.float64]
+from gazelle.formats.picture import read_picture
 
 
 def load_heights(shape: Heightmap) -> Floats:

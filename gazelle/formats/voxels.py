@@ -6,17 +6,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.formats.surface import Floats, Indices, Surface
+from gazelle.array_types import Bools, Floats, Indices
+from gazelle.formats.surface import Surface
 
 _MOST_CELLS = 4_000_000
 _RATIO = 1.2
 """Between the numbers of steps along edges that are told apart."""
 _SWEEPS = 12
 """Times that the air flows along all axes, at most."""
-
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)

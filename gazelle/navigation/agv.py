@@ -13,11 +13,9 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Indices
 from gazelle.errors import ControlError
 from gazelle.navigation.pid import Pid
-
-Floats = NDArray[np.float64]
-Rows = NDArray[np.intp]
 
 _STANDS = 0.25  # of a tolerance, between two updates
 
@@ -202,7 +200,7 @@ class Motions:
         return still
 
     def _turn(
-        self, rows: Rows, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
+        self, rows: Indices, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
     ) -> None:
         heading = pose[rows, 2]
         relative = self._relative[rows]
@@ -220,7 +218,7 @@ class Motions:
         command[rows[left], 1] = self._pid.update(error[left], dt, rows[left])
 
     def _go(
-        self, rows: Rows, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
+        self, rows: Indices, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
     ) -> None:
         limits = self.limits
         way = self._goal[rows] - pose[rows, :2]
@@ -242,10 +240,10 @@ class Motions:
         command[rows, 0] = np.where(there, 0.0, speed)
         command[rows, 1] = np.where(there | (small & (distance < 0.25) & aligned), 0.0, turning)
 
-    def _finish(self, rows: Rows) -> None:
+    def _finish(self, rows: Indices) -> None:
         self.outcome[rows] = Outcome.REACHED
 
-    def _begin(self, robots: ArrayLike | None, timeout: float, *values: ArrayLike) -> Rows:
+    def _begin(self, robots: ArrayLike | None, timeout: float, *values: ArrayLike) -> Indices:
         rows = self._rows(robots)
         for value in values:
             if not np.isfinite(np.asarray(value, np.float64)).all():
@@ -257,7 +255,7 @@ class Motions:
         self._pid.reset(rows)
         return rows
 
-    def _rows(self, robots: ArrayLike | None) -> Rows:
+    def _rows(self, robots: ArrayLike | None) -> Indices:
         if robots is None:
             return np.arange(self.count)
         rows = np.atleast_1d(np.asarray(robots, np.intp))

@@ -6,11 +6,9 @@ import math
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.navigation.limits import BaseLimits
-
-Floats = NDArray[np.float64]
 
 _LINEAR_CHOICES = 7
 _ANGULAR_CHOICES = 13

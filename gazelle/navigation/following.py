@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.navigation.limits import BaseLimits
 
-Floats = NDArray[np.float64]
 Pose2 = tuple[float, float, float]
 
 _AHEAD = 0.4  # how far along the path the base aims [m]

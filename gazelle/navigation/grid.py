@@ -5,13 +5,10 @@ from __future__ import annotations
 import functools
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Bools, Floats, Indices
 from gazelle.errors import SimulationError
-
-Floats = NDArray[np.float64]
-Cells = NDArray[np.intp]
-Mask = NDArray[np.bool_]
 
 # What one scan adds to a cell's log-odds, and how sure a cell may become: two hits make an
 # obstacle that some six misses take away again, so that a door that opens is seen.
@@ -49,11 +46,11 @@ class OccupancyGrid:
         self.cells: Floats = np.zeros((0, 0))
 
     @property
-    def occupied(self) -> Mask:
+    def occupied(self) -> Bools:
         """Cells that hold an obstacle."""
         return self.cells > _OBSTACLE
 
-    def cell_of(self, points: ArrayLike) -> Cells:
+    def cell_of(self, points: ArrayLike) -> Indices:
         """Indices of the cells that points are in, shape (..., 2); they may lie outside."""
         scaled = (np.asarray(points, np.float64) - self.origin) / self.resolution
         return np.floor(scaled).astype(np.intp)
@@ -78,7 +75,7 @@ class OccupancyGrid:
         self.cells = np.pad(self.cells, np.stack((before, after), axis=1))
         self.origin = self.origin - before * self.resolution
 
-    def insert(self, place: ArrayLike, ends: Floats, seen: Mask) -> None:
+    def insert(self, place: ArrayLike, ends: Floats, seen: Bools) -> None:
         """Learn from one scan: cells on the way of rays are free, those at their ends are not.
 
         Args:
@@ -102,11 +99,11 @@ class OccupancyGrid:
         self.cells += np.where(hit, _HIT, np.where(passed, _MISS, 0.0))
         np.clip(self.cells, _LEAST, _MOST, out=self.cells)
 
-    def near_obstacles(self, distance: float) -> Mask:
+    def near_obstacles(self, distance: float) -> Bools:
         """Cells within a distance [m] of an obstacle."""
         return dilate(self.occupied, distance / self.resolution)
 
-    def is_near(self, points: ArrayLike, distance: float) -> Mask:
+    def is_near(self, points: ArrayLike, distance: float) -> Bools:
         """Whether points, shape (n, 2), lie within a distance [m] of an obstacle; shape (n,).
 
         The same as ``near_obstacles`` at these points, at a price that depends on them alone.
@@ -115,19 +112,19 @@ class OccupancyGrid:
         limit = np.array(self.cells.shape)
         inside = ((around >= 0) & (around < limit)).all(axis=2)
         found = self.cells[tuple(np.clip(around, 0, limit - 1).transpose(2, 0, 1))] > _OBSTACLE
-        near: Mask = (found & inside).any(axis=1)
+        near: Bools = (found & inside).any(axis=1)
         return near
 
 
 @functools.lru_cache(maxsize=8)
-def _disc(radius: float) -> Cells:
+def _disc(radius: float) -> Indices:
     """Offsets of the cells within a radius [cells], shape (n, 2)."""
     reach = np.arange(-int(radius), int(radius) + 1)
     across, along = np.meshgrid(reach, reach, indexing="ij")
     return np.argwhere(across**2 + along**2 <= radius * radius) - int(radius)
 
 
-def dilate(mask: Mask, radius: float) -> Mask:
+def dilate(mask: Bools, radius: float) -> Bools:
     """A mask grown by a disc.
 
     Args:
@@ -144,7 +141,7 @@ def dilate(mask: Mask, radius: float) -> Mask:
     return grown[reach : reach + columns]
 
 
-def _widened(mask: Mask, half: int) -> Mask:
+def _widened(mask: Bools, half: int) -> Bools:
     """A mask grown by so many cells along its rows, to both sides."""
     rows = mask.shape[1]
     sums = np.zeros((mask.shape[0], rows + 1), np.intp)

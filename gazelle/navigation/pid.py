@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats
 from gazelle.errors import ControlError
 
-Floats = NDArray[np.float64]
 Rows = NDArray[np.intp] | slice
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Bools, Floats
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.search import Cell, find_way
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Prices of a cell: near an obstacle a way of twice or four times the length is preferred.
 _NEAR = ((0.1, 4.0), (0.25, 2.0))
@@ -70,12 +67,12 @@ def _prices(grid: OccupancyGrid, start: Floats, room: float) -> Floats:
     return prices
 
 
-def _around(grid: OccupancyGrid, place: Floats, distance: float) -> Mask:
+def _around(grid: OccupancyGrid, place: Floats, distance: float) -> Bools:
     """Cells within a distance of a place."""
     columns, rows = grid.cells.shape
     x = grid.origin[0] + (np.arange(columns) + 0.5) * grid.resolution - place[0]
     y = grid.origin[1] + (np.arange(rows) + 0.5) * grid.resolution - place[1]
-    near: Mask = np.hypot(x[:, None], y) <= distance
+    near: Bools = np.hypot(x[:, None], y) <= distance
     return near
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.navigation.following import Pose2
@@ -28,8 +29,6 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-
-Worlds = NDArray[np.intp]
 
 _SHOW_EVERY = 1.0  # between two paths while it goes [s]
 

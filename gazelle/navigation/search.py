@@ -6,9 +6,9 @@ import heapq
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gazelle.array_types import Floats
+
 Cell = tuple[int, int]
 
 _DIAGONAL = math.sqrt(2.0)

@@ -9,14 +9,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.navigation.avoidance import safe_velocity
 from gazelle.navigation.following import Pose2, turn_to, wanted_velocity, wrapped
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.planning import is_blocked, plan
 from gazelle.sensors import LaserScan
-
-Floats = NDArray[np.float64]
 
 _HORIZON = 6.0  # what is farther away is not put on the map [m]
 _PLAN_EVERY = 0.5  # least time between two plans [s]

@@ -8,14 +8,12 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.rotations import from_yaw, multiply
 from gazelle.simulation import ModelPlugin, Robot
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Gazebo's plugin: speed [m/s], when a target is reached, how far it stays away from models,
 # how near they push it [m], from which angle on it turns in place [rad], and how fast it does

@@ -7,12 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.simulation import ModelPlugin, Robot
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class BatteryConsumer(ModelPlugin):

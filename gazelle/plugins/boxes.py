@@ -12,15 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
 from gazelle.engines import Placement
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.rotations import conjugate, rotate
 from gazelle.simulation import Input, Output, Simulation, WorldPlugin, absolute
 from gazelle.simulation.values import Flags
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class Contain(WorldPlugin):

@@ -7,12 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.rotations import from_yaw
 from gazelle.simulation import Odometry
 from gazelle.simulation.values import NO_VARIANCE, SixNumbers
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class DeadReckoning:

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
@@ -28,9 +29,6 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # The ramp acts only while both wheels are farther than this from their target [m/s].
 _RAMP_DEADBAND = 0.01

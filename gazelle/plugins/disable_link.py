@@ -5,13 +5,8 @@ ODE leaves a disabled body where it is until something touches it or pulls at it
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gazelle.description import Parameters
 from gazelle.simulation import ModelPlugin, Robot
-
-Worlds = NDArray[np.intp]
 
 
 class DisableLink(ModelPlugin):

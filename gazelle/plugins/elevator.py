@@ -7,13 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
 from gazelle.states import restore_all, states_of
-
-Worlds = NDArray[np.intp]
 
 _LIFT = Gains(100000.0, 0.0, 100000.0)
 _DOOR = Gains(2.0, 0.0, 1.0)

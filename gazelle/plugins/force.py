@@ -7,11 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
 from gazelle.simulation.values import Push
-
-Worlds = NDArray[np.intp]
 
 
 class Force(ModelPlugin):

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.engines import Placement
 from gazelle.plugins.frames import relative
@@ -22,8 +23,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.values import SixNumbers
-
-Worlds = NDArray[np.intp]
 
 _UNSURE = 1e12
 # Turning slower than this counts as not turning [rad/s].

@@ -10,13 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.engines import Contacts
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.simulation import LinkHandle, ModelPlugin, Robot
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Forces weaker than this squeeze nothing [N].
 _LEAST_FORCE = 1e-6

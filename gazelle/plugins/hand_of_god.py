@@ -7,15 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.plugins.frames import frames_output
 from gazelle.plugins.heard_frames import HeardFrames
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, multiply
 from gazelle.simulation import FramePrefix, Input, Robot, Transform, Transforms
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class HandOfGod(Publishing):

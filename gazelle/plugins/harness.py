@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Inertia, Inertial, Model, Parameters
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.reading import Reading
@@ -23,9 +24,6 @@ from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
 from gazelle.simulation.values import Number
 from gazelle.states import restore_all, states_of
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Mass of a carriage as a share of the model's, and its size [m]. Lighter ones hold the weight
 # less stiffly, heavier ones slow the winch down.

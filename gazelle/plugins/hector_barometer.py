@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.plugins.frames import placed
 from gazelle.plugins.hector_body import OnBody
 from gazelle.plugins.hector_imu import rate_of
 from gazelle.simulation import Output, Robot
-from gazelle.simulation.values import AltimeterValue, Floats, PointValue
+from gazelle.simulation.values import AltimeterValue, PointValue
 
 # The international barometric formula: height where it ends [m], and its exponent.
 _TOP, _EXPONENT = 44330.0, 5.263157

@@ -13,13 +13,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
 from gazelle.simulation import Tunable, Tuning
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _TAGS = {
     "offset": 0.0,

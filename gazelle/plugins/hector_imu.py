@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Parameters, Pose
 from gazelle.plugins.hector_errors import Interval, SensorErrors
 from gazelle.plugins.publishing import Publishing
@@ -15,9 +15,6 @@ from gazelle.rotations import from_yaw, multiply, rotate
 from gazelle.sensors import ImuModel, ImuReading
 from gazelle.simulation import Output, Robot, Service, absolute, namespace_of
 from gazelle.simulation.values import Bias, UnsureImu
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class HectorImu(Noisy, Publishing):

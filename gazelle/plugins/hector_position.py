@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, SphericalCoordinates
 from gazelle.plugins.frames import placed
 from gazelle.plugins.hector_body import OnBody
@@ -17,9 +18,6 @@ from gazelle.rotations import conjugate, rotate
 from gazelle.sensors.geodesy import EQUATORIAL_RADIUS, FLATTENING
 from gazelle.simulation import Output, Robot, Service, Tuning
 from gazelle.simulation.values import Fix, GeoReference, MagneticValue, VectorValue
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _E2 = FLATTENING * (2.0 - FLATTENING)  # first eccentricity squared
 

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.simulation import ModelPlugin, Output, Robot
-
-Worlds = NDArray[np.intp]
 
 
 class HectorReset(ModelPlugin):

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.frames import placed
@@ -23,9 +24,7 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-from gazelle.simulation.values import Floats, TurnCommand
-
-Worlds = NDArray[np.intp]
+from gazelle.simulation.values import TurnCommand
 
 # The frame whose axes the servos count from, and that of commands before the first one.
 _BASE, _LEVEL = "base_link", "base_stabilized"

@@ -9,14 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import JointHandle, ModelPlugin, Robot
 from gazelle.states import restore_all, states_of
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _TYPES = ("force", "position", "velocity")
 

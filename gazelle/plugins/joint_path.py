@@ -8,12 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.simulation import Input, ModelPlugin, Robot, Service, absolute, namespace_of
 from gazelle.simulation.values import JointPath, Outcome, PathRequest
-
-Worlds = NDArray[np.intp]
 
 
 @dataclass(slots=True)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
@@ -28,9 +29,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.values import MotorPower, SixNumbers, Trigger
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Of the base's own topics, unless the parameter base_prefix has another.
 _PREFIX = "mobile_base"

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.rotations import yaw_of
@@ -15,9 +16,6 @@ from gazelle.sensors import ContactModel, LidarModel
 from gazelle.sensors.lidar import directions_of
 from gazelle.simulation import Output, Robot, SensorUnit
 from gazelle.simulation.values import BumperValue, CliffValue
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _PLACES = ("left", "center", "right")
 # Contacts at these heights above the floor press the bumper [m], from these sides [rad].

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Noise, Parameters
 from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
@@ -21,8 +21,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.values import ChannelPoints, LaserPoints
-
-Floats = NDArray[np.float64]
 
 
 class PointLaser(Noisy, SensorPlugin):

@@ -9,13 +9,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.rotations import cross, rotate
 from gazelle.simulation import ModelPlugin, Robot
-
-Floats = NDArray[np.float64]
 
 # Slower than this there is no flow [m/s].
 _CALM = 0.01

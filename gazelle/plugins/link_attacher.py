@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import Error
 from gazelle.simulation import LinkHandle, Service, Simulation, WorldPlugin
 from gazelle.simulation.values import LinkPair
-
-Worlds = NDArray[np.intp]
 
 
 class LinkAttacher(WorldPlugin):

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.pid import Gains, Pid
 from gazelle.simulation import ModelPlugin, Robot, Setting, absolute, namespace_of
-
-Worlds = NDArray[np.intp]
 
 # Time in which a motor makes up for most of what it lacks [s].
 _HASTE = 0.1

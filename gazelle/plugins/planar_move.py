@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.plugins.odometry import OdometryOutputs, true_odometry
 from gazelle.rotations import from_yaw, rotate, yaw_of
@@ -19,8 +20,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.clock import Schedule
-
-Worlds = NDArray[np.intp]
 
 
 class PlanarMove(ModelPlugin):

@@ -7,13 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.simulation import Input, Simulation, WorldPlugin, absolute
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,14 +7,12 @@ one gives what all forces on the body come to, by Newton's and Euler's laws.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, cross, rotate
 from gazelle.simulation import FramePrefix, Output, Robot, WrenchValue, absolute, namespace_of
-
-Floats = NDArray[np.float64]
 
 
 class ResultantForce(Publishing):

@@ -17,14 +17,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
 from gazelle.plugins.splines import PoseSpline
 from gazelle.rotations import multiply
 from gazelle.simulation import ModelPlugin, Robot
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class ScriptedMotion(ModelPlugin):

@@ -11,10 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.errors import SimulationError
 from gazelle.rotations import conjugate, multiply
-
-Floats = NDArray[np.float64]
 
 # Quaternions this near to each other are mixed evenly: their angle is too small to divide by.
 _NEAR = 1e-3

@@ -8,10 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.simulation import Plugin
 from gazelle.states import Part, restore_all, states_of
-
-Worlds = NDArray[np.intp]
 
 
 class Stateful(Part, Protocol):

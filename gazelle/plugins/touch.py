@@ -7,14 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.sensors import ContactModel
 from gazelle.simulation import Input, ModelPlugin, Output, Robot, absolute
 from gazelle.simulation.values import Flags
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class Touch(ModelPlugin):

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
@@ -25,9 +26,6 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _JOINTS = (
     ("steeringJoint", "front_steering_joint"),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.simulation import (
     LinkHandle,
@@ -18,8 +19,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.values import Flags
-
-Worlds = NDArray[np.intp]
 
 # How near a link's origin must be to be sucked, and to be held in place [m].
 _REACH, _HOLD = 0.05, 0.01

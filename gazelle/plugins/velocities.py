@@ -7,13 +7,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.simulation import ModelPlugin, Robot
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _FAR = 1e16
 

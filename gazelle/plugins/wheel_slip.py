@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Cylinder, Parameters, Sphere
 from gazelle.errors import SimulationError
 from gazelle.rotations import rotate
@@ -25,8 +26,6 @@ from gazelle.simulation import (
     Tuning,
     absolute,
 )
-
-Floats = NDArray[np.float64]
 
 _LATERAL, _LONGITUDINAL = (
     f"slip_compliance_unitless_{direction}" for direction in ("lateral", "longitudinal")

@@ -6,15 +6,11 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Worlds
 from gazelle.description.source import Source
 from gazelle.errors import SimulationError
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import JointHandle, ModelPlugin, Robot, TwistInput
-
-Worlds = NDArray[np.intp]
 
 
 class Side(Enum):

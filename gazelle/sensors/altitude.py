@@ -7,15 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Atmosphere, Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # U.S. Standard Atmosphere, 1976: gravity, molar mass of air, gas constant (SI units).
 _GRAVITY, _MOLAR_MASS, _GAS_CONSTANT = 9.80665, 0.0289644, 8.31432

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Engine
 from gazelle.rotations import cross, rotate
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,11 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Contacts, Engine
 from gazelle.sensors.model import NoisySensor
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Values of one contact: two names, position, normal, depth, force, torque.
 _WIDTH = 15

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.errors import FormatError
@@ -14,9 +14,6 @@ from gazelle.formats.sdf.noise import read_noise
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _FRAMES = ("child", "parent", "sensor")
 _DIRECTIONS = ("child_to_parent", "parent_to_child")

@@ -10,12 +10,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import SphericalCoordinates
 from gazelle.rotations import apply_matrix
-
-Floats = NDArray[np.float64]
 
 EQUATORIAL_RADIUS = 6378137.0
 """Semi-major axis [m]."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose, SphericalCoordinates
 from gazelle.engines import Engine
 from gazelle.formats.sdf.noise import read_noise
@@ -14,9 +14,6 @@ from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.geodesy import TangentPlane
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
 from gazelle.engines import Engine
 from gazelle.rotations import conjugate, cross, multiply, rotate
 from gazelle.sensors.model import NoisySensor
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Lidar, Pose, Scan
 from gazelle.engines import Engine
 from gazelle.sensors.noise import NoiseModel
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

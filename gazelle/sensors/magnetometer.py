@@ -5,17 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

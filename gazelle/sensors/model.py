@@ -8,12 +8,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise
 from gazelle.sensors.noise import NoiseModel
 from gazelle.states import restore_all, states_of
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class SensorModel(Protocol):

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Light, Plane, Pose, Visual, World
 from gazelle.engines.tracer import Sight, Tracer
-
-Floats = NDArray[np.float64]
 
 _GREY = (0.7, 0.7, 0.7)
 _SKY_TOP = np.array([0.45, 0.62, 0.86])

@@ -6,17 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.errors import FormatError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Rays that stand for the cone: an odd number of rings about the middle one.
 _RINGS, _RAYS_A_RING = 6, 6

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+from gazelle.array_types import Worlds
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
-
-Worlds = NDArray[np.intp]
 
 
 class Event:

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Inertia, Link, Pose
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import Error, SimulationError
@@ -17,8 +18,6 @@ from gazelle.simulation.inputs import VECTORS, chosen, finite, motion, numbers, 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _LIMITS = ("joint_lower", "joint_upper")
 

@@ -7,14 +7,12 @@ import operator
 from numbers import Real
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model
 from gazelle.engines.limits import FARTHEST
 from gazelle.errors import SimulationError
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")

@@ -12,16 +12,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.rotations import cross, rotate
 from gazelle.simulation.clock import NANOSECONDS, Clock
 from gazelle.simulation.inputs import number
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 @dataclass(slots=True, eq=False)

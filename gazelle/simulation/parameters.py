@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
@@ -16,9 +17,6 @@ from gazelle.streams import Stream
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class Parameter:

@@ -13,14 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
     from gazelle.simulation.sensors import SensorUnit
     from gazelle.simulation.simulation import Simulation
-
-Worlds = NDArray[np.intp]
 
 
 class Plugin:

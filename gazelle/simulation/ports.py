@@ -13,14 +13,13 @@ from enum import Enum
 from typing import Any, Generic, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, size_of
 from gazelle.simulation.settings import Setting, Tuning
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 T = TypeVar("T")
 Q = TypeVar("Q")
 R = TypeVar("R")

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
@@ -21,8 +22,6 @@ from gazelle.simulation.sensors import SensorUnit
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 T = TypeVar("T")
 
 

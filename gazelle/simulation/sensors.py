@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Sensor
 from gazelle.sensors import SensorModel
 from gazelle.simulation.blame import warn_of_fault
@@ -17,8 +18,6 @@ from gazelle.simulation.ports import FramePrefix, Output
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _NO_WORLDS = np.zeros(0, np.intp)
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle import formats
+from gazelle.array_types import Worlds
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import DivergenceError, make_engine
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
@@ -41,8 +42,6 @@ from gazelle.simulation.stepping import (
     update_sensors,
 )
 from gazelle.streams import seed_of
-
-Worlds = NDArray[np.intp]
 
 
 class Simulation:

@@ -19,9 +19,9 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.array_types import Floats32
 from gazelle.errors import FormatError
 
-Floats = npt.NDArray[np.float32]
 Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 
 _FORMAT = "gazelle-policy-1"
@@ -42,13 +42,13 @@ class Actor:
         first_action: The number of the first discrete action.
     """
 
-    weights: tuple[Floats, ...]
-    biases: tuple[Floats, ...]
+    weights: tuple[Floats32, ...]
+    biases: tuple[Floats32, ...]
     activation: str
     head: Head
-    log_std: Floats | None = None
-    low: Floats | None = None
-    high: Floats | None = None
+    log_std: Floats32 | None = None
+    low: Floats32 | None = None
+    high: Floats32 | None = None
     first_action: int = 0
 
     @property
@@ -56,7 +56,7 @@ class Actor:
         """Whether actions are numbers of choices."""
         return self.head in {"categorical", "greedy"}
 
-    def outputs(self, obs: Floats) -> Floats:
+    def outputs(self, obs: Floats32) -> Floats32:
         """The last layer's outputs.
 
         Args:
@@ -73,10 +73,10 @@ class Actor:
                 np.tanh(x, out=x)
             else:
                 np.maximum(x, 0.0, out=x)
-        result: Floats = x @ self.weights[-1] + self.biases[-1]
+        result: Floats32 = x @ self.weights[-1] + self.biases[-1]
         return result
 
-    def act(self, obs: Floats, rng: np.random.Generator | None = None) -> npt.NDArray[Any]:
+    def act(self, obs: Floats32, rng: np.random.Generator | None = None) -> npt.NDArray[Any]:
         """Actions for the environment.
 
         Args:
@@ -91,14 +91,14 @@ class Actor:
             return self.to_env(self.mode(outputs))
         return self.to_env(self.sample(outputs, rng))
 
-    def mode(self, outputs: Floats) -> npt.NDArray[Any]:
+    def mode(self, outputs: Floats32) -> npt.NDArray[Any]:
         """The likeliest raw actions for the outputs of the last layer."""
         if not self.discrete:
             return outputs
         best: npt.NDArray[np.int64] = outputs.argmax(axis=-1)
         return best
 
-    def sample(self, outputs: Floats, rng: np.random.Generator) -> npt.NDArray[Any]:
+    def sample(self, outputs: Floats32, rng: np.random.Generator) -> npt.NDArray[Any]:
         """Raw actions drawn from the distribution (``categorical`` and ``gaussian`` heads).
 
         Args:
@@ -119,7 +119,7 @@ class Actor:
         noise = rng.standard_normal(outputs.shape, dtype=np.float32)
         return outputs + np.exp(_present(self.log_std)) * noise
 
-    def log_prob(self, outputs: Floats, actions: npt.NDArray[Any]) -> Floats:
+    def log_prob(self, outputs: Floats32, actions: npt.NDArray[Any]) -> Floats32:
         """Logarithms of the probability (density) of raw actions.
 
         Args:
@@ -132,12 +132,12 @@ class Actor:
         if self.discrete:
             shifted = outputs - outputs.max(axis=-1, keepdims=True)
             total = np.log(np.exp(shifted).sum(axis=-1))
-            chosen: Floats = shifted[np.arange(len(shifted)), actions] - total
+            chosen: Floats32 = shifted[np.arange(len(shifted)), actions] - total
             return chosen
         log_std = _present(self.log_std)
         scaled = (actions - outputs) / np.exp(log_std)
         density = -0.5 * scaled**2 - log_std - np.float32(0.5 * np.log(2 * np.pi))
-        summed: Floats = density.sum(axis=-1, dtype=np.float32)
+        summed: Floats32 = density.sum(axis=-1, dtype=np.float32)
         return summed
 
     def to_env(self, actions: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -146,9 +146,9 @@ class Actor:
             return actions + self.first_action
         low, high = _present(self.low), _present(self.high)
         if self.head == "squashed":
-            share: Floats = np.float32(0.5) * (np.tanh(actions) + np.float32(1))
+            share: Floats32 = np.float32(0.5) * (np.tanh(actions) + np.float32(1))
             return low + share * (high - low)
-        clipped: Floats = np.clip(actions, low, high)
+        clipped: Floats32 = np.clip(actions, low, high)
         return clipped
 
     def save(self, path: Path) -> None:
@@ -201,7 +201,7 @@ def _read_about(text: str) -> dict[str, Any]:
     return about
 
 
-def _present(array: Floats | None) -> Floats:
+def _present(array: Floats32 | None) -> Floats32:
     if array is None:
         raise FormatError("the policy lacks the bounds or deviations of its actions")
     return array

@@ -8,9 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-Bools = npt.NDArray[np.bool_]
-Doubles = npt.NDArray[np.float64]
-Counts = npt.NDArray[np.int64]
+from gazelle.array_types import Bools, Floats, Ints64
 
 OUTCOMES = ("is_success", "is_collision", "is_timeout")
 """The outcome of an episode, as boolean arrays in ``info["final_info"]``."""
@@ -28,22 +26,22 @@ class Episodes:
 
     slots: npt.NDArray[np.intp]
     """Which copies of the environment they ran in."""
-    returns: Doubles
+    returns: Floats
     """Sums of rewards."""
-    lengths: Counts
+    lengths: Ints64
     """Control steps."""
     outcomes: dict[str, Bools]
     """For each name in `OUTCOMES` that the environment reports: whether it holds at the end."""
-    goals: Counts
+    goals: Ints64
     """Goals reached: ``goals_reached`` of the last info, else as often as ``is_success`` became
     true. More than one where an episode goes on to the next goal."""
-    since_goal: Counts
+    since_goal: Ints64
     """Control steps since the last goal on the way was reached, or since the start."""
     truncated: Bools
     """Whether the episode was cut off."""
-    scenarios: Doubles | None = None
+    scenarios: Floats | None = None
     """What the environment says of how they began, shape (k, size)."""
-    info: dict[str, Doubles] = field(default_factory=dict)
+    info: dict[str, Floats] = field(default_factory=dict)
     """Numbers of their last info, shapes (k,) or (k, few), if they were asked for."""
 
     @functools.cached_property
@@ -70,7 +68,7 @@ class Episodes:
         return ~late & ~self.collisions & ~self.succeeded
 
     @functools.cached_property
-    def attempts(self) -> Counts:
+    def attempts(self) -> Ints64:
         """Goals that were tried, but for those that were left out."""
         failed = self.collisions | self.timeouts | self.others
         return self.goals + failed.astype(np.int64)

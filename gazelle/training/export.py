@@ -6,14 +6,12 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
-import numpy.typing as npt
 import torch
 from torch import nn
 
+from gazelle.array_types import Floats32
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, Head
-
-Floats = npt.NDArray[np.float32]
 
 
 def export_actor(policy: Any) -> Actor:
@@ -64,7 +62,7 @@ def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
     return "squashed", policy.actor.features_extractor, list(policy.actor.mu)
 
 
-def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats], list[Floats]]:
+def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats32], list[Floats32]]:
     linear = [module for module in modules if isinstance(module, nn.Linear)]
     other = [module for module in modules if not isinstance(module, nn.Linear | nn.Tanh | nn.ReLU)]
     if other or not linear:
@@ -73,6 +71,6 @@ def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats], list[Floats]
     return weights, [_numpy(module.bias) for module in linear]
 
 
-def _numpy(tensor: torch.Tensor) -> Floats:
-    array: Floats = tensor.detach().cpu().numpy().astype(np.float32, copy=True)
+def _numpy(tensor: torch.Tensor) -> Floats32:
+    array: Floats32 = tensor.detach().cpu().numpy().astype(np.float32, copy=True)
     return array

@@ -17,13 +17,12 @@ import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.buffers import RolloutBuffer
 
+from gazelle.array_types import Floats32
 from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
 from gazelle.training.scaling import ObservationScale
 from gazelle.training.stepper import Step
 from gazelle.training.vecenv import VectorEnvAdapter
-
-Floats = npt.NDArray[np.float32]
 
 
 class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
@@ -56,7 +55,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
     env: VectorEnvAdapter
     scale: ObservationScale
-    _last_obs: Floats
+    _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
 
     def _setup_model(self) -> None:
@@ -83,7 +82,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         rollout_buffer.valid = np.ones((n_rollout_steps, env.num_envs), dtype=np.bool_)
         actor = export_actor(self.policy)
         outputs = np.empty((n_rollout_steps, env.num_envs, len(actor.biases[-1])), dtype=np.float32)
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]] = []
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]] = []
         for row in range(n_rollout_steps):
             obs, starts = self._last_obs, self._last_episode_starts
             outputs[row] = actor.outputs(obs.reshape(env.num_envs, -1))
@@ -119,7 +118,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         self,
         row: int,
         step: Step,
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]],
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]],
     ) -> None:
         """Remember the last observations of episodes that were cut off, to value them later."""
         if step.ended is None or step.final_obs is None:
@@ -131,7 +130,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     def _finish(
         self,
         buffer: MaskedRolloutBuffer,
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats]],
+        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]],
     ) -> None:
         """Values, bootstrapped rewards of cut-off episodes (Pardo et al. 2018), advantages."""
         rows, copies = buffer.rewards.shape
@@ -147,13 +146,13 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         last_values = torch.as_tensor(self._values(self._last_obs))
         buffer.compute_returns_and_advantage(last_values, self._last_episode_starts)
 
-    def _values(self, obs: Floats) -> Floats:
+    def _values(self, obs: Floats32) -> Floats32:
         with torch.no_grad():
-            values: Floats = self.policy.predict_values(torch.as_tensor(obs)).numpy().reshape(-1)
+            values: Floats32 = self.policy.predict_values(torch.as_tensor(obs)).numpy().reshape(-1)
         return values
 
 
-def _log_probs(actor: Actor, outputs: Floats, actions: npt.NDArray[Any]) -> Floats:
+def _log_probs(actor: Actor, outputs: Floats32, actions: npt.NDArray[Any]) -> Floats32:
     """Log-probabilities of all actions of a rollout, shape (steps, copies)."""
     rows, copies, width = outputs.shape
     flat = actions.reshape(rows * copies, -1)

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.array_types import UInts64
 from gazelle.training.episodes import Episodes
 from gazelle.training.statistics import Rate, clustered_rate
-
-Keys = npt.NDArray[np.uint64]
 
 _ENDS = ("collisions", "timeouts", "others")
 _NAMES = {"collisions": "collision", "timeouts": "time-out", "others": "other"}
@@ -90,7 +89,7 @@ class Ledger:
         """Whether the environment tells this outcome."""
         return outcome in self._told
 
-    def add(self, ended: Episodes, trails: Keys) -> None:
+    def add(self, ended: Episodes, trails: UInts64) -> None:
         """Take in the episodes that ended in one step, with what tells their trails apart."""
         self._told.update(ended.outcomes)
         for row, slot in enumerate(ended.slots):
@@ -140,13 +139,13 @@ class Trail:
     """
 
     def __init__(self, copies: int) -> None:
-        self._sums: Keys = np.zeros(copies, np.uint64)
+        self._sums: UInts64 = np.zeros(copies, np.uint64)
 
     def follow(self, obs: npt.NDArray[np.float32], where: npt.NDArray[np.bool_]) -> None:
         """Take in what copies see, shape (copies, ...), where it is part of their episodes."""
         self._sums = np.where(where, _mixed(self._sums, obs), self._sums)
 
-    def end(self, ended: Episodes, final_obs: npt.NDArray[np.float32]) -> Keys:
+    def end(self, ended: Episodes, final_obs: npt.NDArray[np.float32]) -> UInts64:
         """The sums of episodes that ended with these last observations; they begin anew."""
         sums = _mixed(self._sums[ended.slots], final_obs)
         sums ^= ended.returns.view(np.uint64)
@@ -154,13 +153,13 @@ class Trail:
         return sums
 
 
-def _mixed(sums: Keys, obs: npt.NDArray[np.float32]) -> Keys:
+def _mixed(sums: UInts64, obs: npt.NDArray[np.float32]) -> UInts64:
     """Sums that change with every bit of the observations (multiply and shift, modulo 2^64)."""
     bits = np.ascontiguousarray(obs, np.float32).reshape(len(obs), -1).view(np.uint32)
     odds = np.arange(1, 2 * bits.shape[1], 2, dtype=np.uint64) * _ODD
     mixed = (sums + np.uint64(1)) * _ODD + (bits.astype(np.uint64) * odds).sum(axis=1)
     mixed ^= mixed >> np.uint64(29)
-    result: Keys = mixed * _ODD
+    result: UInts64 = mixed * _ODD
     return result
 
 

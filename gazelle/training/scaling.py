@@ -14,8 +14,7 @@ import numpy.typing as npt
 import torch
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 
-Floats = npt.NDArray[np.float32]
-Doubles = npt.NDArray[np.float64]
+from gazelle.array_types import Floats, Floats32
 
 _LARGEST_BOUND = 1e4
 _LEAST_SHARE = 0.1  # of its bounds that an entry uses at least, else it is normalised
@@ -70,11 +69,11 @@ class ObservationScale:
         """Whether it is known yet what is normalised."""
         return bool(self.tally[_DECIDED])
 
-    def observe(self, observations: Floats) -> None:
+    def observe(self, observations: Floats32) -> None:
         """Take account of observations, shape (N, ...)."""
         if not self._scale or (self.decided and not self.normalised.any()):
             return
-        rows: Doubles = observations.reshape(len(observations), -1).astype(np.float64)
+        rows: Floats = observations.reshape(len(observations), -1).astype(np.float64)
         moments, tally = self.moments.numpy(), self.tally.numpy()
         before, total = tally[_COUNT], tally[_COUNT] + len(rows)
         mean = rows.mean(axis=0)

@@ -22,10 +22,9 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
 
+from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.errors import TaskError
-from gazelle.training.episodes import OUTCOMES, Bools, Doubles, Episodes
-
-Floats = npt.NDArray[np.float32]
+from gazelle.training.episodes import OUTCOMES, Episodes
 
 SCENARIO = "scenario"
 """In the info of an episode's first moment: numbers that set it apart from others."""
@@ -37,9 +36,9 @@ _FEW = 8  # numbers of an info that a record of an episode keeps at most
 class Step:
     """What one control step of all N copies brought."""
 
-    obs: Floats
+    obs: Floats32
     """What the policy acts on next, shape (N, ...)."""
-    rewards: Doubles
+    rewards: Floats
     """Shape (N,)."""
     terminated: Bools
     """Whether the episode came to its end, shape (N,)."""
@@ -47,7 +46,7 @@ class Step:
     """Whether the episode was cut off (and not terminated), shape (N,)."""
     valid: Bools
     """False where the copy spent this step on its reset, shape (N,)."""
-    final_obs: Floats | None
+    final_obs: Floats32 | None
     """Last observations of the ended episodes, shape (k, ...); None when no episode ended."""
     ended: Episodes | None
     """The ended episodes; None when no episode ended."""
@@ -76,17 +75,17 @@ class Stepper:
         self.env = env
         self.num_envs = env.num_envs
         self.mode = AutoresetMode(env.metadata.get("autoreset_mode", AutoresetMode.NEXT_STEP))
-        self.obs: Floats = np.zeros((0,), dtype=np.float32)
+        self.obs: Floats32 = np.zeros((0,), dtype=np.float32)
         self._resetting = np.zeros(self.num_envs, dtype=np.bool_)
         self._returns = np.zeros(self.num_envs)
         self._lengths = np.zeros(self.num_envs, dtype=np.int64)
         self._goals = np.zeros(self.num_envs, dtype=np.int64)
         self._goal_at = np.zeros(self.num_envs, dtype=np.int64)
         self._there = np.zeros(self.num_envs, dtype=np.bool_)
-        self.scenarios: Doubles | None = None
+        self.scenarios: Floats | None = None
         self._keep_info = keep_info
 
-    def reset(self, *, seed: int | None = None) -> Floats:
+    def reset(self, *, seed: int | None = None) -> Floats32:
         """Start all episodes anew and return the first observations, shape (N, ...)."""
         obs, info = self.env.reset(seed=seed)
         self._resetting[:] = False
@@ -176,8 +175,8 @@ class Stepper:
         self._there = np.array(state["there"], dtype=np.bool_)
 
     def _last(
-        self, obs: Floats, info: dict[str, Any], slots: npt.NDArray[np.intp]
-    ) -> tuple[Floats, dict[str, Any]]:
+        self, obs: Floats32, info: dict[str, Any], slots: npt.NDArray[np.intp]
+    ) -> tuple[Floats32, dict[str, Any]]:
         """The last observations of the ended episodes, and the info that tells their outcome."""
         if self.mode is not AutoresetMode.SAME_STEP:
             return obs[slots], info
@@ -224,7 +223,7 @@ class Stepper:
         self._there[slots] = False
 
 
-def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Doubles]:
+def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Floats]:
     """What info holds in numbers, a few a copy, at some copies: shapes (k,) or (k, few)."""
     found = {}
     for name, values in info.items():

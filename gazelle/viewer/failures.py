@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from gazelle.array_types import Picture
 from gazelle.errors import TaskError
 
 if TYPE_CHECKING:
     from gazelle.training import EpisodeRecord, Evaluation
 
-Picture = NDArray[np.uint8]
 Point = tuple[float, float]
 Colour = tuple[int, int, int]
 

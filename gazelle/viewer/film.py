@@ -10,10 +10,11 @@ from pathlib import Path
 
 from PIL import Image
 
+from gazelle.array_types import Picture
 from gazelle.errors import Error, did_you_mean
 from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
-from gazelle.viewer.plan import Picture, TopView
+from gazelle.viewer.plan import TopView
 
 _STILLS = (".png", ".jpg", ".jpeg", ".webp")
 _FILMS = (".gif", ".mp4")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
@@ -14,8 +14,6 @@ from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan import colour_of, extent_of, fleet_of, rays_of
 from gazelle.viewer.plan_scans import scanners_of
-
-Floats = NDArray[np.float64]
 
 _FEW = 8  # sensors up to which what they see is shown whole
 _MANY = 100  # sensors beyond which scans are not shown

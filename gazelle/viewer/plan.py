@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from gazelle.array_types import Floats, Picture
 from gazelle.engines.planar import Fleet, PlanarEngine, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
@@ -16,8 +17,6 @@ from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan_scans import scanners_of
 
-Floats = NDArray[np.float64]
-Picture = NDArray[np.uint8]
 Colour = tuple[int, int, int]
 
 _PAPER: Colour = (250, 250, 248)

@@ -6,9 +6,7 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Any, Self
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Worlds
 from gazelle.bridges.binding import Binding
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.gazebo.finite import Handler, ignoring, refusing
@@ -25,7 +23,6 @@ from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.stepping import make_scheduled
 
-Worlds = NDArray[np.intp]
 _MOVES = {
     *("spawn_sdf_model", "spawn_urdf_model", "set_model_state", "set_link_state"),
     *("set_model_configuration", "set_link_properties", "apply_body_wrench", "apply_joint_effort"),

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.simulation import JointHandle, LinkHandle, Robot, Simulation
-
-Floats = NDArray[np.float64]
 
 # Names of the inertial frame.
 _WORLD = frozenset({"", "world", "map", "/map"})

@@ -8,15 +8,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.bridges.gazebo.context import Context
 from gazelle.bridges.outbox import Outbox
 from gazelle.engines import Motion, Placement
 from gazelle.ros import load_message
 from gazelle.simulation import LinkHandle, Plugin, Robot
-
-Worlds = NDArray[np.intp]
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.bridges.stage.actuators import ActuatorTopics
 from gazelle.bridges.stage.cameras import CameraTopics
@@ -18,7 +17,6 @@ from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
 from gazelle.simulation.stage import Ranger, StageSimulation
 
-Floats = NDArray[np.float64]
 Values = list[float]
 
 

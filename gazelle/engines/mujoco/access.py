@@ -11,8 +11,9 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
-from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
+from gazelle.engines.engine import Hits, Motion, Placement
 from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
 from gazelle.engines.mujoco.order import (
     joint_from_mujoco,

@@ -18,10 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.mujoco.tree import Body
 from gazelle.engines.mujoco.views import StateViews
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

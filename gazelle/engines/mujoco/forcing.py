@@ -14,8 +14,8 @@ from contextlib import contextmanager
 import numpy as np
 from mujoco.batch import SimulationError
 
+from gazelle.array_types import Floats
 from gazelle.description import World
-from gazelle.engines.engine import Floats
 from gazelle.engines.mujoco.laws import spun
 from gazelle.engines.mujoco.reactions import ForceAccess
 from gazelle.engines.mujoco.suspects import suspect

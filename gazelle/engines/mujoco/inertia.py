@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 
 def principal(tensors: Floats) -> tuple[Floats, Floats]:

@@ -16,13 +16,11 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gazelle.engines.mujoco.joints import dry_friction
 from gazelle.engines.mujoco.tree import Body
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
 
 # How many axes of a joint can have a motor. The second of a screw follows from the first.
 _AXES = {

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-
+from gazelle.array_types import Floats
 
 # Taken by an array, which is several times faster for one than indexing by a list.
 _TO_WXYZ, _TO_XYZW = np.array([3, 0, 1, 2]), np.array([1, 2, 3, 0])

@@ -17,8 +17,8 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Contact, World
-from gazelle.engines.engine import Floats, Worlds
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats
 from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
 from gazelle.engines.mujoco.layout import Layout, look_up
@@ -23,7 +24,6 @@ from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION, LEAST_FRICTION
 from gazelle.engines.mujoco.tyres import compiled_slip, set_slip
 from gazelle.errors import EngineError
 
-Floats = NDArray[np.float64]
 Key = tuple[str, str]
 
 # MuJoCo has no infinite limits.

@@ -8,7 +8,8 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from gazelle.engines.engine import Floats, Hits, Worlds
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines.engine import Hits
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP
 from gazelle.engines.mujoco.shapes import CLOSED_GROUP, OPEN_GROUP
 

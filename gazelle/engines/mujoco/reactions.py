@@ -14,7 +14,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from gazelle.engines.engine import Floats, Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.mujoco.access import rows_of
 from gazelle.engines.mujoco.bodies import BodyAccess
 from gazelle.engines.mujoco.layout import Layout, LoopSlot, look_up

@@ -14,7 +14,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 # MuJoCo's bounds of an impedance.
 _LEAST, _MOST = 1e-4, 0.9999

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.mujoco.layout import Layout
 from gazelle.engines.mujoco.views import StateViews
-
-Floats = NDArray[np.float64]
 
 
 def suspect(layout: Layout, views: StateViews, states: Floats, before: Floats) -> str:

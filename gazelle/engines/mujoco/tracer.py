@@ -8,16 +8,14 @@ from typing import Any
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Link, Plane, Pose, Visual, World
 from gazelle.engines.mujoco.order import wxyz_from_xyzw
 from gazelle.engines.mujoco.rays import BESIDE
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.tracer import Sight
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
 
 
 class MujocoTracer:

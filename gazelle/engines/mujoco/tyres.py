@@ -20,13 +20,11 @@ from typing import Any
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Inertial
 from gazelle.engines.mujoco.tree import Body
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
 
 # MuJoCo's bounds of an impedance.
 _LEAST, _MOST = 1e-4, 0.9999

@@ -9,7 +9,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
-from gazelle.engines.engine import Floats, Hits, Motion, Placement, Worlds
+from gazelle.engines.engine import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import Layout

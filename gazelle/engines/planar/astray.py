@@ -7,12 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kernels_astray import scan_astray
 from gazelle.engines.planar.kernels_march import LANES
-
-Floats = NDArray[np.float64]
 
 _SHARE = 1000  # beams that are worth a thread
 

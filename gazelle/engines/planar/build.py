@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import World
 from gazelle.engines.planar.anatomy import Anatomy, anatomy_of, body_of, levels_of, statics_of
 from gazelle.engines.planar.cuts import Levels
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.wheels import grouped, rolling
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

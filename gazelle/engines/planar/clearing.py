@@ -8,13 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_march as k
 from gazelle.engines.planar.kernels_grid import list_statics
 from gazelle.engines.planar.shapes import Raster, Table
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int32]
 
 _CELLS = 12.0  # a static primitive
 _FINEST = 0.02  # side of a cell [m]
@@ -35,8 +33,8 @@ class Clearing:
     """
 
     fine: Floats
-    start: Indices
-    items: Indices
+    start: Ints32
+    items: Ints32
     clear: NDArray[np.int8]
 
 
@@ -112,7 +110,7 @@ def turned(rows: Floats, cos: float, sin: float, x: float, y: float) -> None:
     rows[circle, c.X1] = radius
 
 
-def _measured(fine: Floats, start: Indices, items: Indices, solid: NDArray[np.int8]) -> Clearing:
+def _measured(fine: Floats, start: Ints32, items: Ints32, solid: NDArray[np.int8]) -> Clearing:
     clear = np.zeros(5 * len(solid), np.int8)
     k.measure_clear(solid, start, int(fine[k.COLUMNS]), clear)
     return Clearing(fine, start, items, clear)
@@ -135,7 +133,7 @@ def corners_of(rows: Floats) -> Floats:
     return np.vstack((start - radius, start + radius, end))
 
 
-def listed(rows: Floats, grid: Floats, margin: float) -> tuple[Indices, Indices]:
+def listed(rows: Floats, grid: Floats, margin: float) -> tuple[Ints32, Ints32]:
     """The primitives in each cell of a grid: where those of a cell begin, and their indices."""
     start = np.zeros(int(grid[3] * grid[4]) + 1, np.int32)
     list_statics(rows, grid, start, np.zeros(0, np.int32), margin)

@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import (
     Box,
     Collision,
@@ -30,8 +30,6 @@ from gazelle.description import (
 from gazelle.engines.planar.shapes import Part, Point
 from gazelle.engines.planar.solids import Solid, cut, solid_of
 from gazelle.errors import EngineWarning
-
-Floats = NDArray[np.float64]
 
 LEVEL = 1e-3  # how far a ray may be off the height of a cut [m]
 _UPRIGHT = 1e-9

@@ -9,8 +9,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
-from gazelle.engines.engine import Call, Floats, Worlds
+from gazelle.engines.engine import Call
 from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step
 from gazelle.engines.planar import columns as c

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.native import Call, Function
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_noise
@@ -20,9 +21,6 @@ from gazelle.engines.planar.kernels_march import LANES, SIDE_BY_SIDE
 from gazelle.engines.planar.kernels_scan import scan
 from gazelle.engines.planar.kernels_walk import FEW_BEAMS, scan_singly
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
 _BLOCK = 64  # primitives that are prepared at once; more than make a grid worth it

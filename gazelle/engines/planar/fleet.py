@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.limits import physics_step, whole_number
 from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
@@ -20,7 +21,6 @@ from gazelle.engines.planar.scene import scene_of
 from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
 from gazelle.errors import EngineError
 
-Floats = NDArray[np.float64]
 DriveKind = Literal["diff", "omni", "car"]
 
 _KINDS = {"diff": c.DIFFERENTIAL, "omni": c.OMNIDIRECTIONAL, "car": c.CAR}

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import kernels_picture as k
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import Point, ccw, convex
 from gazelle.errors import EngineError
 
-Floats = NDArray[np.float64]
 Rgb = tuple[float, float, float]
 
 _SHARE = 1  # pictures that are worth a thread

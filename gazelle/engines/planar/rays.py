@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import EngineError
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _LEVEL = 1e-6
 _EQUAL = 1e-7

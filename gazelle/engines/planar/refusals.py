@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
-from gazelle.engines.engine import Worlds
+from gazelle.array_types import Worlds
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
 

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
 from gazelle.engines.planar.shapes import Part, Table, primitives_of
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int32]
 
 _FEW = 48  # primitives up to which all in one cell are drawn faster than they are looked for
 _MARGIN = 1e-9  # by which cells are larger than they are [m]
@@ -35,8 +32,8 @@ class Scene:
 
     table: Table
     grid: Floats
-    start: Indices
-    items: Indices
+    start: Ints32
+    items: Ints32
     lanes: Floats
     _clearings: dict[bool, Clearing] = field(default_factory=dict, init=False)
 

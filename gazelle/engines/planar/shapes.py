@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.errors import EngineError
 
-Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 

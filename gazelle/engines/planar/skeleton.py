@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Joint, Link, Model, Pose
 from gazelle.engines.mujoco.tree import Body, tree_of
 from gazelle.engines.planar.wheels import Wheel, wheel_of
 from gazelle.rotations import cross, multiply, rotate
 
-Floats = NDArray[np.float64]
 Place = tuple[Floats, Floats]
 
 _MOVING = {"revolute", "continuous", "prismatic", "screw", "universal", "revolute2"}

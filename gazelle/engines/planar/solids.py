@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Ints64
 from gazelle.description import (
     Box,
     Capsule,
@@ -20,9 +20,7 @@ from gazelle.description import (
     Sphere,
 )
 
-Floats = NDArray[np.float64]
-Faces = NDArray[np.int64]
-Solid = tuple[Floats, Faces]
+Solid = tuple[Floats, Ints64]
 
 _SIDES = 64  # of what is round
 

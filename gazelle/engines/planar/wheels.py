@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import (
     Capsule,
     Collision,
@@ -20,8 +20,6 @@ from gazelle.description import (
     Sphere,
 )
 from gazelle.engines.planar.solids import solid_of
-
-Floats = NDArray[np.float64]
 
 _SIDEWAYS = 0.5  # how much a wheel that would slip sideways counts against one that rolls
 

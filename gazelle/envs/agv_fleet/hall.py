@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from gazelle.array_types import Floats
 from gazelle.engines.planar import Part
-
-Floats = NDArray[np.float64]
 
 LENGTH, WIDTH = 30.0, 20.0
 """Of the hall, inside, along x and y [m]; its middle is the origin."""

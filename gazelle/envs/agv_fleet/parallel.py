@@ -7,8 +7,9 @@ from typing import Any, ClassVar, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats32
 from gazelle.envs.agv_fleet.task import PERIOD, AGVFleetTask, FleetOptions, FleetSettings
-from gazelle.envs.batched_task import Float32, Info
+from gazelle.envs.batched_task import Info
 from gazelle.envs.errors import check_open, check_ready
 from gazelle.envs.options import read_options
 from gazelle.errors import MissingExtraError
@@ -64,7 +65,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, Float32], dict[str, dict[str, Any]]]:
+    ) -> tuple[dict[str, Floats32], dict[str, dict[str, Any]]]:
         """Start a new episode with all agents.
 
         Args:
@@ -89,7 +90,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
     def step(
         self, actions: dict[str, NDArray[Any]]
     ) -> tuple[
-        dict[str, Float32],
+        dict[str, Floats32],
         dict[str, float],
         dict[str, bool],
         dict[str, bool],
@@ -140,7 +141,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         self._closed = True
         self.task.close()
 
-    def _each(self, values: Float32) -> dict[str, Float32]:
+    def _each(self, values: Floats32) -> dict[str, Floats32]:
         return {agent: values[self._index[agent]].copy() for agent in self.agents}
 
     def _infos(self, info: Info) -> dict[str, dict[str, Any]]:

@@ -10,17 +10,16 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
 from gazelle.engines.planar.columns import X0, X1, Y0, Y1
 from gazelle.envs.agv_fleet import hall
-from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
+from gazelle.envs.batched_task import BatchedTask, Info, Verdict
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_whole
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
 
 PERIOD = 0.2
 SPEED, TURN = 1.0, 1.0
@@ -223,11 +222,11 @@ class AGVFleetTask(BatchedTask):
         rows = self.fleet.scene.table.rows
         return FloorPlan(rows[:, [X0, Y0, X1, Y1]], np.zeros((0, 3)))
 
-    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         no = np.zeros(len(worlds), np.bool_)
         return self.observe()[worlds], self._info(worlds, no, no)
 
-    def observe(self) -> Float32:
+    def observe(self) -> Floats32:
         """What all AGVs see now, shape (nworld, size)."""
         ranges = self._scanner.scan().reshape(self.nworld, -1)
         poses, goals = self.poses, self.goals
@@ -266,7 +265,7 @@ class AGVFleetTask(BatchedTask):
             self._next_goals(everywhere[arrived])
         return Verdict(self.observe(), reward, crashed, self._info(everywhere, arrived, crashed))
 
-    def _info(self, worlds: Worlds, arrived: Bool, crashed: Bool) -> Info:
+    def _info(self, worlds: Worlds, arrived: Bools, crashed: Bools) -> Info:
         return {
             "is_success": arrived.copy(),
             "is_collision": crashed.copy(),

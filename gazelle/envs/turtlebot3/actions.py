@@ -10,11 +10,10 @@ published reward is defined, although the burger could turn at 2.84 rad/s.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats
 from gazelle.errors import TaskError
-
-Float64 = NDArray[np.float64]
 
 ACTIONS = 5
 LINEAR = 0.15
@@ -23,7 +22,7 @@ LINEAR_MAX = 0.22
 ANGULAR_MAX = 1.5
 
 
-def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float64]:
+def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     """Velocities of discrete actions.
 
     Args:
@@ -45,7 +44,7 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float64]
     return np.full(nworld, LINEAR), angular
 
 
-def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float64]:
+def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     """Velocities of continuous actions; numbers outside [-1, 1] are clipped.
 
     Args:
@@ -67,7 +66,7 @@ def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Float64, Float6
     return (clipped[:, 0] + 1.0) * (LINEAR_MAX / 2.0), clipped[:, 1] * ANGULAR_MAX
 
 
-def turn_index(angular: Float64) -> Float64:
+def turn_index(angular: Floats) -> Floats:
     """Which discrete action turns at this yaw rate, as a real number.
 
     Args:

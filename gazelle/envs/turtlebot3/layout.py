@@ -7,8 +7,8 @@ import functools
 import warnings
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.free_space import FreeSpace, floor_plan_of
 from gazelle.envs.goals import GoalTable
@@ -18,8 +18,6 @@ from gazelle.envs.turtlebot3.rules import STAGES, stage_goals
 from gazelle.envs.turtlebot3.scene import Scene
 from gazelle.errors import Error, GazelleWarning, TaskError
 from gazelle.sensors import LidarModel
-
-Floats = NDArray[np.float64]
 
 _START_MARGIN, _GOAL_MARGIN = 0.4, 0.3  # from all that stands [m]
 _APART = 0.5  # of a goal from the one before, and of the first one from a fixed start [m]

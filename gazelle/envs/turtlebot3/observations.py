@@ -9,13 +9,11 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Floats32
 from gazelle.envs.decimals import round2
 from gazelle.envs.polar import distance_to, heading_to
 from gazelle.envs.scans import clean_ranges, nearest_obstacle
 from gazelle.envs.turtlebot3.rules import Rules
-
-Float32 = NDArray[np.float32]
-Float64 = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,21 +28,21 @@ class Sight:
         heading: Of the goal, rounded to 0.01 rad, shape (n,).
     """
 
-    ranges: Float64
-    nearest: Float64
+    ranges: Floats
+    nearest: Floats
     ray: NDArray[np.intp]
-    distance: Float64
-    heading: Float64
+    distance: Floats
+    heading: Floats
 
 
 def sight(
     rules: Rules,
     *,
-    ranges: Float64,
+    ranges: Floats,
     range_min: float,
-    position: Float64,
-    yaw: Float64,
-    goal: Float64,
+    position: Floats,
+    yaw: Floats,
+    goal: Floats,
 ) -> Sight:
     """Work out what the robots see.
 
@@ -70,7 +68,7 @@ def sight(
     )
 
 
-def observation(rules: Rules, seen: Sight) -> Float32:
+def observation(rules: Rules, seen: Sight) -> Floats32:
     """The state: ranges, heading, distance and, if the stage has it, the nearest obstacle.
 
     Returns:

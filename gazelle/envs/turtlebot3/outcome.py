@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.envs.batched_task import Bool, Finals, Float64, Info, Step, Transition
+from gazelle.array_types import Bools, Floats
+from gazelle.envs.batched_task import Finals, Info, Step, Transition
 from gazelle.envs.turtlebot3 import kernels_step as k
 
 
@@ -59,7 +60,7 @@ class Outcome:
 
 
 def _info(
-    how: Bool, numbers: Float64, points: Float64, reached: NDArray[np.int64], *, timed: bool
+    how: Bools, numbers: Floats, points: Floats, reached: NDArray[np.int64], *, timed: bool
 ) -> Info:
     """As ``TurtleBot3Task`` spells it."""
     info: Info = {

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Bools, Floats
 from gazelle.envs.decimals import round2
 from gazelle.envs.turtlebot3.rules import Rules
 
-Float64 = NDArray[np.float64]
-Bool = NDArray[np.bool_]
 
-
-def turning_reward(heading: Float64, index: Float64) -> Float64:
+def turning_reward(heading: Floats, index: Floats) -> Floats:
     """How well a turn fits the direction of the goal.
 
     A triangle wave of ``phi = heading + pi/4 + index * pi/8`` with period 2 pi: 1 where the
@@ -28,19 +25,19 @@ def turning_reward(heading: Float64, index: Float64) -> Float64:
     """
     phi = -np.pi / 4 + heading + np.pi / 8 * index + np.pi / 2
     turns = 0.25 + np.mod(0.5 * phi, 2.0 * np.pi) / np.pi
-    wave: Float64 = 1.0 - 4.0 * np.abs(0.5 - np.mod(turns, 1.0))
+    wave: Floats = 1.0 - 4.0 * np.abs(0.5 - np.mod(turns, 1.0))
     return wave
 
 
 def travelling_reward(
     rules: Rules,
     *,
-    heading: Float64,
-    index: Float64,
-    distance: Float64,
-    start_distance: Float64,
-    nearest: Float64,
-) -> Float64:
+    heading: Floats,
+    index: Floats,
+    distance: Floats,
+    start_distance: Floats,
+    nearest: Floats,
+) -> Floats:
     """The reward of a step that neither collides nor arrives.
 
     Args:
@@ -59,11 +56,11 @@ def travelling_reward(
     turning = round2(turning_reward(heading, index) * 5.0)
     rate = np.exp2(distance / start_distance)
     near = np.where(round2(nearest) < rules.obstacle_range, rules.obstacle_reward, 0.0)
-    reward: Float64 = turning * rate + near
+    reward: Floats = turning * rate + near
     return reward
 
 
-def overrule(rules: Rules, reward: Float64, *, collided: Bool, reached: Bool) -> Float64:
+def overrule(rules: Rules, reward: Floats, *, collided: Bools, reached: Bools) -> Floats:
     """Put the collision's reward in place of the step's, then the goal's in place of both."""
     crashed = np.where(collided, rules.collision_reward, reward)
     return np.where(reached, rules.goal_reward, crashed)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from gazelle.envs.batched_task import SCENARIO, Float32, Info, Step, Transition, Worlds
+from gazelle.array_types import Floats, Floats32, Worlds
+from gazelle.envs.batched_task import SCENARIO, Info, Step, Transition
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.planar.swift import Swift
 from gazelle.envs.turtlebot3 import kernels_judge, kernels_step
@@ -16,8 +17,6 @@ from gazelle.envs.turtlebot3.observations import Sight
 from gazelle.envs.turtlebot3.outcome import Outcome
 from gazelle.envs.turtlebot3.rules import Rules
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
-
-Floats = NDArray[np.float64]
 
 _NOTHING, _NOWHERE = np.zeros((0, 0)), np.zeros(0, np.intp)
 
@@ -76,7 +75,7 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
         if self._starts is not None:
             self._swift.take_paths(worlds)
 
-    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         if self._swift is None:
             return super()._look(worlds)
         observation = np.zeros((len(worlds), self._outcome.observation.shape[1]), np.float32)
@@ -130,7 +129,7 @@ class SwiftTurtleBot3Task(TurtleBot3Task):
             self._kept = (self._stream, stepping)
         return self._kept[1]
 
-    def _observing(self, swift: Swift, worlds: Worlds, observation: Float32) -> tuple[Any, ...]:
+    def _observing(self, swift: Swift, worlds: Worlds, observation: Floats32) -> tuple[Any, ...]:
         """What ``kernels_judge.observe`` takes after the range of worlds."""
         made = self._outcome
         return (

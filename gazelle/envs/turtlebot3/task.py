@@ -8,7 +8,8 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.envs.batched_task import BatchedTask, Bool, Float32, Info, Verdict, Worlds
+from gazelle.array_types import Bools, Floats32, Worlds
+from gazelle.envs.batched_task import BatchedTask, Info, Verdict
 from gazelle.envs.decimals import round2
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
@@ -156,7 +157,7 @@ class TurtleBot3Task(BatchedTask):
             state[name][worlds] = rows
         self._lidar_model.restore(state)
 
-    def _look(self, worlds: Worlds) -> tuple[Float32, Info]:
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         seen = self._see(worlds)
         self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
@@ -220,7 +221,7 @@ class TurtleBot3Task(BatchedTask):
         """One number a goal: goal k of a world depends on the seed, the world and k alone."""
         return self._stream.uniform(1, worlds)[:, 0]
 
-    def _info(self, seen: Sight, worlds: Worlds, *, arrived: Bool, crashed: Bool) -> Info:
+    def _info(self, seen: Sight, worlds: Worlds, *, arrived: Bools, crashed: Bools) -> Info:
         return {
             "is_success": arrived.copy(),
             "is_collision": crashed.copy(),

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters, Pose
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
@@ -28,8 +28,6 @@ _CLUSTERS = 500
 """More models than this are spread at random instead of evenly."""
 _SAMPLES, _FEWEST, _MOST = 40, 10, 8000
 """Points for each cluster, at least so many of each, and of all together."""
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

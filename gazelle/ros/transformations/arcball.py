@@ -11,13 +11,14 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.array_types import Floats
 from gazelle.ros.transformations.quaternions import (
     quaternion_from_matrix,
     quaternion_matrix,
     quaternion_multiply,
     quaternion_slerp,
 )
-from gazelle.ros.transformations.vectors import EPS, Array, unit_vector
+from gazelle.ros.transformations.vectors import EPS, unit_vector
 
 _STILL = (0.0, 0.0, 0.0, 1.0)
 
@@ -33,8 +34,8 @@ class Arcball:
     """
 
     def __init__(self, initial: npt.ArrayLike | None = None) -> None:
-        self._axis: Array | None = None
-        self._axes: list[Array] | None = None
+        self._axis: Floats | None = None
+        self._axes: list[Floats] | None = None
         self._radius = 1.0
         self._center = [0.0, 0.0]
         self._pressed = np.array([0.0, 0.0, 1.0])
@@ -98,12 +99,12 @@ class Arcball:
         turned = quaternion_slerp(self._before, self._now, 2.0 + acceleration, 0, False)
         self._before, self._now = self._now, turned
 
-    def matrix(self) -> Array:
+    def matrix(self) -> Floats:
         """The attitude, shape (4, 4)."""
         return quaternion_matrix(self._now)
 
 
-def arcball_map_to_sphere(point: npt.ArrayLike, center: npt.ArrayLike, radius: float) -> Array:
+def arcball_map_to_sphere(point: npt.ArrayLike, center: npt.ArrayLike, radius: float) -> Floats:
     """The place on the unit ball below a place in the window."""
     place, middle = np.asarray(point, dtype=np.float64), np.asarray(center, dtype=np.float64)
     x, y = (place[0] - middle[0]) / radius, (middle[1] - place[1]) / radius
@@ -113,7 +114,7 @@ def arcball_map_to_sphere(point: npt.ArrayLike, center: npt.ArrayLike, radius: f
     return np.array([x, y, math.sqrt(1.0 - length * length)])
 
 
-def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Array:
+def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Floats:
     """The nearest place, in front, on the circle about an axis."""
     unit = np.asarray(axis, dtype=np.float64)
     place = np.array(point, dtype=np.float64)
@@ -126,7 +127,7 @@ def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Arra
     return np.asarray(unit_vector([-unit[1], unit[0], 0.0]))
 
 
-def arcball_nearest_axis(point: npt.ArrayLike, axes: Iterable[npt.ArrayLike]) -> Array:
+def arcball_nearest_axis(point: npt.ArrayLike, axes: Iterable[npt.ArrayLike]) -> Floats:
     """The axis whose circle is nearest to a place on the ball."""
     place = np.asarray(point, dtype=np.float64)
     return max(

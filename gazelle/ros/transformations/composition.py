@@ -7,12 +7,13 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.array_types import Floats
 from gazelle.ros.transformations.euler import euler_from_matrix, euler_matrix
 from gazelle.ros.transformations.quaternions import quaternion_matrix
-from gazelle.ros.transformations.vectors import EPS, Array
+from gazelle.ros.transformations.vectors import EPS
 
 
-def concatenate_matrices(*matrices: npt.ArrayLike) -> Array:
+def concatenate_matrices(*matrices: npt.ArrayLike) -> Floats:
     """The product of matrices: the last acts first."""
     result = np.identity(4)
     for matrix in matrices:
@@ -32,7 +33,7 @@ def compose_matrix(
     angles: npt.ArrayLike | None = None,
     translate: npt.ArrayLike | None = None,
     perspective: npt.ArrayLike | None = None,
-) -> Array:
+) -> Floats:
     """The matrix that scales, shears, turns, moves, and projects, in this order.
 
     Args:
@@ -60,7 +61,7 @@ def compose_matrix(
 
 def decompose_matrix(
     matrix: npt.ArrayLike,
-) -> tuple[Array, list[float], list[float], Array, Array]:
+) -> tuple[Floats, list[float], list[float], Floats, Floats]:
     """Scale, shear, angles, translation and perspective; see `compose_matrix`.
 
     Raises:
@@ -93,7 +94,7 @@ def decompose_matrix(
     return scale, shear, list(euler_from_matrix(turn)), affine[:3, 3].copy(), perspective
 
 
-def orthogonalization_matrix(lengths: npt.ArrayLike, angles: npt.ArrayLike) -> Array:
+def orthogonalization_matrix(lengths: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
     """The matrix from fractional coordinates of a crystal's cell to Cartesian ones.
 
     Args:
@@ -120,7 +121,7 @@ def superimposition_matrix(
     v1: npt.ArrayLike,
     scaling: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
     usesvd: bool = True,  # noqa: FBT001, FBT002
-) -> Array:
+) -> Floats:
     """The turn and move that bring points closest to others.
 
     Args:
@@ -149,14 +150,14 @@ def superimposition_matrix(
     return result
 
 
-def _kabsch(one: Array, two: Array) -> Array:
+def _kabsch(one: Floats, two: Floats) -> Floats:
     left, _, right = np.linalg.svd(two @ one.T)
     if np.linalg.det(left) * np.linalg.det(right) < 0.0:
         left[:, -1] *= -1.0
     return np.asarray(left @ right)
 
 
-def _horn(one: Array, two: Array) -> Array:
+def _horn(one: Floats, two: Floats) -> Floats:
     s = one @ two.T
     skew = np.array([s[1, 2] - s[2, 1], s[2, 0] - s[0, 2], s[0, 1] - s[1, 0]])
     form = np.empty((4, 4))  # in the order x, y, z, w

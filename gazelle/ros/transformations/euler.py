@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.array_types import Floats
 from gazelle.ros.transformations.quaternions import quaternion_matrix, quaternion_multiply
-from gazelle.ros.transformations.vectors import EPS, Array
+from gazelle.ros.transformations.vectors import EPS
 
 Axes = str | tuple[int, int, int, int]
 _LETTERS = "xyz"
@@ -52,12 +53,12 @@ def _kind(axes: Axes) -> tuple[tuple[int, int, int], bool, bool, bool]:
     return (first, second, third), bool(repetition), bool(parity), bool(frame)
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Array:
+def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
     """The rotation matrix of three turns."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Array:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
     """The quaternion of three turns."""
     order, _, _, reverse = _kind(axes)
     angles = (ak, aj, ai) if reverse else (ai, aj, ak)

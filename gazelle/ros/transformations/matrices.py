@@ -12,40 +12,41 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.ros.transformations.vectors import Array, eigenvector, fixed_point, unit_vector
+from gazelle.array_types import Floats
+from gazelle.ros.transformations.vectors import eigenvector, fixed_point, unit_vector
 
 
-def _three(values: npt.ArrayLike) -> Array:
+def _three(values: npt.ArrayLike) -> Floats:
     return np.asarray(values, dtype=np.float64)[:3]
 
 
-def _four_by_four(matrix: npt.ArrayLike) -> Array:
+def _four_by_four(matrix: npt.ArrayLike) -> Floats:
     return np.asarray(matrix, dtype=np.float64)
 
 
-def identity_matrix() -> Array:
+def identity_matrix() -> Floats:
     """The matrix that changes nothing."""
     return np.identity(4)
 
 
-def inverse_matrix(matrix: npt.ArrayLike) -> Array:
+def inverse_matrix(matrix: npt.ArrayLike) -> Floats:
     """The matrix that undoes another."""
     return np.asarray(np.linalg.inv(_four_by_four(matrix)), dtype=np.float64)
 
 
-def translation_matrix(direction: npt.ArrayLike) -> Array:
+def translation_matrix(direction: npt.ArrayLike) -> Floats:
     """The matrix that moves by a vector."""
     result = np.identity(4)
     result[:3, 3] = _three(direction)
     return result
 
 
-def translation_from_matrix(matrix: npt.ArrayLike) -> Array:
+def translation_from_matrix(matrix: npt.ArrayLike) -> Floats:
     """The vector a matrix moves by, shape (3,)."""
     return _four_by_four(matrix)[:3, 3].copy()
 
 
-def reflection_matrix(point: npt.ArrayLike, normal: npt.ArrayLike) -> Array:
+def reflection_matrix(point: npt.ArrayLike, normal: npt.ArrayLike) -> Floats:
     """The matrix that mirrors at a plane, given by a point in it and its normal."""
     unit = unit_vector(_three(normal))
     result = np.identity(4)
@@ -54,7 +55,7 @@ def reflection_matrix(point: npt.ArrayLike, normal: npt.ArrayLike) -> Array:
     return result
 
 
-def reflection_from_matrix(matrix: npt.ArrayLike) -> tuple[Array, Array]:
+def reflection_from_matrix(matrix: npt.ArrayLike) -> tuple[Floats, Floats]:
     """Point (homogeneous) and normal of the plane a matrix mirrors at.
 
     Raises:
@@ -69,7 +70,7 @@ def reflection_from_matrix(matrix: npt.ArrayLike) -> tuple[Array, Array]:
 
 def rotation_matrix(
     angle: float, direction: npt.ArrayLike, point: npt.ArrayLike | None = None
-) -> Array:
+) -> Floats:
     """The matrix that turns about an axis.
 
     Args:
@@ -89,7 +90,7 @@ def rotation_matrix(
     return result
 
 
-def rotation_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Array, Array]:
+def rotation_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats]:
     """Angle [rad], direction and a point (homogeneous) of the axis a matrix turns about.
 
     Raises:
@@ -109,7 +110,7 @@ def rotation_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Array, Array]:
 
 def scale_matrix(
     factor: float, origin: npt.ArrayLike | None = None, direction: npt.ArrayLike | None = None
-) -> Array:
+) -> Floats:
     """The matrix that scales.
 
     Args:
@@ -129,7 +130,7 @@ def scale_matrix(
     return result
 
 
-def scale_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Array, Array | None]:
+def scale_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats | None]:
     """Factor, origin (homogeneous) and direction (None if alike in all) of a scaling.
 
     Raises:

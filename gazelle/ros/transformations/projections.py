@@ -12,7 +12,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.ros.transformations.vectors import EPS, Array, eigenvector, fixed_point, unit_vector
+from gazelle.array_types import Floats
+from gazelle.ros.transformations.vectors import EPS, eigenvector, fixed_point, unit_vector
 
 
 def projection_matrix(
@@ -21,7 +22,7 @@ def projection_matrix(
     direction: npt.ArrayLike | None = None,
     perspective: npt.ArrayLike | None = None,
     pseudo: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
-) -> Array:
+) -> Floats:
     """The matrix that projects onto a plane.
 
     Args:
@@ -53,7 +54,7 @@ def projection_matrix(
 def projection_from_matrix(
     matrix: npt.ArrayLike,
     pseudo: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
-) -> tuple[Array, Array, Array | None, Array | None, bool]:
+) -> tuple[Floats, Floats, Floats | None, Floats | None, bool]:
     """What made a projection: see the arguments of `projection_matrix`.
 
     Raises:
@@ -75,7 +76,7 @@ def projection_from_matrix(
     return point, normal, None, perspective, pseudo
 
 
-def _parallel_from(m: Array) -> tuple[Array, Array, Array | None, Array | None, bool]:
+def _parallel_from(m: Floats) -> tuple[Floats, Floats, Floats | None, Floats | None, bool]:
     directions = eigenvector(m[:3, :3], 0.0)
     if not directions:
         raise ValueError("no eigenvector corresponding to eigenvalue 0")
@@ -92,7 +93,7 @@ def clip_matrix(
     near: float,
     far: float,
     perspective: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
-) -> Array:
+) -> Floats:
     """The matrix that takes a box, or a frustum, to the cube from -1 to 1.
 
     Raises:
@@ -125,7 +126,7 @@ def clip_matrix(
 
 def shear_matrix(
     angle: float, direction: npt.ArrayLike, point: npt.ArrayLike, normal: npt.ArrayLike
-) -> Array:
+) -> Floats:
     """The matrix that shears along a plane.
 
     Args:
@@ -149,7 +150,7 @@ def shear_matrix(
     return result
 
 
-def shear_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Array, Array, Array]:
+def shear_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats, Floats]:
     """Angle [rad], direction, point (homogeneous) and normal of a shear.
 
     Raises:

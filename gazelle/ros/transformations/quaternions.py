@@ -7,10 +7,11 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.ros.transformations.vectors import EPS, Array
+from gazelle.array_types import Floats
+from gazelle.ros.transformations.vectors import EPS
 
 
-def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Array:
+def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Floats:
     """The turn by an angle about an axis of any length."""
     direction = np.asarray(axis, dtype=np.float64)[:3]
     length = math.sqrt(float(direction @ direction))
@@ -21,7 +22,7 @@ def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Array:
     return result
 
 
-def quaternion_matrix(quaternion: npt.ArrayLike) -> Array:
+def quaternion_matrix(quaternion: npt.ArrayLike) -> Floats:
     """The rotation matrix of a quaternion of any norm; of one near 0, the identity."""
     x, y, z, w = np.asarray(quaternion, dtype=np.float64)[:4].tolist()
     norm = x * x + y * y + z * z + w * w
@@ -38,7 +39,7 @@ def quaternion_matrix(quaternion: npt.ArrayLike) -> Array:
     )
 
 
-def quaternion_from_matrix(matrix: npt.ArrayLike) -> Array:
+def quaternion_from_matrix(matrix: npt.ArrayLike) -> Floats:
     """The unit quaternion of a rotation matrix, its decisive part positive.
 
     Source: Shepperd, Quaternion from rotation matrix, 1978.
@@ -59,7 +60,7 @@ def quaternion_from_matrix(matrix: npt.ArrayLike) -> Array:
     return q * (0.5 / math.sqrt(square * scale))
 
 
-def quaternion_multiply(quaternion1: npt.ArrayLike, quaternion0: npt.ArrayLike) -> Array:
+def quaternion_multiply(quaternion1: npt.ArrayLike, quaternion0: npt.ArrayLike) -> Floats:
     """The Hamilton product: the turn `quaternion0`, followed by `quaternion1`."""
     ax, ay, az, aw = np.asarray(quaternion1, dtype=np.float64)[:4].tolist()
     bx, by, bz, bw = np.asarray(quaternion0, dtype=np.float64)[:4].tolist()
@@ -73,12 +74,12 @@ def quaternion_multiply(quaternion1: npt.ArrayLike, quaternion0: npt.ArrayLike) 
     )
 
 
-def quaternion_conjugate(quaternion: npt.ArrayLike) -> Array:
+def quaternion_conjugate(quaternion: npt.ArrayLike) -> Floats:
     """The quaternion with its vector part turned round."""
     return np.asarray(quaternion, dtype=np.float64)[:4] * (-1.0, -1.0, -1.0, 1.0)
 
 
-def quaternion_inverse(quaternion: npt.ArrayLike) -> Array:
+def quaternion_inverse(quaternion: npt.ArrayLike) -> Floats:
     """What multiplies with the quaternion to the identity."""
     q = np.asarray(quaternion, dtype=np.float64)
     return np.asarray(quaternion_conjugate(q) / (q @ q))
@@ -90,7 +91,7 @@ def quaternion_slerp(
     fraction: float,
     spin: int = 0,
     shortestpath: bool = True,  # noqa: FBT001, FBT002  # callers pass it by position
-) -> Array:
+) -> Floats:
     """The rotation a part of the way from one to another.
 
     Args:
@@ -120,7 +121,7 @@ def quaternion_slerp(
     return np.asarray((start * one + end * two) / math.sin(angle))
 
 
-def random_quaternion(rand: npt.ArrayLike | None = None) -> Array:
+def random_quaternion(rand: npt.ArrayLike | None = None) -> Floats:
     """A rotation, all equally likely.
 
     Args:
@@ -141,6 +142,6 @@ def random_quaternion(rand: npt.ArrayLike | None = None) -> Array:
     )
 
 
-def random_rotation_matrix(rand: npt.ArrayLike | None = None) -> Array:
+def random_rotation_matrix(rand: npt.ArrayLike | None = None) -> Floats:
     """A rotation matrix; see `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))

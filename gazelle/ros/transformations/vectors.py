@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from gazelle.array_types import Floats
 
 EPS = 4.0 * float(np.finfo(np.float64).eps)
 """What counts as zero where a formula divides."""
 
 
-def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Array | None = None) -> Any:
+def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Floats | None = None) -> Any:
     """The length of vectors: of all of `data` as one, or along an axis.
 
     Args:
@@ -30,7 +30,7 @@ def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Array | None 
     return float(roots[0]) if axis is None or values.ndim == 1 else roots
 
 
-def unit_vector(data: npt.ArrayLike, axis: int | None = None, out: Array | None = None) -> Any:
+def unit_vector(data: npt.ArrayLike, axis: int | None = None, out: Floats | None = None) -> Any:
     """The vectors scaled to length 1; see `vector_norm`. A vector of length 0 gives NaN."""
     values = np.asarray(data, dtype=np.float64)
     norm = np.sqrt(np.sum(values * values, axis=axis, keepdims=axis is not None))
@@ -42,7 +42,7 @@ def unit_vector(data: npt.ArrayLike, axis: int | None = None, out: Array | None 
     return scaled
 
 
-def random_vector(size: Any) -> Array:
+def random_vector(size: Any) -> Floats:
     """Numbers between 0 and 1.
 
     Args:
@@ -51,14 +51,14 @@ def random_vector(size: Any) -> Array:
     return np.asarray(np.random.default_rng().random(size), dtype=np.float64)
 
 
-def eigenvector(matrix: Array, value: float, tolerance: float = 1e-8) -> list[Array]:
+def eigenvector(matrix: Floats, value: float, tolerance: float = 1e-8) -> list[Floats]:
     """Real unit eigenvectors of an eigenvalue, as many as numpy finds."""
     values, vectors = np.linalg.eig(matrix)
     found = np.flatnonzero(np.abs(np.real(values) - value) < tolerance)
     return [np.real(vectors[:, index]).squeeze() for index in found]
 
 
-def fixed_point(matrix: Array) -> Array:
+def fixed_point(matrix: Floats) -> Floats:
     """A point that a transformation leaves where it is, homogeneous, shape (4,).
 
     Raises:

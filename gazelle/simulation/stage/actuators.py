@@ -6,16 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.layout import Rider, StageRobot
 
 if TYPE_CHECKING:
     from gazelle.simulation.stage.simulation import StageSimulation
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class Actuator:

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import StageBumper, StageModel, StagePose
 from gazelle.simulation.stage.finders import Surroundings
 from gazelle.simulation.stage.sight import Outlines
-
-Floats = NDArray[np.float64]
 
 
 def find_bumps(around: Surroundings, robot: int, which: int, world: int) -> tuple[str | None, ...]:

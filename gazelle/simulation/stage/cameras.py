@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
 from gazelle.engines.planar.pictures import Lens, Painter, Pictures, View
 from gazelle.errors import SimulationError
@@ -17,8 +17,6 @@ from gazelle.simulation.stage.scenery import scenery_of
 
 if TYPE_CHECKING:
     from gazelle.simulation.stage.senses import Senses
-
-Worlds = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)

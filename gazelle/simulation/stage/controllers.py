@@ -10,8 +10,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.native import Call
 from gazelle.engines.planar.kernels_clock import tally
 from gazelle.engines.planar.kernels_wander import FEW, wander
@@ -23,7 +23,6 @@ from gazelle.streams import Stream
 if TYPE_CHECKING:
     from gazelle.simulation.stage.simulation import StageSimulation
 
-Floats = NDArray[np.float64]
 
 CRUISE = 0.4  # [m/s]
 CREEP = 0.05  # [m/s]

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gazelle.array_types import Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.actuators import Actuator, actuators_of
 from gazelle.simulation.stage.grippers import Gripper, grippers_of
@@ -15,7 +13,6 @@ from gazelle.simulation.stage.layout import StageRobot
 if TYPE_CHECKING:
     from gazelle.simulation.stage.simulation import StageSimulation
 
-Worlds = NDArray[np.intp]
 Device = TypeVar("Device", Actuator, Gripper)
 
 

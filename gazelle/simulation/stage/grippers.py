@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageGripper, StageModel, StagePose
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.bumpers import gaps_to
@@ -22,8 +22,6 @@ from gazelle.simulation.stage.sight import Outlines, outlines_of
 if TYPE_CHECKING:
     from gazelle.simulation.stage.simulation import StageSimulation
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 Command = Literal["open", "close", "up", "down"]
 
 COMMANDS: tuple[Command, ...] = ("open", "close", "up", "down")

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.native import Call
 from gazelle.engines.planar.kernels_odometry import reckon
 from gazelle.simulation.stage.layout import StageRobot
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 _WIDTHS = (0.03, 0.03, 0.05)
 """Between the least and the greatest share of x, y and yaw that Stage 4.3 draws."""

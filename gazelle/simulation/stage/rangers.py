@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.native import Call
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.layout import Layout
 from gazelle.simulation.stage.scans import Eyes, RangeNoise
-
-Floats = NDArray[np.float64]
 
 
 class Rangers:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.streams import Stream
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(slots=True)

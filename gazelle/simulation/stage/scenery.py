@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import (
     Color,
     PlacedStageModel,
@@ -21,8 +21,6 @@ from gazelle.engines.planar.kernels_picture import FACE
 from gazelle.engines.planar.pictures import Rgb, Scenery, plates, prism, walls_between
 from gazelle.formats.terrain import rectangles
 from gazelle.simulation.stage.walls import bitmap_lines, blocks_of
-
-Floats = NDArray[np.float64]
 
 _STILL = -1
 """Owner of all faces that are on no robot."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.pictures import Pictures
@@ -26,9 +26,6 @@ from gazelle.simulation.stage.finders import (
 )
 from gazelle.simulation.stage.grippers import Gripper
 from gazelle.simulation.stage.layout import StageRobot
-
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 
 
 class Senses(ABC):

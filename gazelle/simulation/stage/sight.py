@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
 from gazelle.engines.planar.shapes import Part
 from gazelle.simulation.stage.walls import bitmap_lines, blocks_of
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

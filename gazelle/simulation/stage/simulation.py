@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageWorld, World
 from gazelle.engines.native import Call, Tape
 from gazelle.engines.planar.fleet import Fleet
@@ -28,8 +29,6 @@ from gazelle.simulation.stage.senses import Senses
 from gazelle.simulation.stage.steering import Steering
 from gazelle.streams import seed_of
 
-Floats = NDArray[np.float64]
-Worlds = NDArray[np.intp]
 Listener = Callable[[], None]
 
 _PIECE = 16_384

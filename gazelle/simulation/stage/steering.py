@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.simulation.stage.layout import StageRobot
-
-Floats = NDArray[np.float64]
 
 
 class Steering:

@@ -8,12 +8,11 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StageBitmap, StagePose
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.shapes import Part, Raster, Table, primitives_of
 from gazelle.formats.terrain import rectangles
-
-Floats = NDArray[np.float64]
 
 _TOUCH = 1e-9
 """In Stage bodies meet, and sensors see, also at the very heights where bodies end [m]."""

@@ -15,7 +15,6 @@ from gazelle.simulation.values.commands import (
 )
 from gazelle.simulation.values.motion import (
     NO_VARIANCE,
-    Floats,
     JointStates,
     Odometry,
     SixNumbers,
@@ -50,7 +49,6 @@ __all__ = [
     "CliffValue",
     "Fix",
     "Flags",
-    "Floats",
     "GeoReference",
     "JointPath",
     "JointStates",

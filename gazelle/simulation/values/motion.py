@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from gazelle.array_types import Floats
 
-Floats = NDArray[np.float64]
 SixNumbers = tuple[float, float, float, float, float, float]
 
 NO_VARIANCE: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.engines import Contacts
 from gazelle.sensors import ImuReading
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

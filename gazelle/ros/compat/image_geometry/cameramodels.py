@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Matrix = NDArray[np.float64]
+from gazelle.array_types import Floats
 
 
-def _matrix(rows: int, columns: int, values: Sequence[float]) -> Matrix:
+def _matrix(rows: int, columns: int, values: Sequence[float]) -> Floats:
     return np.array(values, dtype=float).reshape(rows, columns)
 
 
@@ -32,12 +31,12 @@ class PinholeCameraModel:
     """
 
     def __init__(self) -> None:
-        self.K: Matrix | None = None
-        self.D: Matrix | None = None
-        self.R: Matrix | None = None
-        self.P: Matrix = np.zeros((3, 4))
-        self.full_K: Matrix | None = None
-        self.full_P: Matrix = np.zeros((3, 4))
+        self.K: Floats | None = None
+        self.D: Floats | None = None
+        self.R: Floats | None = None
+        self.P: Floats = np.zeros((3, 4))
+        self.full_K: Floats | None = None
+        self.full_P: Floats = np.zeros((3, 4))
         self.width = self.height = 0
         self.binning_x = self.binning_y = 1
         self.raw_roi: Any = None
@@ -55,7 +54,7 @@ class PinholeCameraModel:
         self.tf_frame, self.stamp = msg.header.frame_id, msg.header.stamp
         self.K, self.P = self._visible(self.full_K), self._visible(self.full_P)
 
-    def _visible(self, full: Matrix) -> Matrix:
+    def _visible(self, full: Floats) -> Floats:
         """A matrix for the part of the image that is sent, and its binning."""
         seen = full.copy()
         seen[0, 2] -= self.raw_roi.x_offset
@@ -96,27 +95,27 @@ class PinholeCameraModel:
         """Width and height of the whole image [px]."""
         return self.width, self.height
 
-    def intrinsicMatrix(self) -> Matrix | None:
+    def intrinsicMatrix(self) -> Floats | None:
         """`K`."""
         return self.K
 
-    def distortionCoeffs(self) -> Matrix | None:
+    def distortionCoeffs(self) -> Floats | None:
         """`D`."""
         return self.D
 
-    def rotationMatrix(self) -> Matrix | None:
+    def rotationMatrix(self) -> Floats | None:
         """`R`."""
         return self.R
 
-    def projectionMatrix(self) -> Matrix:
+    def projectionMatrix(self) -> Floats:
         """`P`."""
         return self.P
 
-    def fullIntrinsicMatrix(self) -> Matrix | None:
+    def fullIntrinsicMatrix(self) -> Floats | None:
         """`K` for the whole image."""
         return self.full_K
 
-    def fullProjectionMatrix(self) -> Matrix:
+    def fullProjectionMatrix(self) -> Floats:
         """`P` for the whole image."""
         return self.full_P
 

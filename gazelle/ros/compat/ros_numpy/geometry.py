@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gazelle.array_types import Floats
 from gazelle.ros.compat.ros_numpy.registry import converts_from_numpy, converts_to_numpy
 from gazelle.ros.messages import load_message
 from gazelle.ros.transformations import quaternion_from_matrix, quaternion_matrix
 
-Array = NDArray[np.float64]
 _VECTORS = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point32")
 
 
-def _triple(message: Any, hom: bool = False) -> Array:  # noqa: FBT001, FBT002  # ros_numpy's interface
+def _triple(message: Any, hom: bool = False) -> Floats:  # noqa: FBT001, FBT002  # ros_numpy's interface
     """x, y and z; with `hom` a 1 behind a point's and a 0 behind a vector's."""
     last = [] if not hom else [0.0 if message._type.endswith("Vector3") else 1.0]
     return np.array([message.x, message.y, message.z, *last])
@@ -40,7 +40,7 @@ for _name in _VECTORS:
 
 
 @converts_to_numpy("geometry_msgs/Quaternion")
-def quat_to_numpy(msg: Any) -> Array:
+def quat_to_numpy(msg: Any) -> Floats:
     """x, y, z and w."""
     return np.array([msg.x, msg.y, msg.z, msg.w])
 
@@ -51,8 +51,8 @@ def numpy_to_quat(array: ArrayLike) -> Any:
     return load_message("geometry_msgs/Quaternion")(*np.asarray(array, dtype=float).tolist())
 
 
-def _matrix(place: Any, turn: Any) -> Array:
-    matrix: Array = quaternion_matrix((turn.x, turn.y, turn.z, turn.w))
+def _matrix(place: Any, turn: Any) -> Floats:
+    matrix: Floats = quaternion_matrix((turn.x, turn.y, turn.z, turn.w))
     matrix[:3, 3] = place.x, place.y, place.z
     return matrix
 
@@ -64,7 +64,7 @@ def _put(place: Any, turn: Any, array: ArrayLike) -> None:
 
 
 @converts_to_numpy("geometry_msgs/Transform")
-def transform_to_numpy(msg: Any) -> Array:
+def transform_to_numpy(msg: Any) -> Floats:
     """The 4x4 matrix."""
     return _matrix(msg.translation, msg.rotation)
 
@@ -78,7 +78,7 @@ def numpy_to_transform(array: ArrayLike) -> Any:
 
 
 @converts_to_numpy("geometry_msgs/Pose")
-def pose_to_numpy(msg: Any) -> Array:
+def pose_to_numpy(msg: Any) -> Floats:
     """The 4x4 matrix."""
     return _matrix(msg.position, msg.orientation)
 

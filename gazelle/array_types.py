@@ -1,0 +1,23 @@
+"""Names for arrays by what they hold, for annotations; shapes are in the docstrings."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Floats32 = NDArray[np.float32]
+Bools = NDArray[np.bool_]
+Bytes = NDArray[np.uint8]
+Ints32 = NDArray[np.int32]
+Ints64 = NDArray[np.int64]
+UInts64 = NDArray[np.uint64]
+
+Indices = NDArray[np.intp]
+"""Places in another array."""
+
+Worlds = NDArray[np.intp]
+"""Indices of worlds in a batch, shape (n,)."""
+
+Picture = NDArray[np.uint8]
+"""Red, green and blue of pixels, shape (height, width, 3)."""
