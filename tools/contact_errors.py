@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -20,18 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from gazelle import assets
-from gazelle.description import (
-    Box,
-    Collision,
-    Inertia,
-    Inertial,
-    Joint,
-    JointAxis,
-    Link,
-    Model,
-    Pose,
-    World,
-)
+from gazelle.description import Model, Pose, World
 from gazelle.engines import make_engine
 from gazelle.engines.engine import Engine
 from gazelle.engines.laws import with_profile
@@ -39,6 +28,7 @@ from gazelle.formats import load
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 import scenes
+from grips import gripper
 
 STEPS = (0.0005, 0.001, 0.002, 0.004, 0.005, 0.02)
 G = 9.8
@@ -97,7 +87,8 @@ def rolling(step: float) -> Result:
 
 def gripping(step: float, contacts: str | None = None) -> Result:
     """Half a kilogram between two fingers, mu 0.8, held with a margin of two."""
-    engine = engine_of(*gripper(), step=step, contacts=contacts)
+    thing = scenes.box("thing", (0.05, 0.05, 0.05), mass=0.5, mu=0.8, pose=Pose(z=0.5))
+    engine = engine_of(gripper(), thing, step=step, contacts=contacts)
     for side in ("left", "right"):
         engine.set_joint_effort(f"g::{side}_joint", 0.5 * G / 0.8)
     return creep(engine, ["thing"])
@@ -130,24 +121,6 @@ def creep(engine: Engine, names: list[str]) -> Result:
     after = [engine.model_placement(name).position[0] for name in names]
     worst = max(float(np.linalg.norm(a - b)) for a, b in zip(after, before, strict=True))
     return f"{6000.0 * worst:.3f} mm a minute", cost
-
-
-def gripper() -> Iterator[Model]:
-    """Two fingers on slides, and a box between them."""
-
-    def finger(name: str, y: float) -> Link:
-        shape = Collision("c", Box((0.06, 0.02, 0.06)), surface=scenes.rubber(0.8))
-        inertial = Inertial(0.1, inertia=Inertia(1e-4, 1e-4, 1e-4))
-        return Link(name, pose=Pose(y=y, z=0.5), inertial=inertial, collisions=(shape,))
-
-    base = Link("base", pose=Pose(z=1.0), inertial=Inertial())
-    joints = (
-        Joint("hold", "fixed", "world", "base"),
-        Joint("left_joint", "prismatic", "base", "left", axes=(JointAxis((0.0, 1.0, 0.0)),)),
-        Joint("right_joint", "prismatic", "base", "right", axes=(JointAxis((0.0, -1.0, 0.0)),)),
-    )
-    yield Model("g", links=(base, finger("left", -0.035), finger("right", 0.035)), joints=joints)
-    yield scenes.box("thing", (0.05, 0.05, 0.05), mass=0.5, mu=0.8, pose=Pose(z=0.5))
 
 
 def driving(

@@ -24,6 +24,7 @@ from gazelle.engines.mujoco.laws.numbers import (
     MARK,
     NO_DIRECTION,
 )
+from gazelle.engines.mujoco.laws.rolling import hold_loosely
 from gazelle.engines.mujoco.laws.sliding import stay_down
 from gazelle.engines.mujoco.laws.treads import stand_in_the_middle
 from gazelle.engines.native import floats, integers, long_at, part, whole
@@ -95,6 +96,7 @@ def _correct(model: int, data: int, contact: int, row: int) -> None:
     if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
         _bounce(model, data, contact, row)
     if head[6] > 0.0:
+        hold_loosely(model, data, contact, row)
         stay_down(model, data, contact, row, head[1])
 
 

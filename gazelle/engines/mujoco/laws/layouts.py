@@ -46,6 +46,7 @@ class Offsets(NamedTuple):
     kind: int
     owner: int
     softness: int
+    stiffness: int
     frictionloss: int
     userdata: int
     bias: int
@@ -67,6 +68,7 @@ class Offsets(NamedTuple):
     geom_xpos: int
     xaxis: int
     cdof: int
+    cvel: int
     terms: int
     contact_size: int
     contact_dist: int
@@ -74,6 +76,7 @@ class Offsets(NamedTuple):
     contact_margin: int
     contact_pos: int
     contact_friction: int
+    contact_mu: int
     contact_solref: int
     contact_solreffriction: int
     contact_dim: int
@@ -86,6 +89,7 @@ class Offsets(NamedTuple):
     model_timestep: int
     model_gravity: int
     model_cone: int
+    model_impratio: int
     model_bodyid: int
     model_rootid: int
     model_parentid: int
@@ -122,6 +126,7 @@ def offsets() -> Offsets:
         kind=data.efc_type.offset,
         owner=data.efc_id.offset,
         softness=data.efc_R.offset,
+        stiffness=data.efc_D.offset,
         frictionloss=data.efc_frictionloss.offset,
         userdata=data.userdata.offset,
         bias=data.qfrc_bias.offset,
@@ -143,6 +148,7 @@ def offsets() -> Offsets:
         geom_xpos=data.geom_xpos.offset,
         xaxis=data.xaxis.offset,
         cdof=data.cdof.offset,
+        cvel=data.cvel.offset,
         terms=data.efc_KBIP.offset,
         contact_size=ctypes.sizeof(contact),
         contact_dist=contact.dist.offset,
@@ -150,6 +156,7 @@ def offsets() -> Offsets:
         contact_margin=contact.includemargin.offset,
         contact_pos=contact.pos.offset,
         contact_friction=contact.friction.offset,
+        contact_mu=contact.mu.offset,
         contact_solref=contact.solref.offset,
         contact_solreffriction=contact.solreffriction.offset,
         contact_dim=contact.dim.offset,
@@ -162,6 +169,7 @@ def offsets() -> Offsets:
         model_timestep=model.opt.offset + option.timestep.offset,
         model_gravity=model.opt.offset + option.gravity.offset,
         model_cone=model.opt.offset + option.cone.offset,
+        model_impratio=model.opt.offset + option.impratio.offset,
         model_bodyid=model.geom_bodyid.offset,
         model_rootid=model.body_rootid.offset,
         model_parentid=model.body_parentid.offset,
@@ -239,6 +247,8 @@ def _verify(found: Offsets) -> None:
         (there + found.kind, data.efc_type),
         (there + found.owner, data.efc_id),
         (there + found.softness, data.efc_R),
+        (there + found.stiffness, data.efc_D),
+        (there + found.cvel, data.cvel),
         (there + found.frictionloss, data.efc_frictionloss),
         (there + found.userdata, data.userdata),
         (there + found.bias, data.qfrc_bias),

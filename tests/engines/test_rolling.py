@@ -1,0 +1,100 @@
+"""What rolls is held with less effort, and what lies is held as fast as ever."""
+
+import math
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+import scenes
+from grips import MARGIN_OF_TWO, SHAPES, creep, gripper
+
+from gazelle import assets
+from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Pose
+from gazelle.engines import make_engine
+from gazelle.engines.laws import with_profile
+from gazelle.formats import load
+
+ROBOTS = ("turtlebot3_burger", "turtlebot3_waffle", "courier")
+
+
+def driven(name, step, left, right, slope=0.0):
+    """A robot on a cone that has driven for a second, and what its model is called."""
+    robot = load(assets.robot(name)).models[0]
+    gravity = (-9.8 * math.sin(slope), 0.0, -9.8 * math.cos(slope))
+    world = scenes.world(scenes.ground(), robot, step=step, gravity=gravity)
+    engine = make_engine("mujoco", with_profile(world, replace(world.profile, contacts="exact")))
+    for side, speed in (("left", left), ("right", right)):
+        (joint,) = (each for each in engine.joint_names if "wheel" in each and side in each)
+        engine.add_motor(joint, 10.0)
+        engine.set_motor_velocity(joint, speed)
+    engine.step(round(1.0 / step))
+    return engine, robot.name
+
+
+@pytest.mark.parametrize("speeds", [(6.0, 6.0), (6.0, 4.0), (-3.0, 3.0)])
+@pytest.mark.parametrize("step", [0.001, 0.005, 0.02])
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_the_solver_finds_the_forces_below_a_robot_that_drives_at_once(robot, step, speeds):
+    engine, _ = driven(robot, step, *speeds)
+    model, data = engine._batch.model, engine._batch.get_data(0)
+    searched, steps = 0, 200
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+        searched += sum(each.neval for each in data.solver[: int(data.solver_niter[0])])
+    assert searched / steps < 12.0  # a wheel that pulls against another takes 40 to 150
+
+
+@pytest.mark.parametrize("robot", ["turtlebot3_burger", "turtlebot3_waffle"])
+def test_the_wheels_of_a_robot_that_drives_do_not_pull_against_each_other(robot):
+    engine, name = driven(robot, 0.001, 6.0, 4.0)
+    model, data = engine._batch.model, engine._batch.get_data(0)
+    mujoco.mj_step(model, data)
+    x, y, z, w = engine.model_placement(name).quaternion[0]
+    yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    aside, force, found = np.array([-math.sin(yaw), math.cos(yaw), 0.0]), np.zeros(6), []
+    for index, contact in enumerate(data.contact):
+        if "wheel" in model.geom(contact.geom2).name:
+            mujoco.mj_contactForce(model, data, index, force)
+            found.append(aside @ (contact.frame.reshape(3, 3).T @ force[:3]))
+    # Friction could be 0.5 N on each.
+    assert len(found) >= 2
+    assert np.abs(found).sum() - abs(sum(found)) < 0.05
+
+
+@pytest.mark.parametrize("step", [0.001, 0.005])
+@pytest.mark.parametrize("robot", ["turtlebot3_burger", "courier"])
+def test_a_robot_that_has_stopped_stays(robot, step):
+    engine, name = driven(robot, step, 3.0, 3.0, slope=0.05)
+    for joint in engine.joint_names:
+        if "wheel" in joint:
+            engine.set_motor_velocity(joint, 0.0)
+    engine.step(round(1.0 / step))
+    assert creep(engine, name, 5.0) < 0.005
+
+
+@pytest.mark.parametrize("step", [0.001, 0.005])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_is_gripped_stays_in_a_hand_that_turns(shape, step):
+    """Both turn: nothing rolls."""
+    hand = gripper()
+    post = Link("post", inertial=Inertial(1.0, inertia=Inertia(0.01, 0.01, 0.01)))
+    turning = Joint("turn", "revolute", "post", "base", axes=(JointAxis((0.0, 0.0, 1.0)),))
+    stand = Joint("stand", "fixed", "world", "post")
+    hand = replace(hand, links=(post, *hand.links), joints=(stand, turning, *hand.joints[1:]))
+    moment = 0.4 * 0.5 * 0.025**2
+    thing = scenes.solid("thing", SHAPES[shape], mass=0.5, moments=(moment,) * 3, mu=0.8)
+    thing = replace(thing, pose=Pose(z=0.5))
+    engine = make_engine("mujoco", scenes.world(hand, thing, step=step))
+    for side in ("left", "right"):
+        engine.set_joint_effort(f"g::{side}_joint", 1.5 * MARGIN_OF_TWO)
+    engine.step(round(0.5 / step))
+    engine.add_motor("g::turn", 100.0)
+    engine.set_motor_velocity("g::turn", 1.0)
+    engine.step(round(1.0 / step))
+    before = engine.model_placement("thing").position[0].copy()
+    engine.step(round(2.0 * math.pi / step))
+    after = engine.model_placement("thing").position[0]
+    assert abs(after[2] - before[2]) < 1e-5
+    # A whole turn is not quite a number of steps.
+    assert abs(np.linalg.norm(after[:2]) - np.linalg.norm(before[:2])) < 1e-4
