@@ -8,12 +8,11 @@ function to be called as ``make_engine`` is, less the name. A program adds its o
 
 from __future__ import annotations
 
-import functools
-from importlib.metadata import EntryPoint, entry_points
 from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines.engine import Engine
+from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import EngineError, did_you_mean
 
 _GROUP = "gazelle.engines"
@@ -38,7 +37,7 @@ def register(name: str, factory: EngineFactory) -> None:
 
 def names() -> tuple[str, ...]:
     """All engines that can be had."""
-    return tuple(sorted({*_BUILT_IN, *_registered, *_entry_points()}))
+    return tuple(sorted({*_BUILT_IN, *_registered, *entry_points_of_others(_GROUP)}))
 
 
 def find(name: str) -> EngineFactory:
@@ -51,7 +50,7 @@ def find(name: str) -> EngineFactory:
         return _registered[name]
     if name in _BUILT_IN:
         return _BUILT_IN[name]
-    known = _entry_points()
+    known = entry_points_of_others(_GROUP)
     if name not in known:
         raise EngineError(f"there is no engine '{name}'", hint=did_you_mean(name, names()))
     try:
@@ -61,11 +60,6 @@ def find(name: str) -> EngineFactory:
             f"the engine '{name}' ({known[name].value}) cannot be loaded: {error}"
         ) from error
     return factory
-
-
-@functools.cache
-def _entry_points() -> dict[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=_GROUP)}
 
 
 def _mujoco(world: World, nworld: int, *, time_step: float | None, threads: int | None) -> Engine:

@@ -1,1 +1,1 @@
-"""What Gazebo's plugin libraries do, one module each; found by file name, see ``pyproject.toml``."""
+"""What Gazebo's plugin libraries do, one module each; ``table`` has them by file name."""

@@ -3,6 +3,7 @@
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.faults import Fault
 from gazelle.simulation.handles import JointHandle, LinkHandle
+from gazelle.simulation.known_plugins import KnownPlugin
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.plugin import (
@@ -31,6 +32,7 @@ __all__ = [
     "Input",
     "JointHandle",
     "JointStates",
+    "KnownPlugin",
     "LinkHandle",
     "ModelPlugin",
     "Odometry",

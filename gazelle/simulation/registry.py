@@ -1,21 +1,21 @@
 """Find a plugin's code by the file name that a description gives.
 
-Gazelle's own and other packages' plugins are entry points of the group ``gazelle.plugins``,
-named like the library without ``lib`` and ``.so``: ``libgazebo_ros_diff_drive.so`` is found as
-``gazebo_ros_diff_drive``. A program can add its own with ``register``, and a file can name a
-Python class itself: ``filename="package.module:Class"``.
+``libgazebo_ros_diff_drive.so`` is looked for as ``gazebo_ros_diff_drive``: among what a program gave
+to ``register``, then among the entry points of other packages in the group ``gazelle.plugins``, then
+in Gazelle's own table. A file can also name a Python class itself: ``filename="package.module:Class"``.
 """
 
 from __future__ import annotations
 
-import functools
 import importlib
 import warnings
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from typing import TypeVar, cast
 
 from gazelle import description
+from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
+from gazelle.simulation.known_plugins import known_plugins
 from gazelle.simulation.plugin import Plugin
 
 P = TypeVar("P", bound=type[Plugin])
@@ -32,12 +32,31 @@ def register(filename: str, plugin: P) -> P:
 
 
 def names() -> list[str]:
-    """All plugins that can be found, as descriptions name them."""
-    return sorted(f"lib{stem}.so" for stem in {*_registered, *_entry_points()})
+    """All plugins that are known, as descriptions name them; those too that are not simulated."""
+    stems = {*_registered, *entry_points_of_others(_GROUP), *known_plugins()}
+    return sorted(f"lib{stem}.so" for stem in stems)
+
+
+def purpose(filename: str) -> str:
+    """What the plugin of a file name is for, in a line; empty if it does not say, or is unknown.
+
+    Raises:
+        Exception: It is another package's, and cannot be imported; that may raise anything.
+    """
+    stem = _stem(filename)
+    if stem in _registered:
+        return _first_line(_registered[stem])
+    point = entry_points_of_others(_GROUP).get(stem)
+    if point is not None:
+        return _first_line(_load(point))
+    row = known_plugins().get(stem)
+    return row.purpose if row is not None else ""
 
 
 def find(plugin: description.Plugin) -> type[Plugin] | None:
-    """The class for a ``<plugin>``; None, with one warning a file name, if there is none.
+    """The class for a ``<plugin>``; None, with a warning where the world is without something.
+
+    A plugin that is not known is warned of once a file name.
 
     Raises:
         SimulationError: The file names a Python class that cannot be had.
@@ -47,17 +66,25 @@ def find(plugin: description.Plugin) -> type[Plugin] | None:
     stem = _stem(plugin.filename)
     if stem in _registered:
         return _registered[stem]
-    known = _entry_points()
-    if stem in known:
-        return _load(known[stem])
-    if stem not in _missing:
+    point = entry_points_of_others(_GROUP).get(stem)
+    if point is not None:
+        return _load(point)
+    row = known_plugins().get(stem)
+    if row is not None and row.code:
+        module, _, name = row.code.partition(":")
+        return cast("type[Plugin]", getattr(importlib.import_module(module), name))
+    if row is not None and row.missing:
+        _warn(plugin, f": {row.missing}")
+    elif row is None and stem not in _missing:
         _missing.add(stem)
-        text = (
-            f"plugin '{plugin.name}' ({plugin.filename}) is not supported and is left out; "
-            f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are"
-        )
-        warnings.warn(SimulationWarning(located(text, plugin.source)), stacklevel=3)
+        hint = f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are"
+        _warn(plugin, f" is not supported and is left out; {hint}")
     return None
+
+
+def _warn(plugin: description.Plugin, what: str) -> None:
+    text = f"plugin '{plugin.name}' ({plugin.filename}){what}"
+    warnings.warn(SimulationWarning(located(text, plugin.source)), stacklevel=4)
 
 
 def _nearest(filename: str) -> str:
@@ -105,9 +132,8 @@ def _load(point: EntryPoint) -> type[Plugin]:
     return loaded
 
 
-@functools.cache
-def _entry_points() -> dict[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=_GROUP)}
+def _first_line(plugin: type[Plugin]) -> str:
+    return (plugin.__doc__ or "").strip().partition("\n")[0]
 
 
 def _stem(filename: str) -> str:

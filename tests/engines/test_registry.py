@@ -62,14 +62,14 @@ def test_a_simulation_needs_nothing_but_the_protocol(relay):
 
 def test_an_engine_of_an_installed_package_is_its_entry_point(monkeypatch):
     point = EntryPoint("other", "gazelle.engines.mujoco:MujocoEngine", "gazelle.engines")
-    monkeypatch.setattr(registry, "_entry_points", lambda: {"other": point})
+    monkeypatch.setattr(registry, "entry_points_of_others", lambda _: {"other": point})
     assert "other" in engine_names()
     assert make_engine("other", scenes.world(scenes.ball())).nworld == 1
 
 
 def test_a_package_that_is_broken_and_a_name_that_is_not_there_are_errors(monkeypatch):
     point = EntryPoint("other", "gazelle_no_such_package:Engine", "gazelle.engines")
-    monkeypatch.setattr(registry, "_entry_points", lambda: {"other": point})
+    monkeypatch.setattr(registry, "entry_points_of_others", lambda _: {"other": point})
     with pytest.raises(EngineError, match=r"'other' \(gazelle_no_such_package:Engine\) cannot"):
         make_engine("other", scenes.world())
     with pytest.raises(EngineError, match=r"no engine 'mujico'.*did you mean 'mujoco'"):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from models import base, block, plugin, simulate
 
-from gazelle.errors import PluginWarning, SimulationWarning
+from gazelle.errors import PluginWarning
 from gazelle.plugins.battery import LinearBattery
 
 
@@ -174,18 +174,3 @@ def test_gazebos_own_drives_take_sizes_from_the_model(tags):
         robot.inputs["cmd_vel"].send(angular=1.0)
         sim.run(seconds=1.0)
         assert robot.joints["joint1"].velocity == pytest.approx(2.0, rel=0.15)
-
-
-@pytest.mark.parametrize("filename", ["libgazebo_ros_projector.so"])
-def test_what_is_not_there_yet_says_so(filename):
-    with pytest.warns(SimulationWarning, match="pictures"):
-        simulate(block(plugin=plugin(filename)))
-
-
-@pytest.mark.parametrize(
-    "filename",
-    ["libgazebo_ros_template.so", "libgazebo_ros_api_plugin.so", "gz-sim-physics-system"],
-)
-def test_what_has_nothing_to_do_is_silent(filename, recwarn):
-    simulate(block(plugin=plugin(filename)), plugin(filename)).close()
-    assert [str(w.message) for w in recwarn if w.category is SimulationWarning] == []

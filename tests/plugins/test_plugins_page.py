@@ -4,28 +4,32 @@ import ast
 import importlib
 import inspect
 import re
-from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
 
+from gazelle.plugins.table import TABLE
+
 PAGE = Path(__file__).parents[2] / "docs" / "plugins.md"
 READING = {"get", "require", "numbers"}
+SIMULATED = [row for row in TABLE if row.code.startswith("gazelle.plugins.")]
 
 
 def rows():
-    """The rows of all tables: file names, and the text of the tags."""
+    """The rows of the tables of what is simulated: file names, what they do, their tags."""
     for line in PAGE.read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         files = re.findall(r"`lib([\w-]+)\.so`", cells[0])
         if files and len(cells) == 4:
-            yield set(files), cells[2]
+            yield tuple(files), cells[1], cells[2]
 
 
-def bundled():
-    """File names and classes that come with Gazelle's plugins."""
-    points = entry_points(group="gazelle.plugins")
-    return {p.name: p.value for p in points if p.value.startswith("gazelle.plugins.")}
+def written(row):
+    """A row of what is not simulated, as the page has it."""
+    files = "<br>".join(f"`lib{name}.so`" for name in row.files)
+    return f"| {files} | {row.what} | {row.missing or row.done_by} |".replace(
+        "<noise>", "`<noise>`"
+    )
 
 
 def tags_read(module):
@@ -53,17 +57,23 @@ def default_of(node):
     return value if isinstance(value, str) else f"{value:.10g}"
 
 
-def test_the_page_names_the_plugins_that_there_are():
-    named = [name for files, _ in rows() for name in files]
-    assert sorted(named) == sorted(bundled())
+def test_the_page_names_the_plugins_that_are_simulated_and_what_they_do():
+    assert [row[:2] for row in rows()] == [(row.files, row.what) for row in SIMULATED]
+    text = PAGE.read_text()
+    assert all(f"lib{name}.so" in text for row in TABLE for name in row.files)
 
 
-@pytest.mark.parametrize(
-    "module", sorted({value.partition(":")[0] for value in bundled().values()})
-)
+@pytest.mark.parametrize("kind", ["missing", "done_by"])
+def test_the_page_says_what_is_done_instead_of_the_others(kind):
+    expected = [written(row) for row in TABLE if getattr(row, kind)]
+    assert expected
+    assert "\n".join(expected) + "\n" in PAGE.read_text()
+
+
+@pytest.mark.parametrize("module", sorted({row.code.partition(":")[0] for row in SIMULATED}))
 def test_the_page_has_the_tags_of_a_module_with_their_defaults(module):
-    own = {name for name, value in bundled().items() if value.startswith(f"{module}:")}
-    text = " ".join(tags for files, tags in rows() if files & own)
+    own = {row.files for row in SIMULATED if row.code.startswith(f"{module}:")}
+    text = " ".join(tags for files, _, tags in rows() if files in own)
     for tag, default in tags_read(module):
         assert f"`{tag}`" in text or tag == "name", tag
         if default:

@@ -1,19 +1,21 @@
 """What packages and nodes are built in, and where others add theirs.
 
-A distribution adds a package with an entry point of the group ``gazelle.ros.nodes``: its name is the
-package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.
+Another distribution adds a package with an entry point of the group ``gazelle.ros.nodes``: its name is
+the package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.
 """
 
 from __future__ import annotations
 
 import functools
 import importlib
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import RosError
+from gazelle.ros.builtin import bundled
+from gazelle.ros.builtin.package import BuiltinPackage
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -22,23 +24,6 @@ GROUP = "gazelle.ros.nodes"
 
 Main = Callable[[Sequence[str]], int]
 """Runs a node until it ends: takes its command line without the program, returns an exit code."""
-
-
-@dataclass(frozen=True, slots=True)
-class BuiltinPackage:
-    """A ROS package that Gazelle stands in for where it is not installed."""
-
-    name: str
-    nodes: Mapping[str, str] = field(default_factory=dict)
-    """From the type of a node to ``module:function``, a `Main`."""
-    folder: Path | None = None
-    """What ``$(find PACKAGE)`` gives, if it has files."""
-    skipped: str | None = None
-    """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
-    preferred: frozenset[str] = frozenset()
-    """Node types run from here even where the installed package has a program for them."""
-    process_names: Mapping[str, str] = field(default_factory=dict)
-    """From the type of a node to what its process is called, where that is something else."""
 
 
 _SHARE = Path(__file__).parent / "share"
@@ -114,7 +99,7 @@ def register(package: BuiltinPackage) -> None:
 
 def packages() -> list[str]:
     """Names of all built-in packages."""
-    return sorted({*_OWN, *_registered, *_entry_points()})
+    return sorted({*_OWN, *bundled.folders(), *_registered, *entry_points_of_others(GROUP)})
 
 
 def package(name: str) -> BuiltinPackage | None:
@@ -125,11 +110,13 @@ def package(name: str) -> BuiltinPackage | None:
     """
     if name in _registered:
         return _registered[name]
-    point = _entry_points().get(name)
+    point = entry_points_of_others(GROUP).get(name)
     if point is not None:
         return _load(point)
     if name in _OWN:
         return _OWN[name]
+    if name in bundled.folders():
+        return bundled.package(name)
     if name.startswith(_WINDOWS):
         return BuiltinPackage(name, skipped=_NO_SCREEN)
     return None
@@ -158,13 +145,6 @@ def main_of(name: str, kind: str) -> Main:
     module, _, function = target.partition(":")
     main: Main = getattr(importlib.import_module(module), function)
     return main
-
-
-@functools.cache
-def _entry_points() -> dict[str, EntryPoint]:
-    from importlib.metadata import entry_points  # late, for it is slow
-
-    return {point.name: point for point in entry_points(group=GROUP)}
 
 
 @functools.cache

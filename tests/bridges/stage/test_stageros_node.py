@@ -9,7 +9,6 @@ import time
 import pytest
 from stage_samples import write
 
-from gazelle.bridges.stage.package import STAGE_ROS
 from gazelle.ros import Master, Node, WallClock, load_message
 from gazelle.ros.builtin import registry
 
@@ -61,8 +60,7 @@ def test_it_ends_at_the_files_quit_time(master, tmp_path):
         assert process.wait(15) == 0
 
 
-def test_launch_files_find_it(monkeypatch):
-    monkeypatch.setattr(registry, "_registered", {"stage_ros": STAGE_ROS})
+def test_launch_files_find_it():
     assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.bridges.stage.server"
 
 

@@ -1,0 +1,30 @@
+"""What other packages than Gazelle add to it by entry points.
+
+Gazelle's own parts are found through its rooms, so that a new one is there without installing
+again. Lists of them that an older installation left behind are passed over.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+_OWN = "gazelle"
+
+
+@functools.cache
+def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
+    """Entry points of a group by name, less those of Gazelle's own distribution.
+
+    Where two packages give one name, the first on ``sys.path`` has it.
+    """
+    from importlib.metadata import entry_points  # late, for it is slow to import
+
+    found: dict[str, EntryPoint] = {}
+    for point in entry_points(group=group):
+        if point.dist is None or point.dist.name != _OWN:
+            found.setdefault(point.name, point)
+    return found

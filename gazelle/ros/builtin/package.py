@@ -1,0 +1,24 @@
+"""What a ROS package is that Gazelle stands in for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltinPackage:
+    """A ROS package that Gazelle stands in for where it is not installed."""
+
+    name: str
+    nodes: Mapping[str, str] = field(default_factory=dict)
+    """From the type of a node to ``module:function``, a `Main`."""
+    folder: Path | None = None
+    """What ``$(find PACKAGE)`` gives, if it has files."""
+    skipped: str | None = None
+    """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
+    preferred: frozenset[str] = frozenset()
+    """Node types run from here even where the installed package has a program for them."""
+    process_names: Mapping[str, str] = field(default_factory=dict)
+    """From the type of a node to what its process is called, where that is something else."""

@@ -1,0 +1,49 @@
+"""The table of the plugin libraries that Gazelle knows: what a row says, and where the table is.
+
+The rows are in a room above, ``gazelle.plugins.table``, which is imported by its name when a
+description first has a plugin: this room runs plugins and knows none.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+_TABLE = "gazelle.plugins.table"
+
+
+@dataclass(frozen=True, slots=True)
+class KnownPlugin:
+    """A row: plugin libraries that do one thing, and what Gazelle has for them.
+
+    One of ``code``, ``missing`` and ``done_by`` is given.
+
+    Attributes:
+        files: Their names, without ``lib`` and ``.so``.
+        what: What they are for, in a few words.
+        code: The class that does it, as ``package.module:Class``.
+        missing: What a world is without, as it is not simulated; a warning says so.
+        done_by: What does it here without a plugin, or why there is nothing to do; nothing is said.
+    """
+
+    files: tuple[str, ...]
+    what: str
+    code: str = ""
+    missing: str = ""
+    done_by: str = ""
+
+    @property
+    def purpose(self) -> str:
+        """What it is for, and what Gazelle does instead where it does not do that."""
+        if self.missing:
+            return f"{self.what} (not simulated: {self.missing})"
+        return f"{self.what} (nothing to do: {self.done_by})" if self.done_by else self.what
+
+
+@functools.cache
+def known_plugins() -> Mapping[str, KnownPlugin]:
+    """The rows by file name, without ``lib`` and ``.so``."""
+    rows: tuple[KnownPlugin, ...] = importlib.import_module(_TABLE).TABLE
+    return {name: row for row in rows for name in row.files}
