@@ -65,12 +65,16 @@ FRONT_DOORS = {"gazelle", "gazelle.__main__"}
 
 @dataclass(frozen=True)
 class Import:
-    """``module`` imports ``target`` at a line; ``lazy`` when in a function."""
+    """``module`` imports ``target`` at a line; ``lazy`` when in a function.
+
+    ``names`` are what a ``from`` statement takes out of ``target``: modules of it, or what it defines.
+    """
 
     module: str
     target: str
     line: int
     lazy: bool
+    names: tuple[str, ...] = ()
 
 
 def modules():
@@ -93,11 +97,16 @@ def imports_of(module, text, *, is_package=False):
         for node in ast.walk(function)
     }
     return [
-        Import(module, target, node.lineno, id(node) in lazy)
+        Import(module, target, node.lineno, id(node) in lazy, taken(node))
         for node in ast.walk(tree)
         for target in targets(node, module, is_package=is_package)
         if target.split(".")[0] == "gazelle"
     ]
+
+
+def taken(node):
+    """The names that a ``from`` statement takes."""
+    return tuple(a.name for a in node.names) if isinstance(node, ast.ImportFrom) else ()
 
 
 def targets(node, module, *, is_package):
@@ -156,6 +165,134 @@ def test_no_import_points_up():
         found += imports_of(module, text, is_package=path.name == "__init__.py")
     assert len(found) > 100
     assert faults(found) == []
+
+
+KNOWN_CIRCLES = (
+    {"gazelle.formats.sdf.draft", "gazelle.formats.sdf.merge"},
+    {"gazelle.formats.stage.body", "gazelle.formats.stage.reader"},
+    {f"gazelle.engines.native.{name}" for name in ("function", "library", "module")},
+    {
+        f"gazelle.simulation.{name}"
+        for name in [
+            "events",
+            "faults",
+            "handles",
+            "loading",
+            "parameters",
+            "physics",
+            "plugin",
+            "recording",
+            "registry",
+            "robot",
+            "saving",
+            "seeing",
+            "sensors",
+            "simulation",
+            "stepping",
+        ]
+    },
+    {
+        f"gazelle.simulation.stage.{name}"
+        for name in [
+            "actuators",
+            "bumpers",
+            "cameras",
+            "controllers",
+            "devices",
+            "finders",
+            "grippers",
+            "senses",
+            "simulation",
+        ]
+    },
+)
+"""Modules that still import each other for their types; to be emptied, never to grow."""
+
+
+def graph(found, known):
+    """What each module imports when it is loaded or its types are checked, packages' heads apart.
+
+    A package's ``__init__`` that only passes on names is no partner of a circle: where one imports
+    ``from gazelle.formats import units`` the module is meant, not the package.
+    """
+    edges = {module: set() for module in known}
+    for each in found:
+        if each.lazy or each.module not in known:
+            continue
+        taken_names = {f"{each.target}.{name}" for name in each.names}
+        edges[each.module] |= taken_names & known
+        if not taken_names or taken_names - known:
+            edges[each.module] |= {each.target} & known
+    return edges
+
+
+def circles(edges):
+    """Sets of modules that import each other, by Tarjan's algorithm (1972)."""
+    order, low, stack, found = {}, {}, [], []
+
+    def visit(module):
+        order[module] = low[module] = len(order)
+        stack.append(module)
+        for target in edges[module]:
+            if target not in order:
+                visit(target)
+            if target in stack:
+                low[module] = min(low[module], low[target])
+        if low[module] == order[module]:
+            at = stack.index(module)
+            members = set(stack[at:])
+            del stack[at:]
+            if len(members) > 1 or module in edges[module]:
+                found.append(members)
+
+    for module in edges:
+        if module not in order:
+            visit(module)
+    return found
+
+
+def test_no_modules_import_each_other():
+    """Not for their types either: who needs a partner's type belongs into one module with it."""
+    found = []
+    paths = modules()
+    for module, path in paths.items():
+        text = path.read_text(encoding="utf-8")
+        found += imports_of(module, text, is_package=path.name == "__init__.py")
+    new = [
+        sorted(members)
+        for members in circles(graph(found, set(paths)))
+        if not any(members <= known for known in KNOWN_CIRCLES)
+    ]
+    assert new == []
+
+
+@pytest.mark.parametrize(
+    ("texts", "expected"),
+    [
+        ({"a": "import gazelle.b", "b": "from gazelle.c import x", "c": ""}, []),
+        ({"a": "import gazelle.b", "b": "from .c import x", "c": "from gazelle import a"}, ["abc"]),
+        ({"a": "import gazelle.b", "b": "def f():\n    import gazelle.a"}, []),
+        (
+            {"a": "import gazelle.b", "b": "if TYPE_CHECKING:\n    from gazelle.a import A"},
+            ["ab"],
+        ),
+        (
+            {
+                "a": "import gazelle.b",
+                "b": "import gazelle.a",
+                "c": "import gazelle.d, gazelle.a",
+                "d": "import gazelle.c",
+            },
+            ["ab", "cd"],
+        ),
+        ({"a": "import gazelle.a"}, ["a"]),
+    ],
+)
+def test_a_circle_is_caught(texts, expected):
+    known = {f"gazelle.{name}" for name in texts}
+    found = [each for name, text in texts.items() for each in imports_of(f"gazelle.{name}", text)]
+    shown = ["".join(sorted(m[-1] for m in members)) for members in circles(graph(found, known))]
+    assert sorted(shown) == expected
 
 
 def strangers_of(module, text):

@@ -10,13 +10,10 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Protocol
 
 from gazelle.ros.errors import TimeMovedBackwardsError
 from gazelle.ros.loop import give_way
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
 
 SECOND = 1_000_000_000
 _CHECK_S = 0.3
@@ -204,24 +201,3 @@ class Rate:
     def _left(self, now: int) -> int:
         self._last = min(self._last, now)  # time may have jumped back
         return self.period - (now - self._last)
-
-
-def node_clock(node: Node) -> Clock:
-    """The clock a node starts with: simulated if the parameter ``/use_sim_time`` is true."""
-    if node.parameters.get("/use_sim_time", False) is not True:
-        return WallClock()
-    return follow_clock(node)
-
-
-def follow_clock(node: Node, topic: str = "/clock") -> SimulatedClock:
-    """A clock that follows a topic of ``rosgraph_msgs/Clock``."""
-    from gazelle.ros.messages import load_message
-
-    clock = SimulatedClock(topic)
-
-    def tick(message: Any) -> None:
-        clock.set(message.clock.to_nsec())
-
-    # Not raw: the subscription is shared with others of this node, who want messages.
-    node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10)
-    return clock

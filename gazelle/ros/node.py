@@ -7,15 +7,16 @@ socket.
 from __future__ import annotations
 
 import contextlib
-import os
 import socket
 import threading
 from collections.abc import Callable, Mapping
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from gazelle.ros import loop as loops
-from gazelle.ros import names, net
+from gazelle.ros import names, net, statistics
+from gazelle.ros.clock import Clock
+from gazelle.ros.clock_topic import node_clock
 from gazelle.ros.errors import (
     InvalidNameError,
     ProtocolError,
@@ -26,28 +27,20 @@ from gazelle.ros.limits import LIMITS, Limits
 from gazelle.ros.master.proxy import MasterProxy
 from gazelle.ros.parameters import Parameters
 from gazelle.ros.registration import Registrar
-from gazelle.ros.serving import ServiceUser
+from gazelle.ros.serving import ServiceNode
 from gazelle.ros.slave import SlaveApi
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.server import TcprosServer
-from gazelle.ros.topics import TopicUser
+from gazelle.ros.topics import TopicNode
 from gazelle.ros.xmlrpc.async_client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
-
-if TYPE_CHECKING:
-    from gazelle.ros.clock import Clock
-    from gazelle.ros.services import ServiceServer
 
 _CLOSING_S = 5.0
 """How long the main thread waits for another that closes the node already."""
 _REQUIRED: Any = object()
-_neighbours: dict[str, Node] = {}
-"""The nodes of this process by their URI."""
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_neighbours.clear)
 
 
-class Node(TopicUser, ServiceUser):
+class Node(TopicNode, ServiceNode):
     """A node on a ROS 1 graph.
 
     Args:
@@ -136,17 +129,17 @@ class Node(TopicUser, ServiceUser):
             if isinstance(error, OSError) and not isinstance(error, RosError):
                 raise RosError(f"cannot listen on {self.host}: {error}") from None
             raise
-        _neighbours[self.uri] = self
+        self._enter_process()
         self._registrar = Registrar(self)
         self.loop.call_soon(self._registrar.start)
 
     def _start(self, clock: Clock | None) -> None:
         """Look at the parameters that say how nodes behave."""
-        from gazelle.ros import clock as clocks
-        from gazelle.ros import statistics
-
-        self.clock = clocks.node_clock(self) if clock is None else clock
-        self.statistics = statistics.start(self)
+        self.clock = node_clock(self) if clock is None else clock
+        if self.parameters.get("/enable_statistics", False) is True:
+            kind = statistics.message_class()
+            publisher = self.advertise(statistics.TOPIC, kind, queue_size=100)
+            self.statistics = statistics.Statistics(self, publisher)
 
     # Parameters ----------------------------------------------------------------------------
 
@@ -198,7 +191,7 @@ class Node(TopicUser, ServiceUser):
         self.master.close()
         for client in list(self._clients):
             client.close()
-        _neighbours.pop(self.uri, None)
+        self._leave_process()
         self._closed.set()
         loops.release(self.loop)
 
@@ -255,24 +248,13 @@ class Node(TopicUser, ServiceUser):
 
     # Inner -----------------------------------------------------------------------------------
 
-    @staticmethod
-    def neighbour(uri: str) -> Node | None:
-        """The node of this process at that URI."""
-        node = _neighbours.get(uri)
-        return None if node is None or node.closed else node
-
-    @staticmethod
-    def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
-        """The service of that name, if a node of this process offers it there."""
-        for node in list(_neighbours.values()):
-            if node.tcpros_port == port and node.host == host and not node.closed:
-                return node.service(name)
-        return None
-
     def _lost(self, uri: str) -> None:
         """A connection to a peer closed while nothing was asked."""
         if uri == self.master_uri and not self._closing:
             self._registrar.alert()
+
+    def _miss_master(self) -> None:
+        self.loop.call_soon(self._registrar.alert)
 
     def _route(
         self, sock: socket.socket, address: net.Address, fields: dict[str, str], rest: bytes

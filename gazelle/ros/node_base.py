@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import os
 import threading
-from typing import TYPE_CHECKING, Any
+from abc import ABC, abstractmethod
+from typing import Any
 
 from gazelle.ros import names
+from gazelle.ros.clock import Clock
 from gazelle.ros.errors import (
     ApiError,
     InvalidNameError,
@@ -17,15 +20,27 @@ from gazelle.ros.errors import (
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.master.proxy import MasterProxy
+from gazelle.ros.parameters import Parameters
+from gazelle.ros.xmlrpc.async_client import AsyncClient
 
-if TYPE_CHECKING:
-    from gazelle.ros.clock import Clock
-    from gazelle.ros.registration import Registrar
-    from gazelle.ros.statistics import Statistics
-    from gazelle.ros.xmlrpc.async_client import AsyncClient
+_nodes: dict[str, NodeBase] = {}
+"""The nodes of this process by their URI."""
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_nodes.clear)
 
 
-class NodeBase:
+def nodes_here() -> list[NodeBase]:
+    """The nodes of this process that are open."""
+    return [node for node in list(_nodes.values()) if not node.closed]
+
+
+def node_here(uri: str) -> NodeBase | None:
+    """The node of this process at that URI, if it is open."""
+    node = _nodes.get(uri)
+    return None if node is None or node.closed else node
+
+
+class NodeBase(ABC):
     """Identity, event loop and master of a node.
 
     Attributes:
@@ -35,6 +50,8 @@ class NodeBase:
         host: The name other nodes reach this one by.
         tcpros_port: Where topics and services connect to.
         master: The API of the master.
+        parameters: The parameter server as this node sees it.
+        clock: What time it is.
     """
 
     name: str
@@ -50,8 +67,7 @@ class NodeBase:
     limits: Limits
     share_messages: bool
     clock: Clock
-    statistics: Statistics | None = None
-    _registrar: Registrar
+    parameters: Parameters
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -82,6 +98,14 @@ class NodeBase:
             raise InvalidNameError("a topic or service needs a name")
         return names.check(self.resolve(names.check(name)))
 
+    def _enter_process(self) -> None:
+        """Let the other nodes of this process find this one."""
+        _nodes[self.uri] = self
+
+    def _leave_process(self) -> None:
+        """Undo `_enter_process`."""
+        _nodes.pop(self.uri, None)
+
     def _check_open(self) -> None:
         if self._closing:
             raise NodeClosedError(f"the node {self.name} is closed")
@@ -92,5 +116,9 @@ class NodeBase:
             return self.master.call(method, *params)
         except (MasterUnreachableError, ApiError) as error:
             report(f"{method} of {self.name}", error)
-            self.loop.call_soon(self._registrar.alert)
+            self._miss_master()
             return None
+
+    @abstractmethod
+    def _miss_master(self) -> None:
+        """The master did not answer: find out, and register again when it does."""

@@ -5,23 +5,33 @@ from __future__ import annotations
 import copy
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from gazelle.ros import names
 from gazelle.ros.errors import ApiError, ParameterNotFoundError, RosError, report
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
+from gazelle.ros.loop import EventLoop
+from gazelle.ros.master.proxy import MasterProxy
 
 ParameterHook = Callable[[str, Any], None]
 """Called with key and new value, on a worker; ``{}`` means deleted."""
 _MISSING: Any = object()
 
 
+class ParameterNode(Protocol):
+    """What `Parameters` needs of its node."""
+
+    loop: EventLoop
+    master: MasterProxy
+    uri: str
+
+    def resolve(self, name: str) -> str:
+        """The global name that `name` means to the node."""
+
+
 class Parameters:
     """Parameters as one node sees them; names are resolved for it."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: ParameterNode) -> None:
         self._node = node
         self._cache: dict[str, Any] = {}
         self._hooks: dict[str, list[ParameterHook]] = {}
@@ -183,7 +193,7 @@ def _inner(tree: Any, rest: str) -> Any:
     return copy.deepcopy(tree)
 
 
-def set_private(node: Node, mappings: dict[str, str]) -> None:
+def set_private(parameters: Parameters, mappings: dict[str, str]) -> None:
     """Set the private parameters of a command line (``_rate:=5``), typed as YAML."""
     import yaml
 
@@ -195,6 +205,6 @@ def set_private(node: Node, mappings: dict[str, str]) -> None:
         except yaml.YAMLError:
             value = new
         try:
-            node.parameters.set(names.PRIVATE + old[1:], value)
+            parameters.set(names.PRIVATE + old[1:], value)
         except RosError as error:
             report(f"private parameter {old}", error)

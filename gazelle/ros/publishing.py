@@ -5,21 +5,33 @@ from __future__ import annotations
 import socket
 import threading
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from gazelle.ros import net
 from gazelle.ros.errors import Md5MismatchError, NodeClosedError, RosError, report
 from gazelle.ros.loop import EventLoop
+from gazelle.ros.node_base import NodeBase
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import LENGTH, frame
 from gazelle.ros.tcpros.outbound import OutboundLink
 
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
-    from gazelle.ros.subscribing import Subscription
-
 PeerHook = Callable[[str], None]
 """Called with the name of a subscriber, on a worker thread."""
+
+
+class LocalReceiver(Protocol):
+    """What a local link needs of the subscription it belongs to."""
+
+    node: NodeBase
+
+    def takes(self, message_class: Any) -> bool:
+        """True if objects of that class can be delivered as they are."""
+
+    def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:
+        """Take a message, or what it was serialised to."""
+
+    def lose_local(self, link: LocalLink) -> None:
+        """The publisher is gone."""
 
 
 class LocalLink:
@@ -27,7 +39,7 @@ class LocalLink:
 
     is_local = True
 
-    def __init__(self, publication: Publication, subscription: Subscription) -> None:
+    def __init__(self, publication: Publication, subscription: LocalReceiver) -> None:
         self.publication = publication
         self.subscription = subscription
         self.peer = subscription.node.name
@@ -56,7 +68,7 @@ class Publication:
         message_class: Of the messages.
     """
 
-    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+    def __init__(self, node: NodeBase, topic: str, message_class: Any) -> None:
         self.node = node
         self.topic = topic
         self.message_class = message_class
@@ -68,6 +80,7 @@ class Publication:
         self.publishers: list[Publisher] = []
         self.messages = 0
         self.bytes = 0
+        self.share_messages = node.share_messages
         self._lock = threading.RLock()
         self._sequence = 0
         self._last: Any = None
@@ -128,7 +141,7 @@ class Publication:
         self, local: tuple[LocalLink, ...], message: Any, data: bytes | None
     ) -> None:
         if data is None:
-            if len(local) == 1 and local[0].same_class and self.node.share_messages:
+            if len(local) == 1 and local[0].same_class and self.share_messages:
                 local[0].send(message, None)
                 return
             data = frame(message)[4:]
@@ -179,7 +192,7 @@ class Publication:
             self.remote = (*self.remote, link)
         self._tell(link.peer, connected=True)
 
-    def attach(self, subscription: Subscription) -> LocalLink:
+    def attach(self, subscription: LocalReceiver) -> LocalLink:
         """Link a subscription in the same process."""
         link = LocalLink(self, subscription)
         link.number = self.node.next_number()
@@ -232,6 +245,12 @@ class Publication:
 class Publisher:
     """What `Node.advertise` returns: publishes messages on a topic.
 
+    Args:
+        publication: What it publishes through.
+        on_close: Called with itself when it is closed.
+        on_connect: See the attribute.
+        on_disconnect: See the attribute.
+
     Attributes:
         name: The topic's resolved name.
         on_connect: Called with the name of each subscriber that connects, on a worker thread.
@@ -241,10 +260,12 @@ class Publisher:
     def __init__(
         self,
         publication: Publication,
+        on_close: Callable[[Publisher], None],
         on_connect: PeerHook | None = None,
         on_disconnect: PeerHook | None = None,
     ) -> None:
-        self._publication = publication
+        self.publication = publication
+        self._on_close = on_close
         self.name = publication.topic
         self.message_class = publication.message_class
         self.on_connect = on_connect
@@ -264,7 +285,7 @@ class Publisher:
         """
         if self._closed:
             raise NodeClosedError(f"the publisher of {self.name} is closed")
-        self._publication.publish(message)
+        self.publication.publish(message)
 
     def publish_bytes(self, *messages: bytes) -> None:
         """Publish messages that are serialised already, of a type without a header.
@@ -277,22 +298,22 @@ class Publisher:
         """
         if self._closed:
             raise NodeClosedError(f"the publisher of {self.name} is closed")
-        if self._publication.latching or self._publication.has_header:
+        if self.publication.latching or self.publication.has_header:
             raise RosError(f"{self.name} is latched or has headers: publish messages")
-        self._publication.publish_bytes(messages)
+        self.publication.publish_bytes(messages)
 
     @property
     def num_connections(self) -> int:
         """Subscribers connected now."""
-        return self._publication.num_connections
+        return self.publication.num_connections
 
     @property
     def has_listener(self) -> bool:
         """True if a message published now would go anywhere."""
-        return self._publication.num_connections > 0
+        return self.publication.num_connections > 0
 
     def close(self) -> None:
         """Publish no more; the last publisher of a topic in a node unregisters it."""
         if not self._closed:
             self._closed = True
-            self._publication.node.unadvertise(self._publication, self)
+            self._on_close(self)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from gazelle.ros.errors import RosError, report
-from gazelle.ros.loop import Timer
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
+from gazelle.ros.loop import EventLoop, Timer
+from gazelle.ros.parameters import Parameters
+from gazelle.ros.publishing import Publication
+from gazelle.ros.services import ServiceServer
+from gazelle.ros.subscribing import Subscription
+from gazelle.ros.xmlrpc.async_client import AsyncClient
 
 _CALM_S = 5.0
 """Seconds between questions while all is well; a broken connection is noticed at once."""
@@ -25,10 +27,31 @@ def _tell(hook: Callable[[], None]) -> None:
         report("a hook for a new master", error)
 
 
+class RegisteredNode(Protocol):
+    """What a registrar needs of its node."""
+
+    name: str
+    uri: str
+    master_uri: str
+    loop: EventLoop
+    calls: AsyncClient
+    parameters: Parameters
+    on_new_master: list[Callable[[], None]]
+
+    def publications(self) -> list[Publication]:
+        """All topics published."""
+
+    def subscriptions(self) -> list[Subscription]:
+        """All topics subscribed to."""
+
+    def services(self) -> list[ServiceServer]:
+        """All services offered."""
+
+
 class Registrar:
     """Asks the master from time to time whether it still knows the node. Leader only."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: RegisteredNode) -> None:
         self._node = node
         self._timer: Timer | None = None
         self._stopped = False

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.ros import net
 from gazelle.ros.errors import (
@@ -23,6 +23,7 @@ from gazelle.ros.errors import (
     report,
 )
 from gazelle.ros.loop import give_way
+from gazelle.ros.node_base import NodeBase
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import frame
 from gazelle.ros.tcpros.service_links import (
@@ -31,9 +32,6 @@ from gazelle.ros.tcpros.service_links import (
     bad_answer,
     good_answer,
 )
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
 
 Handler = Callable[[Any], Any]
 _POLL_S = 0.1
@@ -47,13 +45,28 @@ class ServiceServer:
     client then gets the text. A `ServiceError` (or a class of `refusals`) is an answer, any
     other exception is reported as well. Calls of different clients may run at the same time.
 
+    Args:
+        node: Whose it is.
+        name: The service's resolved name.
+        service_class: Its type.
+        handler: See above.
+        on_close: Called with itself when it is closed.
+
     Attributes:
         name: The service's resolved name.
         uri: The address clients connect to.
         refusals: Exceptions by which the handler says no.
     """
 
-    def __init__(self, node: Node, name: str, service_class: Any, handler: Handler) -> None:
+    def __init__(
+        self,
+        node: NodeBase,
+        name: str,
+        service_class: Any,
+        handler: Handler,
+        on_close: Callable[[ServiceServer], None],
+    ) -> None:
+        self._on_close = on_close
         self.node = node
         self.name = name
         self.service_class = service_class
@@ -68,7 +81,7 @@ class ServiceServer:
         """Offer the service no longer."""
         if not self._closed:
             self._closed = True
-            self.node.unserve(self)
+            self._on_close(self)
 
     @property
     def closed(self) -> bool:
@@ -179,10 +192,23 @@ class ServiceClient:
         node: Whose it is.
         name: The service's resolved name.
         service_class: Its type.
+        find_near: Finds a service of this process by host, port and name.
+        on_close: Called with itself when it is closed.
         persistent: Keep the connection between calls; it is remade when it breaks.
     """
 
-    def __init__(self, node: Node, name: str, service_class: Any, *, persistent: bool) -> None:
+    def __init__(
+        self,
+        node: NodeBase,
+        name: str,
+        service_class: Any,
+        find_near: Callable[[str, int, str], ServiceServer | None],
+        on_close: Callable[[ServiceClient], None] | None = None,
+        *,
+        persistent: bool,
+    ) -> None:
+        self._find_near = find_near
+        self._on_close = on_close
         self.node = node
         self.name = name
         self.service_class = service_class
@@ -230,7 +256,8 @@ class ServiceClient:
         channel, self._channel = self._channel, None
         if channel is not None:
             channel.close()
-        self.node.forget_client(self)
+        if self._on_close is not None:
+            self._on_close(self)
 
     def _call_persistent(self, data: bytes, deadline: float | None) -> bytes:
         channel = self._channel
@@ -269,7 +296,7 @@ class ServiceClient:
         if self.persistent:
             fields["persistent"] = "1"
         # Who sets a limit of time may have to leave the handler behind, on a thread of its own.
-        server = self.node.neighbour_service(host, port, self.name) if deadline is None else None
+        server = self._find_near(host, port, self.name) if deadline is None else None
         if server is not None:
             return NearChannel(server, fields)
         return ServiceChannel(host, port, fields, self.node.limits, deadline)
@@ -312,7 +339,7 @@ class NearChannel:
         """Nothing to close."""
 
 
-def find_service(node: Node, name: str) -> tuple[str, int]:
+def find_service(node: NodeBase, name: str) -> tuple[str, int]:
     """Host and port of a service.
 
     Raises:
@@ -327,7 +354,7 @@ def find_service(node: Node, name: str) -> tuple[str, int]:
     return host, port
 
 
-def wait_for_service(node: Node, name: str, timeout: float | None) -> None:
+def wait_for_service(node: NodeBase, name: str, timeout: float | None) -> None:
     """Wait until the service answers.
 
     Raises:

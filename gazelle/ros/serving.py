@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 from gazelle.ros.errors import InvalidNameError
-from gazelle.ros.node_base import NodeBase
+from gazelle.ros.node_base import NodeBase, nodes_here
 from gazelle.ros.services import Handler, ServiceClient, ServiceServer, wait_for_service
 
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
 
-
-class ServiceUser(NodeBase):
+class ServiceNode(NodeBase):
     """The part of a node that offers and calls services."""
 
     def __init__(self) -> None:
@@ -37,7 +34,7 @@ class ServiceUser(NodeBase):
             if resolved in self._services:
                 raise InvalidNameError(f"this node serves {resolved} already")
             server = self._services[resolved] = ServiceServer(
-                cast("Node", self), resolved, service_class, handler
+                self, resolved, service_class, handler, self._unserve
             )
         self._ask("registerService", resolved, server.uri, self.uri)
         return server
@@ -51,7 +48,12 @@ class ServiceUser(NodeBase):
             persistent: Keep one connection for all calls.
         """
         client = ServiceClient(
-            cast("Node", self), self._name(name), service_class, persistent=persistent
+            self,
+            self._name(name),
+            service_class,
+            self.neighbour_service,
+            self._forget_client,
+            persistent=persistent,
         )
         with self._lock:
             self._check_open()
@@ -64,7 +66,15 @@ class ServiceUser(NodeBase):
         Raises:
             RosTimeoutError: It does not within `timeout` seconds of wall time.
         """
-        wait_for_service(cast("Node", self), self._name(name), timeout)
+        wait_for_service(self, self._name(name), timeout)
+
+    @staticmethod
+    def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
+        """The service of that name, if a node of this process offers it there."""
+        for node in nodes_here():
+            if node.tcpros_port == port and node.host == host and isinstance(node, ServiceNode):
+                return node.service(name)
+        return None
 
     # For the parts of the node -------------------------------------------------------------
 
@@ -76,7 +86,7 @@ class ServiceUser(NodeBase):
         """The service of that name."""
         return self._services.get(name)
 
-    def unserve(self, server: ServiceServer) -> None:
+    def _unserve(self, server: ServiceServer) -> None:
         """A service is closed."""
         with self._lock:
             if self._closing:
@@ -85,7 +95,7 @@ class ServiceUser(NodeBase):
         self._ask("unregisterService", server.name, server.uri)
         self.loop.run(server.drop_all)
 
-    def forget_client(self, client: ServiceClient) -> None:
+    def _forget_client(self, client: ServiceClient) -> None:
         """A client is closed."""
         with self._lock:
             self._clients.discard(client)

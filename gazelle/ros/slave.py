@@ -4,24 +4,48 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from gazelle.ros import apis
 from gazelle.ros.apis import Api, Method, Triple
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
-    from gazelle.ros.publishing import Publication
-    from gazelle.ros.subscribing import Subscription
+from gazelle.ros.parameters import Parameters
+from gazelle.ros.publishing import Publication
+from gazelle.ros.subscribing import Subscription
 
 _TCPROS = "TCPROS"
 _INPROC = "INTRAPROCESS"
 
 
+class AskedNode(Protocol):
+    """What the API needs of its node."""
+
+    name: str
+    uri: str
+    host: str
+    tcpros_port: int
+    master_uri: str
+    parameters: Parameters
+
+    def publications(self) -> list[Publication]:
+        """All topics published."""
+
+    def publication(self, topic: str) -> Publication | None:
+        """What is published on a topic."""
+
+    def subscriptions(self) -> list[Subscription]:
+        """All topics subscribed to."""
+
+    def subscription(self, topic: str) -> Subscription | None:
+        """What is subscribed to on a topic."""
+
+    def asked_to_end(self, caller: str, reason: str) -> None:
+        """The master or a tool wants the node to end."""
+
+
 class SlaveApi:
     """The methods of one node; all run on the leader."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: AskedNode) -> None:
         self._node = node
         topic, key = ("topic", apis.graph_name), ("parameter_key", apis.parameter)
         self._api = Api(

@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.ros.clock import SECOND
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
+from gazelle.ros.messages import load_message
+from gazelle.ros.node_base import NodeBase
+from gazelle.ros.publishing import Publisher
 
 TOPIC = "/statistics"
 _UNMEASURED = frozenset({TOPIC, "/clock", "/rosout", "/rosout_agg"})
@@ -52,11 +52,14 @@ class _Window:
 
 
 class Statistics:
-    """Measures the subscriptions of one node."""
+    """Measures the subscriptions of one node.
 
-    def __init__(self, node: Node) -> None:
-        from gazelle.ros.messages import load_message
+    Args:
+        node: Whose they are.
+        publisher: Of what was measured, a `message_class`.
+    """
 
+    def __init__(self, node: NodeBase, publisher: Publisher) -> None:
         self._node = node
         self._lock = threading.Lock()
         self._windows: dict[tuple[str, str], _Window] = {}
@@ -64,8 +67,8 @@ class Statistics:
         self._fewest, self._most = self._setting("elements", 10, 100)
         shortest, longest = self._setting("size", 4.0, 64.0)
         self._shortest, self._longest = round(shortest * SECOND), round(longest * SECOND)
-        self._class = load_message("rosgraph_msgs/TopicStatistics")
-        self._publisher = node.advertise(TOPIC, self._class, queue_size=100)
+        self._class = publisher.message_class
+        self._publisher = publisher
 
     def _setting(self, name: str, least: float, most: float) -> tuple[float, float]:
         get = self._node.parameters.get
@@ -134,8 +137,6 @@ def _set(value: Any, nanoseconds: int) -> None:
     value.set(seconds, rest)
 
 
-def start(node: Node) -> Statistics | None:
-    """The statistics of a node, if they are switched on."""
-    if node.parameters.get("/enable_statistics", False) is not True:
-        return None
-    return Statistics(node)
+def message_class() -> Any:
+    """What is published on `TOPIC`."""
+    return load_message("rosgraph_msgs/TopicStatistics")

@@ -6,20 +6,19 @@ import functools
 import threading
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from gazelle.ros.errors import Md5MismatchError, report
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.messages.base import Message
+from gazelle.ros.node_base import NodeBase
 from gazelle.ros.publishing import LocalLink, Publication
 from gazelle.ros.raw import RawMessage
+from gazelle.ros.statistics import Statistics
 from gazelle.ros.strand import Strand
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.inbound import InboundLink
-
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
 
 Callback = Callable[[Any], None]
 Item = tuple[Any, bytes | None, Any]
@@ -30,6 +29,13 @@ a network the buffers of the system would hold about as many."""
 _LOCAL_PATIENCE_S = 5.0
 
 
+class Neighbour(Protocol):
+    """Another node of this process."""
+
+    def publication(self, topic: str) -> Publication | None:
+        """What it publishes on a topic."""
+
+
 class Subscription:
     """A node's subscribers of one topic, which share connections and decoding.
 
@@ -37,9 +43,19 @@ class Subscription:
         node: Whose it is.
         topic: Its resolved name.
         message_class: Of the messages.
+        neighbour: Finds a node of this process by its URI.
+        statistics: Measures it, if the graph wants that.
     """
 
-    def __init__(self, node: Node, topic: str, message_class: Any) -> None:
+    def __init__(
+        self,
+        node: NodeBase,
+        topic: str,
+        message_class: Any,
+        neighbour: Callable[[str], Neighbour | None],
+        statistics: Statistics | None = None,
+    ) -> None:
+        self._neighbour = neighbour
         self.node = node
         self.topic = topic
         self.message_class = message_class
@@ -50,9 +66,8 @@ class Subscription:
         self.subscribers: tuple[Subscriber, ...] = ()
         self.links: dict[str, InboundLink] = {}
         self.local: dict[str, LocalLink] = {}
-        self._statistics = node.statistics
-        if self._statistics is not None and not self._statistics.measures(topic):
-            self._statistics = None
+        measured = statistics is not None and statistics.measures(topic)
+        self._statistics = statistics if measured else None
         self._loop: EventLoop = node.loop
         self._strand = Strand(self._loop, self._deliver, f"callback of {topic}")
         self._drops = threading.Lock()
@@ -79,7 +94,7 @@ class Subscription:
                 self._link(uri)
 
     def _link(self, uri: str) -> None:
-        neighbour = self.node.neighbour(uri)
+        neighbour = self._neighbour(uri)
         if neighbour is not None:
             publication = neighbour.publication(self.topic)
             if publication is not None:
@@ -281,14 +296,25 @@ def _maker(message_class: Any) -> Callable[[], Any]:
 class Subscriber:
     """What `Node.subscribe` returns: a callback that gets the messages of a topic.
 
+    Args:
+        subscription: What it gets them from.
+        callback: Called with each.
+        queue_size: Messages kept while callbacks are slow; None for all.
+        on_close: Called with itself when it is closed.
+
     Attributes:
         name: The topic's resolved name.
     """
 
     def __init__(
-        self, subscription: Subscription, callback: Callback, queue_size: int | None
+        self,
+        subscription: Subscription,
+        callback: Callback,
+        queue_size: int | None,
+        on_close: Callable[[Subscriber], None],
     ) -> None:
-        self._subscription = subscription
+        self._on_close = on_close
+        self.subscription = subscription
         self.name = subscription.topic
         self.message_class = subscription.message_class
         self.callback = callback
@@ -298,10 +324,10 @@ class Subscriber:
     @property
     def num_connections(self) -> int:
         """Publishers connected now."""
-        return self._subscription.num_connections
+        return self.subscription.num_connections
 
     def close(self) -> None:
         """Call back no more; the last subscriber of a topic in a node unregisters it."""
         if not self._closed:
             self._closed = True
-            self._subscription.node.unsubscribe(self._subscription, self)
+            self._on_close(self)

@@ -5,21 +5,25 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 from gazelle.ros.errors import Md5MismatchError, NodeClosedError, RosTimeoutError
-from gazelle.ros.node_base import NodeBase
+from gazelle.ros.node_base import NodeBase, node_here
 from gazelle.ros.publishing import PeerHook, Publication, Publisher
 from gazelle.ros.raw import raw_class
+from gazelle.ros.statistics import Statistics
 from gazelle.ros.subscribing import Callback, Subscriber, Subscription
 from gazelle.ros.tcpros.headers import ANY
 
-if TYPE_CHECKING:
-    from gazelle.ros.node import Node
 
+class TopicNode(NodeBase):
+    """The part of a node that publishes and subscribes.
 
-class TopicUser(NodeBase):
-    """The part of a node that publishes and subscribes."""
+    Attributes:
+        statistics: Measures subscriptions, if the graph wants that.
+    """
+
+    statistics: Statistics | None = None
 
     def __init__(self) -> None:
         super().__init__()
@@ -61,9 +65,9 @@ class TopicUser(NodeBase):
             publication = self._publications.get(name)
             fresh = publication is None
             if publication is None:
-                publication = Publication(cast("Node", self), name, message_class)
+                publication = Publication(self, name, message_class)
             _check_same(publication.message_class, message_class, name)
-            publisher = Publisher(publication, on_connect, on_disconnect)
+            publisher = Publisher(publication, self._unadvertise, on_connect, on_disconnect)
             publication.publishers.append(publisher)
             publication.queue_size = _wider(publication.queue_size, queue_size, fresh=fresh)
             publication.latching |= latch
@@ -106,9 +110,9 @@ class TopicUser(NodeBase):
             subscription = self._subscriptions.get(name)
             fresh = subscription is None
             if subscription is None:
-                subscription = Subscription(cast("Node", self), name, kind)
+                subscription = Subscription(self, name, kind, self.neighbour, self.statistics)
             _check_same(subscription.message_class, kind, name)
-            subscriber = Subscriber(subscription, callback, queue_size)
+            subscriber = Subscriber(subscription, callback, queue_size, self._unsubscribe)
             subscription.add(subscriber, tcp_nodelay=tcp_nodelay)
             self._subscriptions[name] = subscription
         if fresh:
@@ -156,6 +160,12 @@ class TopicUser(NodeBase):
             subscriber.close()
         return found[0]
 
+    @staticmethod
+    def neighbour(uri: str) -> TopicNode | None:
+        """The node of this process at that URI."""
+        node = node_here(uri)
+        return node if isinstance(node, TopicNode) else None
+
     # For the parts of the node -------------------------------------------------------------
 
     def publication(self, topic: str) -> Publication | None:
@@ -174,8 +184,9 @@ class TopicUser(NodeBase):
         """All of them."""
         return list(self._subscriptions.values())
 
-    def unadvertise(self, publication: Publication, publisher: Publisher) -> None:
+    def _unadvertise(self, publisher: Publisher) -> None:
         """A publisher is closed."""
+        publication = publisher.publication
         with self._lock:
             if self._closing:
                 return
@@ -186,8 +197,9 @@ class TopicUser(NodeBase):
         self._ask("unregisterPublisher", publication.topic, self.uri)
         self.loop.run(publication.close)
 
-    def unsubscribe(self, subscription: Subscription, subscriber: Subscriber) -> None:
+    def _unsubscribe(self, subscriber: Subscriber) -> None:
         """A subscriber is closed."""
+        subscription = subscriber.subscription
         with self._lock:
             subscription.remove(subscriber)
             if subscription.subscribers or self._closing:

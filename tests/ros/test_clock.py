@@ -11,7 +11,8 @@ import pytest
 from ros.graph import until
 
 from gazelle.ros import Rate, SimulatedClock, Time, WallClock, load_message
-from gazelle.ros.clock import SECOND, follow_clock
+from gazelle.ros.clock import SECOND
+from gazelle.ros.clock_topic import follow_clock
 from gazelle.ros.errors import TimeMovedBackwardsError
 
 

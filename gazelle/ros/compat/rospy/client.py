@@ -125,7 +125,7 @@ def init_node(
     if not disable_rosout:
         logs.start_rosout()
         _serve_logger_levels()
-    set_private(process.require(), names.identity.assigned)
+    set_private(process.require().parameters, names.identity.assigned)
 
 
 def _begin(name: str, *, anonymous: bool, wall: bool) -> None:

@@ -217,7 +217,11 @@ class ServiceProxy(_Service):
         client = self._client
         if client is None or client.node is not owner:
             client = ServiceClient(
-                owner, self.resolved_name, self.service_class, persistent=self.persistent
+                owner,
+                self.resolved_name,
+                self.service_class,
+                owner.neighbour_service,
+                persistent=self.persistent,
             )
             client.fields.update(self._headers)
             self._client = client

@@ -1,0 +1,29 @@
+"""The clock of a node: wall time, or what comes on ``/clock``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.clock import Clock, SimulatedClock, WallClock
+from gazelle.ros.topics import TopicNode
+
+
+def node_clock(node: TopicNode) -> Clock:
+    """The clock a node starts with: simulated if the parameter ``/use_sim_time`` is true."""
+    if node.parameters.get("/use_sim_time", False) is not True:
+        return WallClock()
+    return follow_clock(node)
+
+
+def follow_clock(node: TopicNode, topic: str = "/clock") -> SimulatedClock:
+    """A clock that follows a topic of ``rosgraph_msgs/Clock``."""
+    from gazelle.ros.messages import load_message
+
+    clock = SimulatedClock(topic)
+
+    def tick(message: Any) -> None:
+        clock.set(message.clock.to_nsec())
+
+    # Not raw: the subscription is shared with others of this node, who want messages.
+    node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10)
+    return clock
