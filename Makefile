@@ -11,6 +11,9 @@ STAMP := $(VENV)/.installed
 WORKERS ?= 2
 PYTEST := $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile
 ALL := $(STAMP)-$(EXTRAS)
+# What is compiled when the package is installed, and with what.
+KERNELS := $(shell grep -rl --include='*.py' '^import cython$$' gazelle) \
+	$(shell find gazelle -name '*.pxd' -o -name '*.h') setup.py $(wildcard tools/packaging/*.py)
 
 .PHONY: help setup demo test test-slow ros-suites lint bench clean
 
@@ -28,11 +31,11 @@ $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Gazelle needs Python 3.11 or newer; set PYTHON=python3.11 or so")'
 	$(PYTHON) -m venv $(VENV)
 
-$(STAMP)-demo: $(VENV)/bin/python pyproject.toml constraints.txt
+$(STAMP)-demo: $(VENV)/bin/python pyproject.toml constraints.txt $(KERNELS)
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[train]'
 	@touch $@
 
-$(ALL): $(VENV)/bin/python pyproject.toml constraints.txt
+$(ALL): $(VENV)/bin/python pyproject.toml constraints.txt $(KERNELS)
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[$(EXTRAS)]'
 	@touch $@
 

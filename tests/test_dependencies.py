@@ -16,7 +16,10 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 DEVELOPERS = {"test", "lint", "oracle", "bench"}
 """Extras that no user installs."""
 
-NOT_OURS = {"cv2": "cv_bridge hands images to the user's OpenCV, and says so where there is none"}
+NOT_OURS = {
+    "cv2": "cv_bridge hands images to the user's OpenCV, and says so where there is none",
+    "cython": "what is compiled needs it no more; it is in the extra `test`",
+}
 """Libraries that nobody can declare, and why."""
 
 

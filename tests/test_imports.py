@@ -16,6 +16,7 @@ import gazelle
 PACKAGE = Path(gazelle.__file__).parent
 ORDER = (
     "assets",
+    "native",
     "description",
     "formats",
     "engines",

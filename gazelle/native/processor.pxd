@@ -1,0 +1,2 @@
+cdef extern from "processor.h":
+    int gazelle_has_avx2() noexcept nogil

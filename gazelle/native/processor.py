@@ -1,0 +1,14 @@
+"""What the processor can do."""
+
+import cython
+
+if not cython.compiled:
+
+    def gazelle_has_avx2() -> int:
+        """Sources run on any processor."""
+        return 0
+
+
+def has_avx2() -> bool:
+    """Whether it is an x86 with AVX2, and the system saves its wide registers."""
+    return bool(gazelle_has_avx2())

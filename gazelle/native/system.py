@@ -1,0 +1,55 @@
+"""All parts of one kind in all worlds: arrays, and one update without Python."""
+
+# mypy: disallow-untyped-decorators=False
+
+import cython
+
+
+@cython.cclass
+class System:
+    """What is updated together; kernel modules subclass it and override ``update``.
+
+    Its arrays have the worlds along their first axis and ``rows`` rows for each, so row
+    ``world * rows + part`` belongs to a part. Subclasses keep them as attributes, typed memory
+    views, which Python made and may look at between two runs.
+
+    Args:
+        rows: In each world.
+        period: Simulated time from one update to the next [ns]; 0: at every step.
+        divisible: Whether rows of one world may be updated by different threads, as they need
+            nothing of each other that this update changes.
+
+    Attributes:
+        due: When it is updated next [ns].
+
+    Raises:
+        ValueError: ``rows`` is less than 1, or ``period`` than 0.
+    """
+
+    def __init__(
+        self,
+        rows: cython.Py_ssize_t = 1,
+        period: cython.longlong = 0,
+        divisible: cython.bint = True,  # noqa: FBT002  # subclasses pass all three in order
+        due: cython.longlong = 0,
+    ) -> None:
+        if rows < 1 or period < 0:
+            raise ValueError(f"a system has {rows} rows, and is updated every {period} ns")
+        self.rows, self.period, self.divisible, self.due = rows, period, divisible, due
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def update(
+        self, first: cython.Py_ssize_t, last: cython.Py_ssize_t, time: cython.longlong
+    ) -> cython.void:
+        """Bring the rows from ``first`` to before ``last`` to a time.
+
+        Called without the interpreter's lock, by several threads for different rows. What comes
+        out may not depend on how rows are shared out.
+
+        Args:
+            first: Row, counted through all worlds.
+            last: The one after the last.
+            time: At the end of the step [ns].
+        """

@@ -1,0 +1,68 @@
+"""Find a C compiler: the system's, else Zig's, which is a package."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from pathlib import Path
+
+ZIG = "ziglang>=0.13"
+OLDEST_GLIBC = "2.17"  # as manylinux2014 has it
+
+
+def system_compiler() -> str | None:
+    """The command of a C compiler of this system that works; None if there is none."""
+    if os.environ.get("GAZELLE_COMPILER") == "zig":
+        return None
+    if sys.platform == "win32":
+        return ""  # setuptools finds Visual Studio's by itself
+    names = [os.environ.get("CC"), sysconfig.get_config_var("CC"), "cc", "gcc", "clang"]
+    for name in dict.fromkeys(filter(None, names)):
+        if _works(shlex.split(name)):
+            return name
+    return None
+
+
+def _works(command: list[str]) -> bool:
+    """Whether it makes a shared library."""
+    if shutil.which(command[0]) is None:
+        return False
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder, "probe.c")
+        source.write_text("#include <math.h>\ndouble f(double x) { return sqrt(x); }\n")
+        line = [*command, "-shared", "-fPIC", str(source), "-o", str(Path(folder, "probe.so"))]
+        if sys.platform == "darwin":
+            line.append("-Wl,-undefined,dynamic_lookup")
+        return subprocess.run(line, check=False, capture_output=True).returncode == 0
+
+
+def zig_target() -> str:
+    """This machine, or the one that ``GAZELLE_TARGET`` names, as Zig calls it."""
+    named = os.environ.get("GAZELLE_TARGET")
+    if named:
+        return named
+    machine = {"AMD64": "x86_64", "x86_64": "x86_64", "arm64": "aarch64", "aarch64": "aarch64"}
+    cpu = machine.get(platform.machine(), platform.machine())
+    if sys.platform == "darwin":
+        return f"{cpu}-macos"
+    if sys.platform == "win32":
+        return f"{cpu}-windows-gnu"
+    libc = f"gnu.{OLDEST_GLIBC}" if platform.libc_ver()[0] == "glibc" else "musl"
+    return f"{cpu}-linux-{libc}"
+
+
+def zig() -> list[str]:
+    """The command of Zig's C compiler, for ``zig_target``."""
+    return [sys.executable, "-m", "ziglang", "cc", "-target", zig_target()]
+
+
+def is_x86() -> bool:
+    """Whether what is built is for 64-bit x86."""
+    target = os.environ.get("GAZELLE_TARGET") or platform.machine()
+    return target.lower().startswith(("x86_64", "amd64"))

@@ -1,0 +1,175 @@
+"""The modules that Cython compiles, and how: one build for any processor, one for AVX2."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import sysconfig
+from pathlib import Path
+
+import compilers
+from Cython.Build import cythonize
+from setuptools import Extension
+from setuptools.command.build_ext import build_ext
+from setuptools.command.build_py import build_py
+
+ROOT = Path(__file__).parents[2]
+SHARED = "gazelle.native.memoryviews"
+"""What Cython's typed memory views need, once for all modules."""
+
+PORTABLE = {SHARED, "gazelle.native.processor"}
+"""Modules with nothing that a faster build would do faster."""
+
+DIRECTIVES = {
+    "language_level": 3,
+    "boundscheck": False,
+    "wraparound": False,
+    "initializedcheck": False,
+    "cdivision": True,
+    "annotation_typing": True,
+    "embedsignature": False,
+}
+CHECKED = {"boundscheck": True, "initializedcheck": True, "nonecheck": True}
+
+# No two compilers or processors may round differently: a product and a sum are never made one
+# operation, and nothing is reordered. What is left out is only what math.h says about errno and
+# about traps, which nobody looks at here.
+PRECISE = ["-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
+FAST = ["-O3", *PRECISE, "-g0", "-DNDEBUG", "-DCYTHON_WITHOUT_ASSERTIONS"]
+QUIET = ["-Wno-unused-function", "-Wno-unreachable-code", "-Wno-unused-variable"]
+BASELINE_X86 = ["-march=x86-64-v2", "-mtune=generic"]
+BUILDS = {
+    "baseline": FAST,
+    "avx2": [*FAST, "-mavx2"],
+    "checked": ["-O1", *PRECISE, "-g1"],
+    "sanitize": ["-O1", *PRECISE, "-g1", "-fsanitize=address,undefined", "-fno-omit-frame-pointer"],
+}
+VISUAL_STUDIO = {"baseline": ["/O2", "/fp:precise"], "avx2": ["/O2", "/fp:precise", "/arch:AVX2"]}
+
+
+def builds() -> list[str]:
+    """Which builds to make: those that users have, or the ones that ``GAZELLE_BUILD`` names."""
+    named = os.environ.get("GAZELLE_BUILD", "").split()
+    return named or (["baseline", "avx2"] if compilers.is_x86() else ["baseline"])
+
+
+def sources() -> list[Path]:
+    """Files of the package that say ``import cython``."""
+    says = re.compile(r"^import cython$", re.MULTILINE)
+    files = sorted((ROOT / "gazelle").rglob("*.py"))
+    return [
+        path.relative_to(ROOT) for path in files if says.search(path.read_text(encoding="utf-8"))
+    ]
+
+
+def extensions() -> list[Extension]:
+    """Every module in every build; C files are made where they are older than their sources."""
+    found = []
+    for checks in (False, True):
+        chosen = [name for name in builds() if (name in ("checked", "sanitize")) == checks]
+        if chosen:
+            modules = _translated("checked" if checks else "plain", CHECKED if checks else {})
+            found += [
+                _built(module, name)
+                for name in chosen
+                for module in modules
+                if name != "avx2" or module.name not in PORTABLE
+            ]
+    return found
+
+
+def _translated(kind: str, checks: dict[str, bool]) -> list[Extension]:
+    """C of every module, under ``build/cython``."""
+    folder = f"build/cython/{kind}"
+    names = [".".join(path.with_suffix("").parts) for path in sources()]
+    modules = [Extension(name, [str(path)]) for name, path in zip(names, sources(), strict=True)]
+    shared = Extension(SHARED, [f"{folder}/memoryviews.c"])
+    (ROOT / folder).mkdir(parents=True, exist_ok=True)
+    return cythonize(
+        [shared, *modules],
+        build_dir=folder,
+        compiler_directives=DIRECTIVES | checks,
+        shared_utility_qualified_name=SHARED,
+        quiet=True,
+    )
+
+
+def _built(module: Extension, build: str) -> Extension:
+    """A module in a folder of its own beside its source, under the name of its source."""
+    package, _, name = module.name.rpartition(".")
+    home = Path(*package.split("."))
+    return Extension(
+        f"{package}._{build}.{name}",
+        sources=list(module.sources),
+        depends=[*module.depends, *map(str, (ROOT / home).glob("*.h"))],
+        include_dirs=[str(home), "gazelle/native"],
+        extra_compile_args=[build],
+    )
+
+
+class BuildSources(build_py):
+    """Copy what is not compiled; what is left of an earlier build and is gone since goes."""
+
+    def run(self) -> None:
+        """Keep compiled modules that are still wanted: they are not made again if up to date."""
+        ext = self.get_finalized_command("build_ext")
+        wanted = {Path(ext.get_ext_fullpath(each.name)).resolve() for each in ext.extensions or ()}
+        for path in Path(self.build_lib, "gazelle").rglob("*"):
+            if path.is_file() and path.resolve() not in wanted:
+                path.unlink()
+        super().run()
+
+
+class BuildModules(build_ext):
+    """Compile them with whatever compiler there is."""
+
+    def initialize_options(self) -> None:
+        """Use all processors."""
+        super().initialize_options()
+        self.parallel = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else True
+
+    def build_extensions(self) -> None:
+        """Choose the compiler and its flags for each build."""
+        if not Path(sysconfig.get_path("include"), "Python.h").exists():
+            raise SystemExit(
+                "Python's header files are missing; install them (Debian, Ubuntu: python3-dev) "
+                "or use a wheel that is built: pip install gazelle"
+            )
+        unix = self.compiler.compiler_type != "msvc"
+        if unix:
+            self._choose_compiler()
+        every, folder = self.extensions, self.build_temp
+        for build in dict.fromkeys(each.extra_compile_args[0] for each in every):
+            chosen = [each for each in every if each.extra_compile_args[0] == build]
+            for each in chosen:
+                _set_flags(each, build, unix=unix)
+            # The same sources make other objects in each build.
+            self.extensions, self.build_temp = chosen, str(Path(folder, build))
+            super().build_extensions()
+        self.extensions, self.build_temp = every, folder
+
+    def _choose_compiler(self) -> None:
+        found = compilers.system_compiler()
+        cross = "GAZELLE_TARGET" in os.environ
+        command = compilers.zig() if cross or found is None else found.split()
+        ending = ["-bundle", "-undefined", "dynamic_lookup"] if sys.platform == "darwin" else []
+        self.compiler.set_executables(
+            compiler_so=[*command, "-fPIC", "-fwrapv"],
+            linker_so=[*command, *(ending or ["-shared"])],
+        )
+
+    def copy_extensions_to_source(self) -> None:
+        """Put them beside their sources, for an editable installation."""
+        for each in self.extensions:
+            Path(*each.name.split(".")[:-1]).mkdir(exist_ok=True)
+        super().copy_extensions_to_source()
+
+
+def _set_flags(module: Extension, build: str, *, unix: bool) -> None:
+    if not unix:
+        module.extra_compile_args = VISUAL_STUDIO[build]
+        return
+    machine = BASELINE_X86 if compilers.is_x86() else []
+    module.extra_compile_args = [*machine, *BUILDS[build], *QUIET]
+    module.extra_link_args = [each for each in BUILDS[build] if each.startswith("-fsanitize")]
