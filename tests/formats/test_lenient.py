@@ -461,19 +461,6 @@ def test_what_libsdformat_prints_is_read(body, tmp_path):
         assert formats.load_model(file).name == "m"
 
 
-def test_parameters_of_an_include_are_not_dropped_in_silence(tmp_path):
-    (tmp_path / "part.sdf").write_text(sdf(f"<model name='part'>{LINK}</model>"))
-    body = (
-        "<include><uri>part.sdf</uri><experimental:params>"
-        "<link element_id='x' action='remove'/></experimental:params></include>"
-    )
-    file = tmp_path / "test.world"
-    file.write_text(sdf(f"<world name='w'>{body}</world>"))
-    found, text = one_warning(formats.load, file)
-    assert "<experimental:params> is not supported" in text
-    assert len(found.models) == 1
-
-
 RANGE = "<sensor name='s' type='ray'><pose>0 0 1</pose><ray><range><min>{}</min><max>{}</max></range></ray></sensor>"
 NOISE = (
     "<sensor name='s' type='imu'><imu><angular_velocity><x><noise type='{}'><mean>1</mean></noise>"

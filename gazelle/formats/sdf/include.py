@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gazelle.description import Model, Parameters
@@ -13,6 +13,7 @@ from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
 from gazelle.formats.sdf.actor import as_model
 from gazelle.formats.sdf.draft import Draft, Version, draft_model, name_frames
+from gazelle.formats.sdf.param_passing import TAG, with_params
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.upgrade import upgraded
 
@@ -39,9 +40,6 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
     if not uri:
         reading.fault("an <include> needs a <uri>: it is left out", node)
         return None
-    params = node.find("experimental:params")
-    if params is not None:
-        reading.note("<experimental:params> is not supported: the model stays as it is", params)
     found = reading.find(uri, node.find("uri") or node)
     if found is None:
         return None
@@ -53,16 +51,44 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
         root = xml.read_file(file, reading.misread)
         if root.tag == "robot":
             model = urdf.read_robot(root, reading)
-            return Included(root, file, (1, 11), model)
+            if TAG not in node:
+                return Included(root, file, (1, 11), model)
+            root = _written(model, file)
         if root.tag not in {"sdf", "gazebo"}:
             raise values.fail(root, f"expected <sdf> or <robot>, found <{root.tag}>")
         version = version_of(root, reading)
-        root = upgraded(root, version)
+        root = _with_params(upgraded(root, version), node, reading)
         root = schema.checked(root, "root", reading)
         for child in root.children:
             if child.tag in KINDS:
                 return Included(child if child.tag != "actor" else as_model(child), file, version)
     raise values.fail(root, "there is no model, light or actor to include")
+
+
+def _with_params(root: Parameters, include: Parameters, reading: Reading) -> Parameters:
+    """A file with what the include says in ``<experimental:params>`` done to its model."""
+    if TAG not in include:
+        return root
+
+    def name_of(inner: Parameters) -> str:
+        found = None if "name" in inner else open_include(inner, reading)
+        own = found.node.attributes.get("name", "") if found is not None else ""
+        return values.word(inner, "name", own)
+
+    for index, child in enumerate(root.children):
+        if child.tag in KINDS:
+            changed = with_params(child, include, reading, name_of)
+            children = (*root.children[:index], changed, *root.children[index + 1 :])
+            return replace(root, children=children)
+    return root
+
+
+def _written(model: Model, file: Path) -> Parameters:
+    """A model that is read already, as the file that would say it in SDF."""
+    from gazelle.formats.write.sdf import write_sdf  # it imports what reads worlds
+    from gazelle.formats.write.writing import Writing
+
+    return write_sdf(model, Writing(file.parent))
 
 
 def _file_of(found: Path) -> Path | None:
