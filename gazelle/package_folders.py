@@ -1,4 +1,4 @@
-"""Where packages are below a folder of ROS_PACKAGE_PATH, by rospack's rules.
+"""Where packages are below a folder of ROS_PACKAGE_PATH, and what they are called, by rospack's rules.
 
 The rules are those of http://www.ros.org/reps/rep-0122.html and of rospack.
 """
@@ -9,12 +9,14 @@ import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from xml.parsers import expat
 
 IGNORED = "CATKIN_IGNORE"
 NOT_DEEPER = "rospack_nosubdirs"
 MANIFESTS = frozenset({"package.xml", "manifest.xml"})
 
 _DEEPEST = 12
+_MOST_BYTES = 1 << 20
 
 
 def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
@@ -28,6 +30,57 @@ def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
         most: How many folders are looked into at most.
     """
     return _below(root, _DEEPEST, set(), most)
+
+
+def package_name(folder: Path) -> str:
+    """The name in a folder's ``package.xml``, or the folder's own where it says none.
+
+    A search reads hundreds of these files, so each is read up to its name only.
+    """
+    name = _NameReader()
+    try:
+        with (folder / "package.xml").open("rb") as file:
+            name.parser.Parse(file.read(_MOST_BYTES))
+    except (OSError, ValueError, expat.ExpatError, _NameFoundError):
+        pass  # what is damaged after the name does no harm, and what is before leaves none
+    return name.text.strip() or folder.name
+
+
+class _NameFoundError(Exception):
+    """Ends the parser at the end of the name."""
+
+
+class _NameReader:
+    """Collects the text of the ``<name>`` in the root element of a manifest."""
+
+    def __init__(self) -> None:
+        self.text = ""
+        self._open: list[str] = []
+        self.parser = expat.ParserCreate()
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._take
+        self.parser.EntityDeclHandler = self._refuse
+
+    @property
+    def _named(self) -> bool:
+        return len(self._open) == 2 and self._open[1] == "name"
+
+    def _start(self, tag: str, _: dict[str, str]) -> None:
+        self._open.append(tag)
+
+    def _end(self, _: str) -> None:
+        done = self._named and bool(self.text.strip())
+        self._open.pop()
+        if done:
+            raise _NameFoundError
+
+    def _take(self, text: str) -> None:
+        if self._named:
+            self.text += text
+
+    def _refuse(self, *_: object) -> None:
+        raise _NameFoundError  # entities of its own: no manifest has them, but bombs do
 
 
 def _below(folder: Path, depth: int, seen: set[str], most: float) -> Iterator[Path]:

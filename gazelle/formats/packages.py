@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle.errors import FormatError
 from gazelle.formats import xml
-from gazelle.package_folders import IGNORED, MANIFESTS, NOT_DEEPER, package_folders
+from gazelle.package_folders import IGNORED, MANIFESTS, NOT_DEEPER, package_folders, package_name
 
 MAX_DEPTH = 5
 MAX_FOLDERS = 5_000
 
-_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-_NAME = re.compile(rb"<name>([^<]*\S[^<]*)</name>")
 _SKIPPED = {"node_modules", "__pycache__", "site-packages", "build", "install", "log", "venv"}
 
 
@@ -115,19 +112,6 @@ def _list(folder: Path) -> Listing:
     except OSError:
         return set(), []
     return names, folders
-
-
-def package_name(folder: Path) -> str:
-    """The name in a folder's ``package.xml``, or the folder's own where it has none.
-
-    A search reads hundreds of these files, so they are not parsed.
-    """
-    try:
-        text = _COMMENT.sub(b"", xml.read_bytes(folder / "package.xml"))
-    except FormatError:
-        return folder.name
-    found = _NAME.search(text)
-    return folder.name if found is None else found[1].decode(errors="replace").strip()
 
 
 def exported_model_paths(package: Path) -> Iterator[Path]:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import os
 import warnings
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from gazelle.errors import FormatWarning
-from gazelle.package_folders import package_folders
+from gazelle.package_folders import package_folders, package_name
 from gazelle.ros.messages.errors import InvalidDefinitionError
 from gazelle.ros.messages.library import Definition, PackageDefinitions
 
@@ -37,7 +36,7 @@ def find_packages(path: str | None = None) -> dict[str, Path]:
         found: dict[str, Path] = {}
         for root in filter(None, path.split(os.pathsep)):
             for folder in package_folders(Path(root)):
-                found.setdefault(_package_name(folder), folder)
+                found.setdefault(package_name(folder), folder)
         _crawled[path] = found
     return _crawled[path]
 
@@ -58,12 +57,3 @@ def read_definitions(folder: Path) -> PackageDefinitions:
             except InvalidDefinitionError as err:
                 warnings.warn(str(err), FormatWarning, stacklevel=2)
     return found
-
-
-def _package_name(folder: Path) -> str:
-    """The name in ``package.xml``; the folder's name where that cannot be read."""
-    try:
-        name = ET.parse(folder / "package.xml").getroot().findtext("name")  # noqa: S314  # a local file of the user's
-    except (OSError, ET.ParseError):
-        name = None
-    return name.strip() if name else folder.name
