@@ -27,8 +27,7 @@ DIRECTIVES = {
     "wraparound": False,
     "initializedcheck": False,
     "cdivision": True,
-    "annotation_typing": True,
-    "embedsignature": False,
+    "infer_types": True,
 }
 CHECKED = {"boundscheck": True, "initializedcheck": True, "nonecheck": True}
 
@@ -38,7 +37,6 @@ CHECKED = {"boundscheck": True, "initializedcheck": True, "nonecheck": True}
 PRECISE = ["-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
 FAST = ["-O3", *PRECISE, "-g0", "-DNDEBUG", "-DCYTHON_WITHOUT_ASSERTIONS"]
 QUIET = ["-Wno-unused-function", "-Wno-unreachable-code", "-Wno-unused-variable"]
-BASELINE_X86 = ["-march=x86-64-v2", "-mtune=generic"]
 BUILDS = {
     "baseline": FAST,
     "avx2": [*FAST, "-mavx2"],
@@ -84,8 +82,7 @@ def _translated(kind: str, checks: dict[str, bool]) -> list[Extension]:
     folder = f"build/cython/{kind}"
     names = [".".join(path.with_suffix("").parts) for path in sources()]
     modules = [Extension(name, [str(path)]) for name, path in zip(names, sources(), strict=True)]
-    shared = Extension(SHARED, [f"{folder}/memoryviews.c"])
-    (ROOT / folder).mkdir(parents=True, exist_ok=True)
+    shared = Extension(SHARED, [SHARED.replace(".", "/") + ".c"])
     return cythonize(
         [shared, *modules],
         build_dir=folder,
@@ -151,8 +148,12 @@ class BuildModules(build_ext):
 
     def _choose_compiler(self) -> None:
         found = compilers.system_compiler()
-        cross = "GAZELLE_TARGET" in os.environ
-        command = compilers.zig() if cross or found is None else found.split()
+        zig = found is None or "GAZELLE_TARGET" in os.environ
+        command = compilers.zig() if zig else found.split()
+        if zig:  # Debian's Python.h includes another header by its path below /usr/include
+            command += ["-idirafter", str(Path(sysconfig.get_path("include")).parent)]
+        if compilers.is_x86():  # processors from 2009 on; Zig spells it in its own way
+            command.append("-march=x86_64_v2" if zig else "-march=x86-64-v2")
         ending = ["-bundle", "-undefined", "dynamic_lookup"] if sys.platform == "darwin" else []
         self.compiler.set_executables(
             compiler_so=[*command, "-fPIC", "-fwrapv"],
@@ -170,6 +171,5 @@ def _set_flags(module: Extension, build: str, *, unix: bool) -> None:
     if not unix:
         module.extra_compile_args = VISUAL_STUDIO[build]
         return
-    machine = BASELINE_X86 if compilers.is_x86() else []
-    module.extra_compile_args = [*machine, *BUILDS[build], *QUIET]
+    module.extra_compile_args = [*BUILDS[build], *QUIET]
     module.extra_link_args = [each for each in BUILDS[build] if each.startswith("-fsanitize")]

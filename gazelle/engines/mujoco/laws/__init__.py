@@ -4,8 +4,14 @@ These laws need more than MuJoCo's terms can say: motors that hold a velocity, b
 e² of the height whatever part of a step the impact falls in, friction by directions that turn
 with their surfaces, and the forces of what turns about changing axes. MuJoCo calls one function of the process,
 ``mjcb_control``, in every step of every model; this one looks for a mark in the model and does
-nothing where there is none. It is compiled when a world first needs it.
+nothing where there is none.
 """
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.engines.mujoco.laws.extras import Extras, finish, prepare, spun
 

@@ -7,26 +7,36 @@ M a = f - c(v + h a / 2), they do not (the implicit midpoint rule). A few rounds
 of contacts and constraints, which are not known yet, are left out of a.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.mujoco.laws.numbers import BIAS_HEAD, COM_VEL, COUNT, HINGES, RNE, SOLVE_M
-from gazelle.engines.native import call_c, floats, long_at, part
-
-AT = offsets()
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
+    BIAS_HEAD,
+    COM_VEL,
+    COUNT,
+    HINGES,
+    RNE,
+    SOLVE_M,
+)
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import call_five, call_four, call_two, floats, word
 
 # What turns so slowly gains too little energy to matter: h w² [rad²/s]. A free body turns on
 # about one axis for ever, so that there the product of two velocities counts.
-_SLOW = 1e-4
+_SLOW = cython.declare(cython.double, 1e-4)
 
 # What turns further in a step is noticeably slow to precess [rad]: by one in a hundred.
 MOST_A_STEP = 0.25
 
-_ROUNDS = 3
+_ROUNDS = cython.declare(cython.int, 3)
 
 
-@part
-def take_bias_midway(model: int, data: int, numbers: int, told: int) -> bool:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def take_bias_midway(
+    model: cython.size_t, data: cython.size_t, numbers: cython.size_t, told: cython.size_t
+) -> cython.bint:
     """Let the step use the forces of its middle, where something turns fast enough.
 
     Args:
@@ -38,48 +48,49 @@ def take_bias_midway(model: int, data: int, numbers: int, told: int) -> bool:
     Returns:
         Whether it does.
     """
-    own = floats(numbers, BIAS_HEAD)
-    count = int(own[COUNT])
-    watched = floats(numbers + 8 * BIAS_HEAD, count)
-    nv = long_at(model + AT.model_nv)
-    velocity = floats(long_at(data + AT.qvel), nv)
-    step = floats(model + AT.model_timestep, 1)[0]
-    first, second = 0.0, 0.0
+    own = floats(numbers)
+    count: cython.int = cython.cast(cython.int, own[COUNT])
+    watched = floats(numbers + 8 * BIAS_HEAD)
+    nv: cython.Py_ssize_t = word(model + AT.model_nv)
+    velocity = floats(word(data + AT.qvel))
+    step = floats(model + AT.model_timestep)[0]
+    first: cython.double = 0.0
+    second: cython.double = 0.0
     for place in range(count):
-        rate = abs(velocity[int(watched[place])])
+        rate: cython.double = abs(velocity[cython.cast(cython.int, watched[place])])
         second = max(second, min(first, rate))
         first = max(first, rate)
-        if place < int(own[HINGES]):
+        if place < own[HINGES]:
             second = max(second, rate)
     if not first * second * step > _SLOW:
         return False
     if first * step > MOST_A_STEP:
-        floats(told, 1)[0] = 1.0
+        floats(told)[0] = 1.0
     # What comes later in the step fills these anew.
-    kept = floats(long_at(data + AT.constraint), nv)
-    force = floats(long_at(data + AT.smooth), nv)
-    gained = floats(long_at(data + AT.acceleration), nv)
-    bias = floats(long_at(data + AT.bias), nv)
-    passive = floats(long_at(data + AT.passive), nv)
-    applied = floats(long_at(data + AT.applied), nv)
+    kept = floats(word(data + AT.constraint))
+    force = floats(word(data + AT.smooth))
+    gained = floats(word(data + AT.acceleration))
+    bias = floats(word(data + AT.bias))
+    passive = floats(word(data + AT.passive))
+    applied = floats(word(data + AT.applied))
     for dof in range(nv):
         kept[dof] = velocity[dof]
     for _ in range(_ROUNDS):
         for dof in range(nv):
             force[dof] = passive[dof] + applied[dof] - bias[dof]
-        call_c(
-            int(own[SOLVE_M]),
+        call_five(
+            cython.cast(cython.size_t, own[SOLVE_M]),
             model,
             data,
-            long_at(data + AT.acceleration),
-            long_at(data + AT.smooth),
+            word(data + AT.acceleration),
+            word(data + AT.smooth),
             1,
         )
         for dof in range(nv):
             velocity[dof] = kept[dof] + 0.5 * step * gained[dof]
-        call_c(int(own[COM_VEL]), model, data)
-        call_c(int(own[RNE]), model, data, 0, long_at(data + AT.bias))
+        call_two(cython.cast(cython.size_t, own[COM_VEL]), model, data)
+        call_four(cython.cast(cython.size_t, own[RNE]), model, data, 0, word(data + AT.bias))
     for dof in range(nv):
         velocity[dof] = kept[dof]
-    call_c(int(own[COM_VEL]), model, data)
+    call_two(cython.cast(cython.size_t, own[COM_VEL]), model, data)
     return True

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import warnings
 from functools import lru_cache
 from typing import Any
 
 import mujoco
 
-from gazelle.engines.mujoco.laws.kernel import apply
-from gazelle.engines.native import c_function
+from gazelle.engines.mujoco.laws import kernel
+from gazelle.engines.mujoco.laws.layouts import offsets
+from gazelle.engines.mujoco.laws.places import fill
 from gazelle.errors import EngineError, EngineWarning
 
 
@@ -40,4 +42,6 @@ def install(*, vital: bool) -> None:
 @lru_cache(maxsize=1)
 def _function() -> Any:
     """The compiled function, as MuJoCo takes it: of the addresses of a model and its data."""
-    return c_function(apply, 2)
+    fill(offsets())
+    made = ctypes.CFUNCTYPE(None, ctypes.c_size_t, ctypes.c_size_t)
+    return made(kernel.address() or kernel.apply)

@@ -6,19 +6,22 @@ moves, at depths that nobody foresaw. MuJoCo's contact wants -B v - K d, v being
 which two surfaces part and d their distance: so it pushes until v is K d / B. That is bounded.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.mujoco.laws.numbers import EXIT, GEOM_NUMBERS
-from gazelle.engines.native import floats, integers, long_at, part
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import EXIT, GEOM_NUMBERS
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import floats, integers, word
 
-AT = offsets()
-
-_ELLIPTIC = 1  # mjCONE_ELLIPTIC
+_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 
-@part
-def leave_slowly(model: int, data: int, contact: int, row: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def leave_slowly(
+    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
+) -> cython.void:
     """Bound the velocity at which a contact pushes out what overlapped.
 
     Args:
@@ -27,22 +30,22 @@ def leave_slowly(model: int, data: int, contact: int, row: int) -> None:
         contact: Address of the ``mjContact``.
         row: Its first row among the constraints.
     """
-    if floats(contact + AT.contact_margin, 1)[0] >= 0.0:
+    if floats(contact + AT.contact_margin)[0] >= 0.0:
         return
-    if floats(contact + AT.contact_solref, 1)[0] <= 0.0:
+    if floats(contact + AT.contact_solref)[0] <= 0.0:
         return  # a spring, or a bounce
-    geoms = integers(contact + AT.contact_geom, 2)
+    geoms = integers(contact + AT.contact_geom)
     if min(geoms[0], geoms[1]) < 0:
         return
-    users = long_at(model + AT.model_geom_user)
-    first = floats(users + 8 * GEOM_NUMBERS * geoms[0], GEOM_NUMBERS)[EXIT]
-    second = floats(users + 8 * GEOM_NUMBERS * geoms[1], GEOM_NUMBERS)[EXIT]
-    dim = integers(contact + AT.contact_dim, 1)[0]
-    cone = dim == 1 or integers(model + AT.model_cone, 1)[0] == _ELLIPTIC
+    users = word(model + AT.model_geom_user)
+    first = floats(users + 8 * GEOM_NUMBERS * geoms[0])[EXIT]
+    second = floats(users + 8 * GEOM_NUMBERS * geoms[1])[EXIT]
+    dim = integers(contact + AT.contact_dim)[0]
+    cone: cython.bint = dim == 1 or integers(model + AT.model_cone)[0] == _ELLIPTIC
     rows = 1 if cone else 2 * (dim - 1)
-    reference = floats(long_at(data + AT.reference) + 8 * row, rows)
-    velocity = floats(long_at(data + AT.velocity) + 8 * row, rows)
-    damping = floats(long_at(data + AT.terms) + 32 * row, 4)[1]
+    reference = floats(word(data + AT.reference) + 8 * row)
+    velocity = floats(word(data + AT.velocity) + 8 * row)
+    damping = floats(word(data + AT.terms) + 32 * row)[1]
     wanted, parting = reference[0], velocity[0]
     if rows > 1:
         wanted = 0.5 * (reference[0] + reference[1])

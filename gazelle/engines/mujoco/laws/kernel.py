@@ -4,19 +4,13 @@ MuJoCo calls ``apply`` when it knows the contacts, their velocities and the acce
 each is to have, and before it solves for the forces. See ``docs/physics.md`` for the laws.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-import math
-from typing import TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
-from gazelle.engines.mujoco.laws.exits import leave_slowly
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.mujoco.laws.motors import drive_motors
-from gazelle.engines.mujoco.laws.numbers import (
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
+from cython.cimports.gazelle.engines.mujoco.laws.exits import leave_slowly
+from cython.cimports.gazelle.engines.mujoco.laws.motors import drive_motors
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
     BY_THE_NORMAL,
     GEOM_NUMBERS,
     HEAD,
@@ -24,216 +18,262 @@ from gazelle.engines.mujoco.laws.numbers import (
     MARK,
     NO_DIRECTION,
 )
-from gazelle.engines.mujoco.laws.rolling import hold_loosely
-from gazelle.engines.mujoco.laws.sliding import stay_down
-from gazelle.engines.mujoco.laws.treads import stand_in_the_middle
-from gazelle.engines.native import floats, integers, long_at, part, whole
-
-Floats: TypeAlias = NDArray[np.float64]
-
-AT = offsets()
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.engines.mujoco.laws.rolling import hold_loosely
+from cython.cimports.gazelle.engines.mujoco.laws.sliding import stay_down
+from cython.cimports.gazelle.engines.mujoco.laws.treads import stand_in_the_middle
+from cython.cimports.gazelle.native.memory import floats, integers, word
+from cython.cimports.libc.math import isfinite, sqrt
 
 # An impact that gravity makes in so many steps is no bounce but rest.
-_STEPS_TO_REST = 2.0
+_STEPS_TO_REST = cython.declare(cython.double, 2.0)
 
 # MuJoCo's share of a bouncing contact's force.
-_FULL = 0.9999
+_FULL = cython.declare(cython.double, 0.9999)
 
 # Share of the way to a contact seen ahead that MuJoCo wants to make in a step.
-_SPECULATIVE_SHARE = 0.98
+_SPECULATIVE_SHARE = cython.declare(cython.double, 0.98)
 
 # An acceleration that needs no force [m/s²].
-_NOT_YET = -1e9
+_NOT_YET = cython.declare(cython.double, -1e9)
 
-_FREE = 0  # mjJNT_FREE
-_ELLIPTIC = 1  # mjCONE_ELLIPTIC
+# Larger than any friction.
+_FAR_MORE = cython.declare(cython.double, 1e300)
+
+_FREE = cython.declare(cython.int, 0)  # mjJNT_FREE
+_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # What turns so slowly gains no energy that could be seen: h w² [rad²/s].
-_AT_REST = 1e-8
+_AT_REST = cython.declare(cython.double, 1e-8)
 
-_ROUNDS = 8
+_ROUNDS = cython.declare(cython.int, 8)
 
 
-@whole
-def apply(model: int, data: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
     """Change what MuJoCo is about to solve for; of other models, nothing.
 
     Args:
         model: Address of the ``mjModel``.
         data: Address of the ``mjData``.
     """
-    if long_at(model + AT.model_nnumeric) == 0:
+    if word(model + AT.model_nnumeric) == 0:
         return
-    head = floats(long_at(model + AT.model_numeric), HEAD)
+    head = floats(word(model + AT.model_numeric))
     if head[0] != MARK:
         return
-    midway = False
+    midway: cython.bint = False
     if head[7] > 0.0:
-        place = long_at(model + AT.model_numeric) + 8 * (HEAD + 2 * int(head[2]))
-        midway = take_bias_midway(model, data, place, int(head[8]))
+        place = word(model + AT.model_numeric) + 8 * (
+            HEAD + 2 * cython.cast(cython.size_t, head[2])
+        )
+        midway = take_bias_midway(model, data, place, cython.cast(cython.size_t, head[8]))
     if head[2] > 0.0 and not midway:
-        _keep_turning(model, data, int(head[2]), int(head[8]))
+        _keep_turning(
+            model, data, cython.cast(cython.int, head[2]), cython.cast(cython.size_t, head[8])
+        )
     if head[3] > 0.0:
-        drive_motors(model, data, int(head[3]))
-    contacts = long_at(data + AT.contact)
-    for index in range(integers(data + AT.ncon, 1)[0]):
+        drive_motors(model, data, cython.cast(cython.int, head[3]))
+    contacts = word(data + AT.contact)
+    for index in range(integers(data + AT.ncon)[0]):
         contact = contacts + index * AT.contact_size
-        row = integers(contact + AT.contact_address, 1)[0]
+        row = integers(contact + AT.contact_address)[0]
         if row >= 0:
             _correct(model, data, contact, row)
 
 
-@part
-def _correct(model: int, data: int, contact: int, row: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _correct(
+    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
+) -> cython.void:
     """Change the rows of a contact."""
-    head = floats(long_at(model + AT.model_numeric), HEAD)
+    head = floats(word(model + AT.model_numeric))
     if head[4] > 0.0:
         _direct(model, data, contact, row, head[1])
     if head[5] > 0.0:
         stand_in_the_middle(model, data, contact, row, head[1])
     if head[6] > 0.0:
         leave_slowly(model, data, contact, row)
-    if floats(contact + AT.contact_solreffriction, 2)[1] < 0.0:
+    if floats(contact + AT.contact_solreffriction)[1] < 0.0:
         _bounce(model, data, contact, row)
     if head[6] > 0.0:
         hold_loosely(model, data, contact, row)
         stay_down(model, data, contact, row, head[1])
 
 
-@part
-def _bounce(model: int, data: int, contact: int, row: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _bounce(
+    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
+) -> cython.void:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
-    step = floats(model + AT.model_timestep, 1)[0]
-    velocity = floats(long_at(data + AT.velocity), row + 1)
+    step = floats(model + AT.model_timestep)[0]
+    velocity = floats(word(data + AT.velocity))
     pull = _pull(model, contact)
     speed, late = -velocity[row], 0.5 * pull * step
     if speed <= _STEPS_TO_REST * abs(pull) * step or speed <= 0.0:
         return
-    e = -floats(contact + AT.contact_solref, 2)[1] * step / _FULL - 1.0
-    reference = floats(long_at(data + AT.reference), row + 1)
-    height = floats(contact + AT.contact_dist, 1)[0] - floats(contact + AT.contact_margin, 1)[0]
+    e = -floats(contact + AT.contact_solref)[1] * step / _FULL - 1.0
+    reference = floats(word(data + AT.reference))
+    height = floats(contact + AT.contact_dist)[0] - floats(contact + AT.contact_margin)[0]
     if height > 0.0:
         # A contact seen ahead: MuJoCo says how high it is by the speed that it wants.
         height = (speed - reference[row] * step) * step / _SPECULATIVE_SHARE
     fallen = -2.0 * pull * min(max(height, -speed * step), speed * step)
-    parting = e * e * ((speed + late) ** 2 - fallen) + fallen
+    parting = e * e * ((speed + late) * (speed + late) - fallen) + fallen
     if parting > late * late:
-        reference[row] = (math.sqrt(parting) - late + speed) / step
+        reference[row] = (sqrt(parting) - late + speed) / step
     elif height > 0.0:
         reference[row] = _NOT_YET
 
 
-@part
-def _pull(model: int, contact: int) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _pull(model: cython.size_t, contact: cython.size_t) -> cython.double:
     """How much faster two bodies approach a second later if nothing holds them."""
-    normal = floats(contact + AT.contact_frame, 3)
-    geoms = integers(contact + AT.contact_geom, 2)
-    gravity = floats(model + AT.model_gravity, 3)
+    normal = floats(contact + AT.contact_frame)
+    geoms = integers(contact + AT.contact_geom)
+    gravity = floats(model + AT.model_gravity)
     along = 0.0
     for side in range(2):
         geom = geoms[side]
-        body = integers(long_at(model + AT.model_bodyid), geom + 1)[geom]
-        root = integers(long_at(model + AT.model_rootid), body + 1)[body]
-        if integers(long_at(model + AT.model_jntnum), root + 1)[root] == 0:
+        body = integers(word(model + AT.model_bodyid))[geom]
+        root = integers(word(model + AT.model_rootid))[body]
+        if integers(word(model + AT.model_jntnum))[root] == 0:
             continue
-        joint = integers(long_at(model + AT.model_jntadr), root + 1)[root]
-        if integers(long_at(model + AT.model_jnt_type), joint + 1)[joint] != _FREE:
+        joint = integers(word(model + AT.model_jntadr))[root]
+        if integers(word(model + AT.model_jnt_type))[joint] != _FREE:
             continue
-        borne = floats(long_at(model + AT.model_gravcomp), body + 1)[body]
+        borne = floats(word(model + AT.model_gravcomp))[body]
         sign = 1.0 if side == 0 else -1.0
         for axis in range(3):
             along += sign * (1.0 - borne) * gravity[axis] * normal[axis]
     return along
 
 
-@part
-def _direct(model: int, data: int, contact: int, row: int, sparse: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _direct(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    sparse: cython.double,
+) -> cython.void:
     """Turn the two directions in which a contact rubs to those that its surfaces have."""
-    if integers(contact + AT.contact_dim, 1)[0] < 3:
+    if integers(contact + AT.contact_dim)[0] < 3:
         return
-    if integers(model + AT.model_cone, 1)[0] != _ELLIPTIC:
+    if integers(model + AT.model_cone)[0] != _ELLIPTIC:
         return
-    frame = floats(contact + AT.contact_frame, 9)
-    wanted = np.zeros(3)
+    frame = floats(contact + AT.contact_frame)
+    wanted = cython.declare(cython.double[3])
+    wanted[0] = wanted[1] = wanted[2] = 0.0
     _first_direction(model, data, contact, wanted)
     one, two = 0.0, 0.0
     for axis in range(3):
         one += wanted[axis] * frame[3 + axis]
         two += wanted[axis] * frame[6 + axis]
-    size = math.sqrt(one * one + two * two)
+    size = sqrt(one * one + two * two)
     if size < 1e-3:
         return
     one, two = one / size, two / size
     for axis in range(3):
         _turn(frame, 3 + axis, 6 + axis, one, two)
-    _turn(floats(long_at(data + AT.velocity), row + 3), row + 1, row + 2, one, two)
-    _turn(floats(long_at(data + AT.reference), row + 3), row + 1, row + 2, one, two)
+    _turn(floats(word(data + AT.velocity)), row + 1, row + 2, one, two)
+    _turn(floats(word(data + AT.reference)), row + 1, row + 2, one, two)
     if sparse > 0.0:
-        addresses = integers(long_at(data + AT.rowadr), row + 3)
+        addresses = integers(word(data + AT.rowadr))
         first, second = addresses[row + 1], addresses[row + 2]
-        width = integers(long_at(data + AT.rownnz), row + 3)[row + 1]
+        width = integers(word(data + AT.rownnz))[row + 1]
     else:
-        width = long_at(model + AT.model_nv)
+        width = cython.cast(cython.int, word(model + AT.model_nv))
         first, second = (row + 1) * width, (row + 2) * width
-    jacobian = floats(long_at(data + AT.jacobian), second + width)
+    jacobian = floats(word(data + AT.jacobian))
     for column in range(width):
         _turn(jacobian, first + column, second + column, one, two)
 
 
-@part
-def _turn(array: Floats, first: int, second: int, one: float, two: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _turn(
+    array: cython.p_double,
+    first: cython.int,
+    second: cython.int,
+    one: cython.double,
+    two: cython.double,
+) -> cython.void:
     a, b = array[first], array[second]
     array[first] = one * a + two * b
     array[second] = one * b - two * a
 
 
-@part
-def _first_direction(model: int, data: int, contact: int, found: Floats) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _first_direction(
+    model: cython.size_t, data: cython.size_t, contact: cython.size_t, found: cython.p_double
+) -> cython.void:
     """ODE's first direction of a contact in the world; zeros remain where it does not matter."""
-    geoms = integers(contact + AT.contact_geom, 2)
-    chosen, least, kind = -1, math.inf, NO_DIRECTION
+    geoms = integers(contact + AT.contact_geom)
+    chosen, least, kind = -1, _FAR_MORE, NO_DIRECTION
     for side in range(2):
         geom = geoms[side]
         if geom < 0:
             continue
-        start = long_at(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom
-        own = floats(start, GEOM_NUMBERS)
+        start = word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom
+        own = floats(start)
         if own[0] == ITS_OWN and (kind != ITS_OWN or own[4] < least):
             chosen, least, kind = geom, own[4], ITS_OWN
         elif own[0] == BY_THE_NORMAL and kind == NO_DIRECTION:
             kind = BY_THE_NORMAL
     if kind == ITS_OWN:
-        start = long_at(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * chosen
-        own = floats(start, GEOM_NUMBERS)
-        turn = floats(long_at(data + AT.geom_xmat) + 72 * chosen, 9)
+        start = word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * chosen
+        own = floats(start)
+        turn = floats(word(data + AT.geom_xmat) + 72 * chosen)
         for axis in range(3):
             found[axis] = (
                 turn[3 * axis] * own[1] + turn[3 * axis + 1] * own[2] + turn[3 * axis + 2] * own[3]
             )
     elif kind == BY_THE_NORMAL:
-        normal = floats(contact + AT.contact_frame, 3)
-        if abs(normal[2]) > math.sqrt(0.5):
+        normal = floats(contact + AT.contact_frame)
+        if abs(normal[2]) > sqrt(0.5):
             found[1], found[2] = -normal[2], normal[1]
         else:
             found[0], found[1] = -normal[1], normal[0]
 
 
-@part
-def _keep_turning(model: int, data: int, count: int, told: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _keep_turning(
+    model: cython.size_t, data: cython.size_t, count: cython.int, told: cython.size_t
+) -> cython.void:
     """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
-    step = floats(model + AT.model_timestep, 1)[0]
-    numbers = floats(long_at(model + AT.model_numeric), HEAD + 2 * count)
-    spin, middle, rate, wanted = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
+    step = floats(model + AT.model_timestep)[0]
+    numbers = floats(word(model + AT.model_numeric))
+    spin = cython.declare(cython.double[3])
+    middle = cython.declare(cython.double[3])
+    rate = cython.declare(cython.double[3])
+    wanted = cython.declare(cython.double[3])
     for place in range(count):
-        body, dof = int(numbers[HEAD + 2 * place]), int(numbers[HEAD + 2 * place + 1])
-        velocity = floats(long_at(data + AT.qvel) + 8 * (dof + 3), 3)
-        fast = velocity[0] ** 2 + velocity[1] ** 2 + velocity[2] ** 2
+        body = cython.cast(cython.int, numbers[HEAD + 2 * place])
+        dof = cython.cast(cython.int, numbers[HEAD + 2 * place + 1])
+        velocity = floats(word(data + AT.qvel) + 8 * (dof + 3))
+        fast = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]
         if fast * step < _AT_REST:
             continue
         if fast * step * step > MOST_A_STEP * MOST_A_STEP:
-            floats(told, 1)[0] = 1.0
-        moments = floats(long_at(model + AT.model_inertia) + 24 * body, 3)
-        axes = floats(long_at(model + AT.model_iquat) + 32 * body, 4)
+            floats(told)[0] = 1.0
+        moments = floats(word(model + AT.model_inertia) + 24 * body)
+        axes = floats(word(model + AT.model_iquat) + 32 * body)
         _rotate(axes, velocity, -1.0, spin)
         for axis in range(3):
             middle[axis] = spin[axis]
@@ -246,22 +286,28 @@ def _keep_turning(model: int, data: int, count: int, told: int) -> None:
         for axis in range(3):
             wanted[axis] = rate[axis] - wanted[axis]
         _rotate(axes, wanted, 1.0, rate)
-        torque = floats(long_at(data + AT.passive) + 8 * (dof + 3), 3)
-        if math.isfinite(rate[0] + rate[1] + rate[2]):
+        torque = floats(word(data + AT.passive) + 8 * (dof + 3))
+        if isfinite(rate[0] + rate[1] + rate[2]):
             for axis in range(3):
                 torque[axis] += rate[axis]
 
 
-@part
-def _gyration(spin: Floats, moments: Floats, out: Floats) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _gyration(spin: cython.p_double, moments: cython.p_double, out: cython.p_double) -> cython.void:
     """The gyroscopic torque, -w x I w, along principal axes."""
     out[0] = (moments[1] - moments[2]) * spin[1] * spin[2]
     out[1] = (moments[2] - moments[0]) * spin[2] * spin[0]
     out[2] = (moments[0] - moments[1]) * spin[0] * spin[1]
 
 
-@part
-def _rotate(turn: Floats, vector: Floats, sense: float, out: Floats) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _rotate(
+    turn: cython.p_double, vector: cython.p_double, sense: cython.double, out: cython.p_double
+) -> cython.void:
     """Rotate by a quaternion (w, x, y, z), or back."""
     w, x, y, z = turn[0], sense * turn[1], sense * turn[2], sense * turn[3]
     a = 2.0 * (y * vector[2] - z * vector[1])
@@ -270,3 +316,10 @@ def _rotate(turn: Floats, vector: Floats, sense: float, out: Floats) -> None:
     out[0] = vector[0] + w * a + y * c - z * b
     out[1] = vector[1] + w * b + z * a - x * c
     out[2] = vector[2] + w * c + x * b - y * a
+
+
+def address() -> int:
+    """Where ``apply`` is, for MuJoCo; 0 where Python runs it."""
+    if cython.compiled:
+        return int(cython.cast(cython.size_t, cython.cast(cython.p_void, apply)))
+    return 0

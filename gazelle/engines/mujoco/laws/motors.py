@@ -9,18 +9,19 @@ r = (w - v) / h + g the velocity becomes v' = w + h (g - R f), so (w - v') / h +
 is the new g. Where the effort does not suffice it is R times the largest effort.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.native import floats, integers, long_at, part
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import floats, integers, word
 
-AT = offsets()
-
-_FRICTION_OF_TENDON = 2  # mjCNSTR_FRICTION_TENDON
+_FRICTION_OF_TENDON = cython.declare(cython.int, 2)  # mjCNSTR_FRICTION_TENDON
 
 
-@part
-def drive_motors(model: int, data: int, count: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def drive_motors(model: cython.size_t, data: cython.size_t, count: cython.int) -> cython.void:
     """Let motors hold their velocities rather than stand still.
 
     Args:
@@ -28,16 +29,16 @@ def drive_motors(model: int, data: int, count: int) -> None:
         data: Address of the ``mjData``.
         count: How many motors there are; the model's tendons are theirs.
     """
-    step = floats(model + AT.model_timestep, 1)[0]
-    wanted = floats(long_at(data + AT.userdata), 2 * count)
-    first = integers(data + AT.ne, 1)[0]
-    last = first + integers(data + AT.nf, 1)[0]
-    kinds = integers(long_at(data + AT.kind), last)
-    owners = integers(long_at(data + AT.owner), last)
-    velocity = floats(long_at(data + AT.velocity), last)
-    reference = floats(long_at(data + AT.reference), last)
-    softness = floats(long_at(data + AT.softness), last)
-    effort = floats(long_at(data + AT.frictionloss), last)
+    step = floats(model + AT.model_timestep)[0]
+    wanted = floats(word(data + AT.userdata))
+    first = integers(data + AT.ne)[0]
+    last = first + integers(data + AT.nf)[0]
+    kinds = integers(word(data + AT.kind))
+    owners = integers(word(data + AT.owner))
+    velocity = floats(word(data + AT.velocity))
+    reference = floats(word(data + AT.reference))
+    softness = floats(word(data + AT.softness))
+    effort = floats(word(data + AT.frictionloss))
     for row in range(first, last):
         if kinds[row] == _FRICTION_OF_TENDON:
             motor = owners[row]

@@ -8,26 +8,29 @@ comes to lie on other points all the time, of which none can be said to creep. S
 is softer: it still gives way a hundred times less than MuJoCo's usual friction.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-import math
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import floats, integers, word
+from cython.cimports.libc.math import log, pow, sqrt  # noqa: A004
 
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.native import floats, integers, long_at, part
-
-AT = offsets()
-
-_ELLIPTIC = 1  # mjCONE_ELLIPTIC
+_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # What turns slower on a surface lies there, and what turns faster rolls [rad/s].
-_LIES, _ROLLS = 0.01, 0.05
+_LIES = cython.declare(cython.double, 0.01)
+_ROLLS = cython.declare(cython.double, 0.05)
 
 # How many times stiffer friction is than the normal direction where a contact rolls.
-_RATIO = 10.0
+_RATIO = cython.declare(cython.double, 10.0)
 
 
-@part
-def hold_loosely(model: int, data: int, contact: int, row: int) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def hold_loosely(
+    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
+) -> cython.void:
     """Let the friction of a contact give way the more, the faster it rolls.
 
     Args:
@@ -36,36 +39,38 @@ def hold_loosely(model: int, data: int, contact: int, row: int) -> None:
         contact: Address of the ``mjContact``.
         row: Its first row among the constraints.
     """
-    dim = integers(contact + AT.contact_dim, 1)[0]
-    if dim < 3 or integers(model + AT.model_cone, 1)[0] != _ELLIPTIC:
+    dim = integers(contact + AT.contact_dim)[0]
+    if dim < 3 or integers(model + AT.model_cone)[0] != _ELLIPTIC:
         return
     rate = _rolling(model, data, contact)
     if rate <= _LIES:
         return
-    stiff = floats(model + AT.model_impratio, 1)[0] / _RATIO
-    share = min(math.log(rate / _LIES) / math.log(_ROLLS / _LIES), 1.0)
-    softer = stiff**share
-    softness = floats(long_at(data + AT.softness) + 8 * row, dim)
-    stiffness = floats(long_at(data + AT.stiffness) + 8 * row, dim)
+    stiff = floats(model + AT.model_impratio)[0] / _RATIO
+    share = min(log(rate / _LIES) / log(_ROLLS / _LIES), 1.0)
+    softer = pow(stiff, share)
+    softness = floats(word(data + AT.softness) + 8 * row)
+    stiffness = floats(word(data + AT.stiffness) + 8 * row)
     for way in range(1, dim):
         softness[way] *= softer
         stiffness[way] /= softer
-    floats(contact + AT.contact_mu, 1)[0] *= math.sqrt(softer)
+    floats(contact + AT.contact_mu)[0] *= sqrt(softer)
 
 
-@part
-def _rolling(model: int, data: int, contact: int) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _rolling(model: cython.size_t, data: cython.size_t, contact: cython.size_t) -> cython.double:
     """How fast one surface turns on another, about axes in both [rad/s]."""
-    geoms = integers(contact + AT.contact_geom, 2)
+    geoms = integers(contact + AT.contact_geom)
     if min(geoms[0], geoms[1]) < 0:
         return 0.0
-    bodies = long_at(model + AT.model_bodyid)
-    first = floats(long_at(data + AT.cvel) + 48 * integers(bodies, geoms[0] + 1)[geoms[0]], 3)
-    second = floats(long_at(data + AT.cvel) + 48 * integers(bodies, geoms[1] + 1)[geoms[1]], 3)
-    normal = floats(contact + AT.contact_frame, 3)
+    bodies = word(model + AT.model_bodyid)
+    first = floats(word(data + AT.cvel) + 48 * integers(bodies)[geoms[0]])
+    second = floats(word(data + AT.cvel) + 48 * integers(bodies)[geoms[1]])
+    normal = floats(contact + AT.contact_frame)
     square, spin = 0.0, 0.0
     for axis in range(3):
         turn = second[axis] - first[axis]
         square += turn * turn
         spin += turn * normal[axis]
-    return math.sqrt(max(square - spin * spin, 0.0))
+    return sqrt(max(square - spin * spin, 0.0))

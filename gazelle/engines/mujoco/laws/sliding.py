@@ -16,45 +16,46 @@ with k known, the estimate would be exact at once. Some of that is taken, which 
 in an impact all of it, with k = 1.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-import math
-from typing import TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.native import floats, integers, long_at, part
-
-Floats: TypeAlias = NDArray[np.float64]
-
-AT = offsets()
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import floats, integers, word
+from cython.cimports.libc.math import sqrt
 
 # Slower slip parts the surfaces by some nanometres a step [m/s].
-_LEAST_SLIP = 1e-4
+_LEAST_SLIP = cython.declare(cython.double, 1e-4)
 
 # Slower creep has no direction [m/s].
-_LEAST_CREEP = 1e-6
+_LEAST_CREEP = cython.declare(cython.double, 1e-6)
 
 # What holds creeps, at less than this share of what friction takes off a slip in a step when
 # only the weight presses.
-_CREEP = 0.25
+_CREEP = cython.declare(cython.double, 0.25)
 
 # With more friction, what slides jams or tumbles rather; the estimate would be late.
-_MOST_FRICTION = 5.0
+_MOST_FRICTION = cython.declare(cython.double, 5.0)
 
 # Normal acceleration that makes an impact, in weights; and in free fall [m/s²].
-_IMPACT, _LEAST_IMPACT = 4.0, 4.0
+_IMPACT = cython.declare(cython.double, 4.0)
+_LEAST_IMPACT = cython.declare(cython.double, 4.0)
 
 # Largest share, times mu², of the normal acceleration that the last step lacked.
-_DAMPED = 0.25
+_DAMPED = cython.declare(cython.double, 0.25)
 
-_ELLIPTIC = 1  # mjCONE_ELLIPTIC
+_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 
-@part
-def stay_down(model: int, data: int, contact: int, row: int, sparse: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def stay_down(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    sparse: cython.double,
+) -> cython.void:
     """Let a contact that slides want no other normal velocity than one that holds.
 
     Args:
@@ -64,54 +65,71 @@ def stay_down(model: int, data: int, contact: int, row: int, sparse: float) -> N
         row: Its first row among the constraints.
         sparse: Whether Jacobians are.
     """
-    dim = integers(contact + AT.contact_dim, 1)[0]
-    friction = floats(contact + AT.contact_friction, 1)[0]
+    dim = integers(contact + AT.contact_dim)[0]
+    friction = floats(contact + AT.contact_friction)[0]
     if dim < 3:
         return
-    if integers(model + AT.model_cone, 1)[0] == _ELLIPTIC:
+    if integers(model + AT.model_cone)[0] == _ELLIPTIC:
         _on_a_cone(model, data, contact, row, sparse)
     elif friction > 0.0:
         _on_a_pyramid(model, data, contact, row, 2 * (dim - 1), sparse)
 
 
-@part
-def _on_a_cone(model: int, data: int, contact: int, row: int, sparse: float) -> None:
-    friction = floats(contact + AT.contact_friction, 2)
-    velocity = floats(long_at(data + AT.velocity) + 8 * row, 3)
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _on_a_cone(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    sparse: cython.double,
+) -> cython.void:
+    friction = floats(contact + AT.contact_friction)
+    velocity = floats(word(data + AT.velocity) + 8 * row)
     along, across = friction[0] * velocity[1], friction[1] * velocity[2]
-    size, most = math.sqrt(along * along + across * across), max(friction[0], friction[1])
+    size, most = sqrt(along * along + across * across), max(friction[0], friction[1])
     if most <= 0.0:
         return
     share = _share(model, size / most, most)
     if share == 0.0:
         return
-    reference = floats(long_at(data + AT.reference) + 8 * row, 3)
+    reference = floats(word(data + AT.reference) + 8 * row)
     along, across = friction[0] * along / size, friction[1] * across / size
     one = _last(model, data, row + 1, sparse) - reference[1]
     two = _last(model, data, row + 2, sparse) - reference[2]
     lacking = reference[0] - _last(model, data, row, sparse)
-    mu = math.sqrt(along * along + across * across)
+    mu = sqrt(along * along + across * across)
     reference[0] -= share * _parting(model, along * one + across * two, lacking, mu)
 
 
-@part
-def _on_a_pyramid(model: int, data: int, contact: int, row: int, edges: int, sparse: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _on_a_pyramid(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    edges: cython.int,
+    sparse: cython.double,
+) -> cython.void:
     """The same for the edges n ± mu t of a pyramid, two for each direction.
 
     It is turned first so that one direction is that of the slip; else friction would be up to
     a factor of sqrt(2) too small, and aslant.
     """
-    mu = floats(contact + AT.contact_friction, 1)[0]
-    velocity = floats(long_at(data + AT.velocity) + 8 * row, 4)
+    mu = floats(contact + AT.contact_friction)[0]
+    velocity = floats(word(data + AT.velocity) + 8 * row)
     one, two = 0.5 * (velocity[0] - velocity[1]) / mu, 0.5 * (velocity[2] - velocity[3]) / mu
-    slip = math.sqrt(one * one + two * two)
+    slip = sqrt(one * one + two * two)
     if slip < _LEAST_CREEP:
         return
     _turn_pyramid(model, data, contact, row, one / slip, two / slip, sparse)
     share = _share(model, slip, mu)
     if share == 0.0:
         return
-    reference = floats(long_at(data + AT.reference) + 8 * row, edges)
+    reference = floats(word(data + AT.reference) + 8 * row)
     left, lacking = 0.0, 0.0
     for edge in range(0, 4, 2):
         first, second = (
@@ -126,18 +144,24 @@ def _on_a_pyramid(model: int, data: int, contact: int, row: int, edges: int, spa
         reference[edge] -= parting
 
 
-@part
-def _share(model: int, slip: float, friction: float) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _share(model: cython.size_t, slip: cython.double, friction: cython.double) -> cython.double:
     """To what share a contact that slips at a speed slides: 0 as long as it may only creep."""
     if slip < _LEAST_SLIP or friction > _MOST_FRICTION:
         return 0.0
-    step = floats(model + AT.model_timestep, 1)[0]
+    step = floats(model + AT.model_timestep)[0]
     creep = max(_LEAST_SLIP, _CREEP * friction * _weight(model) * step)
-    return float(min(max(slip / creep - 1.0, 0.0), 1.0))
+    return min(max(slip / creep - 1.0, 0.0), 1.0)
 
 
-@part
-def _parting(model: int, left: float, lacking: float, mu: float) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _parting(
+    model: cython.size_t, left: cython.double, lacking: cython.double, mu: cython.double
+) -> cython.double:
     """The normal acceleration that MuJoCo would add to what slides.
 
     Args:
@@ -152,37 +176,55 @@ def _parting(model: int, left: float, lacking: float, mu: float) -> float:
     return max(left - square * lacking, 0.0)
 
 
-@part
-def _weight(model: int) -> float:
-    gravity = floats(model + AT.model_gravity, 3)
-    return math.sqrt(gravity[0] ** 2 + gravity[1] ** 2 + gravity[2] ** 2)
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _weight(model: cython.size_t) -> cython.double:
+    gravity = floats(model + AT.model_gravity)
+    return sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2])
 
 
-@part
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
 def _turn_pyramid(
-    model: int, data: int, contact: int, row: int, one: float, two: float, sparse: float
-) -> None:
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    one: cython.double,
+    two: cython.double,
+    sparse: cython.double,
+) -> cython.void:
     """Turn a pyramid's first direction to (one, two), with all that is known of its edges."""
-    frame = floats(contact + AT.contact_frame, 9)
+    frame = floats(contact + AT.contact_frame)
     for axis in range(3):
         a, b = frame[3 + axis], frame[6 + axis]
         frame[3 + axis] = one * a + two * b
         frame[6 + axis] = one * b - two * a
-    _turn_edges(floats(long_at(data + AT.velocity) + 8 * row, 4), 0, 1, one, two)
-    _turn_edges(floats(long_at(data + AT.reference) + 8 * row, 4), 0, 1, one, two)
+    _turn_edges(floats(word(data + AT.velocity) + 8 * row), 0, 1, one, two)
+    _turn_edges(floats(word(data + AT.reference) + 8 * row), 0, 1, one, two)
     if sparse > 0.0:
-        first = integers(long_at(data + AT.rowadr), row + 1)[row]
-        width = integers(long_at(data + AT.rownnz), row + 1)[row]
+        first = integers(word(data + AT.rowadr))[row]
+        width = integers(word(data + AT.rownnz))[row]
     else:
-        width = long_at(model + AT.model_nv)
+        width = cython.cast(cython.int, word(model + AT.model_nv))
         first = row * width
-    jacobian = floats(long_at(data + AT.jacobian) + 8 * first, 4 * width)
+    jacobian = floats(word(data + AT.jacobian) + 8 * first)
     for column in range(width):
         _turn_edges(jacobian, column, width, one, two)
 
 
-@part
-def _turn_edges(array: Floats, first: int, width: int, one: float, two: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _turn_edges(
+    array: cython.p_double,
+    first: cython.int,
+    width: cython.int,
+    one: cython.double,
+    two: cython.double,
+) -> cython.void:
     """Turn the numbers of four edges, n ± t1 and n ± t2, that are so far apart in an array."""
     second, third, fourth = first + width, first + 2 * width, first + 3 * width
     normal = 0.5 * (array[first] + array[second])
@@ -192,21 +234,25 @@ def _turn_edges(array: Floats, first: int, width: int, one: float, two: float) -
     array[third], array[fourth] = normal + (one * b - two * a), normal - (one * b - two * a)
 
 
-@part
-def _last(model: int, data: int, row: int, sparse: float) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _last(
+    model: cython.size_t, data: cython.size_t, row: cython.int, sparse: cython.double
+) -> cython.double:
     """The acceleration of the last step along a row of the Jacobian."""
-    width = long_at(model + AT.model_nv)
-    before = floats(long_at(data + AT.warmstart), width)
+    width = cython.cast(cython.int, word(model + AT.model_nv))
+    before = floats(word(data + AT.warmstart))
     found = 0.0
     if sparse > 0.0:
-        first = integers(long_at(data + AT.rowadr), row + 1)[row]
-        count = integers(long_at(data + AT.rownnz), row + 1)[row]
-        columns = integers(long_at(data + AT.colind) + 4 * first, count)
-        jacobian = floats(long_at(data + AT.jacobian) + 8 * first, count)
+        first = integers(word(data + AT.rowadr))[row]
+        count = integers(word(data + AT.rownnz))[row]
+        columns = integers(word(data + AT.colind) + 4 * first)
+        jacobian = floats(word(data + AT.jacobian) + 8 * first)
         for place in range(count):
             found += jacobian[place] * before[columns[place]]
     else:
-        jacobian = floats(long_at(data + AT.jacobian) + 8 * row * width, width)
+        jacobian = floats(word(data + AT.jacobian) + 8 * row * width)
         for place in range(width):
             found += jacobian[place] * before[place]
     return found

@@ -12,34 +12,34 @@ A contact at another point has its Jacobian's rows there: for each velocity that
 the contact about an axis w they change by w x shift.
 """
 
-from __future__ import annotations
+# mypy: disallow-untyped-decorators=False
 
-from typing import TypeAlias
+import cython
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import GEOM_NUMBERS, MIDDLE, TREAD
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.native.memory import floats, integers, word
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.engines.mujoco.laws.layouts import offsets
-from gazelle.engines.mujoco.laws.numbers import GEOM_NUMBERS, MIDDLE, TREAD
-from gazelle.engines.native import floats, integers, long_at, part
-
-Floats: TypeAlias = NDArray[np.float64]
-
-AT = offsets()
-
-_ELLIPTIC = 1  # mjCONE_ELLIPTIC
+_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # Sine of the angle from level at which an axle is no wheel's any more.
-_STEEP = 0.34
+_STEEP = cython.declare(cython.double, 0.34)
 
-_NEAR = 1e-9  # [m]
+_NEAR = cython.declare(cython.double, 1e-9)  # [m]
 
 # By how much a tread gives way at an edge: ODE's usual surface layer [m].
-_GIVES = 1e-3
+_GIVES = cython.declare(cython.double, 1e-3)
 
 
-@part
-def stand_in_the_middle(model: int, data: int, contact: int, row: int, sparse: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def stand_in_the_middle(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    sparse: cython.double,
+) -> cython.void:
     """Move a contact with a wheel to the middle of its tread.
 
     Args:
@@ -49,22 +49,22 @@ def stand_in_the_middle(model: int, data: int, contact: int, row: int, sparse: f
         row: Its first row among the constraints.
         sparse: Whether Jacobians are.
     """
-    if integers(contact + AT.contact_dim, 1)[0] < 3:
+    if integers(contact + AT.contact_dim)[0] < 3:
         return
-    geoms = integers(contact + AT.contact_geom, 2)
-    place = floats(contact + AT.contact_pos, 3)
-    normal = floats(contact + AT.contact_frame, 3)
-    shift = np.zeros(3)
+    geoms = integers(contact + AT.contact_geom)
+    place = floats(contact + AT.contact_pos)
+    normal = floats(contact + AT.contact_frame)
+    shift = cython.declare(cython.double[3])
     for side in range(2):
         geom = geoms[side]
         if geom < 0:
             continue
-        own = floats(long_at(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom, GEOM_NUMBERS)
-        joint = int(own[TREAD]) - 1
+        own = floats(word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom)
+        joint = cython.cast(cython.int, own[TREAD]) - 1
         if joint < 0:
             continue
-        axle = floats(long_at(data + AT.xaxis) + 24 * joint, 3)
-        centre = floats(long_at(data + AT.geom_xpos) + 24 * geom, 3)
+        axle = floats(word(data + AT.xaxis) + 24 * joint)
+        centre = floats(word(data + AT.geom_xpos) + 24 * geom)
         along, lean = -own[MIDDLE], 0.0
         for axis in range(3):
             along += (place[axis] - centre[axis]) * axle[axis]
@@ -78,89 +78,124 @@ def stand_in_the_middle(model: int, data: int, contact: int, row: int, sparse: f
             return
 
 
-@part
-def _move(model: int, data: int, contact: int, row: int, shift: Floats, sparse: float) -> None:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _move(
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    shift: cython.p_double,
+    sparse: cython.double,
+) -> cython.void:
     """Move where a contact acts."""
-    geoms = integers(contact + AT.contact_geom, 2)
-    frame = floats(contact + AT.contact_frame, 9)
-    arm, change = np.zeros(3), np.zeros(3)
+    geoms = integers(contact + AT.contact_geom)
+    frame = floats(contact + AT.contact_frame)
+    arm = cython.declare(cython.double[3])
+    change = cython.declare(cython.double[3])
+    change[0] = change[1] = change[2] = 0.0
     for side in range(2):
         geom = geoms[side]
         sign = 1.0 if side == 1 else -1.0
-        body = integers(long_at(model + AT.model_bodyid), geom + 1)[geom]
+        body = integers(word(model + AT.model_bodyid))[geom]
         dof = _last_dof(model, body)
         while dof >= 0:
-            spin = floats(long_at(data + AT.cdof) + 48 * dof, 3)
+            spin = floats(word(data + AT.cdof) + 48 * dof)
             x = spin[1] * shift[2] - spin[2] * shift[1]
             y = spin[2] * shift[0] - spin[0] * shift[2]
             z = spin[0] * shift[1] - spin[1] * shift[0]
-            speed = floats(long_at(data + AT.qvel) + 8 * dof, 1)[0]
+            speed = floats(word(data + AT.qvel) + 8 * dof)[0]
             for way in range(3):
                 first = 3 * way
                 arm[way] = sign * (frame[first] * x + frame[first + 1] * y + frame[first + 2] * z)
                 change[way] += arm[way] * speed
             _add(model, data, contact, row, dof, arm, sparse)
-            dof = integers(long_at(model + AT.model_dof_parentid), dof + 1)[dof]
+            dof = integers(word(model + AT.model_dof_parentid))[dof]
     rows = _rows(model)
-    mu = floats(contact + AT.contact_friction, 1)[0]
-    velocity = floats(long_at(data + AT.velocity) + 8 * row, rows)
-    reference = floats(long_at(data + AT.reference) + 8 * row, rows)
-    terms = floats(long_at(data + AT.terms) + 32 * row, 4 * rows)
+    mu = floats(contact + AT.contact_friction)[0]
+    velocity = floats(word(data + AT.velocity) + 8 * row)
+    reference = floats(word(data + AT.reference) + 8 * row)
+    terms = floats(word(data + AT.terms) + 32 * row)
     for place in range(rows):
         more = _part_of(change, place, rows, mu)
         velocity[place] += more
         reference[place] -= terms[4 * place + 1] * more
 
 
-@part
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
 def _add(
-    model: int, data: int, contact: int, row: int, dof: int, arm: Floats, sparse: float
-) -> None:
+    model: cython.size_t,
+    data: cython.size_t,
+    contact: cython.size_t,
+    row: cython.int,
+    dof: cython.int,
+    arm: cython.p_double,
+    sparse: cython.double,
+) -> cython.void:
     """Add to a column of a contact's rows."""
     rows = _rows(model)
-    mu = floats(contact + AT.contact_friction, 1)[0]
+    mu = floats(contact + AT.contact_friction)[0]
     for place in range(rows):
         at = _place(model, data, row + place, dof, sparse)
         if at >= 0:
-            number = floats(long_at(data + AT.jacobian) + 8 * at, 1)
+            number = floats(word(data + AT.jacobian) + 8 * at)
             number[0] += _part_of(arm, place, rows, mu)
 
 
-@part
-def _rows(model: int) -> int:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _rows(model: cython.size_t) -> cython.int:
     """Rows of a contact that normal and friction have: of a cone, or a pyramid's edges."""
-    return 3 if integers(model + AT.model_cone, 1)[0] == _ELLIPTIC else 4
+    return 3 if integers(model + AT.model_cone)[0] == _ELLIPTIC else 4
 
 
-@part
-def _part_of(ways: Floats, place: int, rows: int, mu: float) -> float:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _part_of(
+    ways: cython.p_double, place: cython.int, rows: cython.int, mu: cython.double
+) -> cython.double:
     """What (normal, first, second) direction are in a row: n ± mu t in a pyramid."""
     if rows == 3:
-        return float(ways[place])
+        return ways[place]
     aside = mu * ways[1 + place // 2]
-    return float(ways[0] - aside if place % 2 == 1 else ways[0] + aside)
+    return ways[0] - aside if place % 2 == 1 else ways[0] + aside
 
 
-@part
-def _place(model: int, data: int, row: int, dof: int, sparse: float) -> int:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _place(
+    model: cython.size_t,
+    data: cython.size_t,
+    row: cython.int,
+    dof: cython.int,
+    sparse: cython.double,
+) -> cython.int:
     """Where the Jacobian has a row's number for a velocity; -1 if nowhere."""
     if sparse <= 0.0:
-        return row * long_at(model + AT.model_nv) + dof
-    first = int(integers(long_at(data + AT.rowadr), row + 1)[row])
-    count = integers(long_at(data + AT.rownnz), row + 1)[row]
-    columns = integers(long_at(data + AT.colind) + 4 * first, count)
+        return row * cython.cast(cython.int, word(model + AT.model_nv)) + dof
+    first = integers(word(data + AT.rowadr))[row]
+    count = integers(word(data + AT.rownnz))[row]
+    columns = integers(word(data + AT.colind) + 4 * first)
     for place in range(count):
         if columns[place] == dof:
             return first + place
     return -1
 
 
-@part
-def _last_dof(model: int, body: int) -> int:
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _last_dof(model: cython.size_t, body: cython.int) -> cython.int:
     """The last velocity that moves a body; -1 if none does."""
     while body > 0:
-        count = integers(long_at(model + AT.model_dofnum), body + 1)[body]
+        count = integers(word(model + AT.model_dofnum))[body]
         if count > 0:
-            return int(integers(long_at(model + AT.model_dofadr), body + 1)[body] + count - 1)
-        body = integers(long_at(model + AT.model_parentid), body + 1)[body]
+            return integers(word(model + AT.model_dofadr))[body] + count - 1
+        body = integers(word(model + AT.model_parentid))[body]
     return -1

@@ -1,0 +1,1 @@
+cdef void drive_motors(size_t model, size_t data, int count) noexcept nogil

@@ -1,0 +1,23 @@
+# What numbers.py says, for compiled modules.
+
+cdef enum:
+    HEAD = 9
+    COM_VEL = 0
+    RNE = 1
+    SOLVE_M = 2
+    COUNT = 3
+    HINGES = 4
+    BIAS_HEAD = 5
+    GEOM_NUMBERS = 8
+    NO_DIRECTION = 0
+    ITS_OWN = 1
+    BY_THE_NORMAL = 2
+    TREAD = 5
+    MIDDLE = 6
+    EXIT = 7
+
+cdef extern from *:
+    """
+    #define GAZELLE_MARK 7.0131e57
+    """
+    const double MARK "GAZELLE_MARK"

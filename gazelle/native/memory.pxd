@@ -1,0 +1,31 @@
+# What memory.py says, for compiled modules.
+
+cdef inline double* floats(size_t address) noexcept nogil:
+    return <double*>address
+
+
+cdef inline int* integers(size_t address) noexcept nogil:
+    return <int*>address
+
+
+cdef inline size_t word(size_t address) noexcept nogil:
+    return (<size_t*>address)[0]
+
+
+ctypedef void (*Two)(size_t, size_t) noexcept nogil
+ctypedef void (*Four)(size_t, size_t, int, size_t) noexcept nogil
+ctypedef void (*Five)(size_t, size_t, size_t, size_t, int) noexcept nogil
+
+
+cdef inline void call_two(size_t function, size_t a, size_t b) noexcept nogil:
+    (<Two>function)(a, b)
+
+
+cdef inline void call_four(size_t function, size_t a, size_t b, int c, size_t d) noexcept nogil:
+    (<Four>function)(a, b, c, d)
+
+
+cdef inline void call_five(
+    size_t function, size_t a, size_t b, size_t c, size_t d, int e
+) noexcept nogil:
+    (<Five>function)(a, b, c, d, e)
