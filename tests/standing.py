@@ -26,9 +26,10 @@ from gazelle.engines.mujoco.compiler import COLLISION_GROUP
 
 LONG = 600.0
 SETTLING = 20.0
-SAMPLE = 1.0
 RESTS = 1e-3
 """Speed of what rests [m/s]."""
+LOOKS = (0.11, 0.27, 0.62)
+"""What rests does so each time that it is looked at, so long apart, and does not swing [s]."""
 SINKS = 0.01
 """What rests may sink by so much [m]."""
 
@@ -111,9 +112,10 @@ def stand(path: Path, corpus: Path, *, long: float = LONG, budget: float = 1e9) 
     watch = _Watch(engine)
     if not watch.moving.size:
         return Outcome(name)
-    steps = max(1, round(SAMPLE / engine.time_step))
+    pauses = [max(1, round(seconds / engine.time_step)) for seconds in LOOKS]
     fault = ""
     while watch.time < long and time.process_time() - start < budget and not fault:
+        steps = pauses[watch.looks % len(pauses)]
         try:
             engine.step(steps)
         except DivergenceError:
@@ -147,6 +149,7 @@ class _Watch:
         self.moving = np.array([b for b in mobile if model.body_mocapid[b] < 0], dtype=int)
         self.time, self.sunk, self.fastest, self.thrown = 0.0, 0.0, 0.0, 0.0
         self.fault, self.where = "", ""
+        self.looks, self._slow = 0, np.zeros(self.moving.size, dtype=int)
         self._rested = np.full(self.moving.size, np.nan)
         self._energy = self._look_closer()[2]
         self._scale = max(1.0, float(model.body_mass[self.moving].sum()) * 9.8 * 0.01)
@@ -170,6 +173,7 @@ class _Watch:
     def look(self, seconds: float) -> None:
         """Take a sample."""
         self.time += seconds
+        self.looks += 1
         height, speed, energy = self._look_closer()
         in_world = height > -20.0
         if self.time < SETTLING or self._engine._overlaps.any:
@@ -183,7 +187,8 @@ class _Watch:
             self.where = f"{self._model.body(self.moving[speed.argmax()]).name} at {self.time:g} s"
         if in_world.any():
             self.fastest = max(self.fastest, float(speed[in_world].max()))
-        fresh = np.isnan(self._rested) & (speed < RESTS)
+        self._slow = np.where(speed < RESTS, self._slow + 1, 0)
+        fresh = np.isnan(self._rested) & (self._slow >= len(LOOKS))
         self._rested[fresh] = height[fresh]
         drop = np.nan_to_num(self._rested - height)
         if drop.max() > self.sunk:

@@ -265,6 +265,12 @@ def test_shapes_without_volume_are_nothing_to_hit():
     assert fallen == pytest.approx(0.5 * 9.8 * 0.1**2, rel=0.02)
 
 
+def test_a_kinematic_link_is_not_dropped_in_silence():
+    link = Link("link", inertial=Inertial(), kinematic=True)
+    with pytest.warns(EngineWarning, match="link 'm::link' has <kinematic>, which has no effect"):
+        make(Model("m", links=(link,)))
+
+
 def test_velocity_decay_is_not_dropped_in_silence():
     link = Link("link", inertial=Inertial(), velocity_decay_linear=0.01)
     with pytest.warns(

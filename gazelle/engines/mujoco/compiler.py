@@ -29,7 +29,7 @@ from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
-from gazelle.engines.mujoco.options import add_probes, set_options
+from gazelle.engines.mujoco.options import add_probes, find_forces, set_options
 from gazelle.engines.mujoco.remarks import LEAST_MOMENT, warn_of_links
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
@@ -59,6 +59,7 @@ class Recipe:
         motors: By scoped joint name.
         attachments: Pairs of links that can be held together at run time.
         tyres: Links whose shapes may slip in proportion to the force.
+        damped: Whether joints may be damped that the world's are not.
     """
 
     world: World
@@ -67,6 +68,7 @@ class Recipe:
     motors: Mapping[str, Motor] = field(default_factory=dict)
     attachments: tuple[Attachment, ...] = ()
     tyres: frozenset[str] = frozenset()
+    damped: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +105,7 @@ class Draft:
         closures: Joints that close loops or couple others.
         extras: Laws that MuJoCo alone does not know.
         slips: Of wheels that may slip, by link.
+        damped: Whether joints may be damped that the world's are not.
     """
 
     spec: mujoco.MjSpec
@@ -113,6 +116,7 @@ class Draft:
     closures: Sequence[Closure]
     extras: Extras
     slips: Mapping[str, Slip]
+    damped: bool = False
 
     def compile(self) -> mujoco.MjModel:
         """The MuJoCo model.
@@ -130,6 +134,9 @@ class Draft:
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
         tune_slips(compiled, self.slips)
         stiffen(compiled)
+        if self.damped or compiled.dof_damping.any():
+            find_forces(compiled.opt)
+            find_forces(self.spec.option)
         self._solve_at_once(compiled)
         return compiled
 
@@ -202,7 +209,15 @@ def draft_world(recipe: Recipe) -> Draft:
         swings=swings(recipe.world, bodies),
     )
     return Draft(
-        spec, builder.shapes, bodies, builder.geoms, pairs.springs, closures, extras, slips
+        spec,
+        builder.shapes,
+        bodies,
+        builder.geoms,
+        pairs.springs,
+        closures,
+        extras,
+        slips,
+        recipe.damped,
     )
 
 

@@ -297,6 +297,8 @@ class MujocoEngine(ForcedSteps):
         check(kind, name, every)
         if kind == "wheel_slip":
             self._fit_tyre(name)
+        if kind == "joint_damping" and every.any() and not self._recipe.damped:
+            self._change(replace(self._recipe, damped=True))
         if kind in _OFF_AXIS and self._batch.model.body_simple[layout.link(name).body]:
             self._unsimplify(kind, name, every)
         self._parameters.write(self._batch, self._layout, (kind, name), every)

@@ -16,6 +16,10 @@ from gazelle.errors import EngineError, did_you_mean
 # So often MuJoCo's line search may halve its interval: motors and dry friction are stiff.
 _LINE_SEARCH_ITERATIONS = 100
 
+# Improvements smaller than this end the search where joints are damped, in place of MuJoCo's
+# 1e-8, and how much coarser than that a line is searched: as finely as elsewhere.
+_FINE, _FINE_LINE = 1e-14, 1e4
+
 # Names of how contacts are solved.
 CONTACTS = ("exact", "fast")
 
@@ -83,6 +87,16 @@ def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
     else:
         cone = has_loose(world, kinematic)
     return mujoco.mjtCone.mjCONE_ELLIPTIC if cone else mujoco.mjtCone.mjCONE_PYRAMIDAL
+
+
+def find_forces(option: mujoco.MjOption) -> None:
+    """Let the solver go on until forces are found as well as accelerations.
+
+    Newton's method is done when the acceleration is, which a stiff contact has while its force is
+    still wrong by a thousand newtons. That does no harm unless joints are damped: Euler's implicit
+    method then finds the acceleration anew, from the forces. What stands shakes so.
+    """
+    option.tolerance, option.ls_tolerance = _FINE, _FINE_LINE
 
 
 def _integrator(name: str | None) -> mujoco.mjtIntegrator:

@@ -17,7 +17,7 @@ _NAMED = 5
 
 
 def warn_of_links(models: Iterable[Sequence[Body]]) -> None:
-    """Say which links have an inertia too small to simulate, or a decay of velocity."""
+    """Say which links have an inertia too small to simulate, or what has no effect here."""
     moving = [body for bodies in models for body in bodies if body.root != "static"]
     _warn(
         [body for body in moving if _is_tiny(body)],
@@ -26,6 +26,10 @@ def warn_of_links(models: Iterable[Sequence[Body]]) -> None:
     _warn(
         [body for body in moving if _decays(body)],
         "a <velocity_decay>, which has no effect; give their joints <damping>",
+    )
+    _warn(
+        [body for body in moving if body.link.kinematic and body.root != "kinematic"],
+        "<kinematic>, which has no effect: forces move it; say <static> of a model that stands",
     )
 
 
