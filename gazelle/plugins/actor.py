@@ -13,6 +13,7 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.rotations import from_yaw, multiply
 from gazelle.simulation import ModelPlugin, Robot
+from gazelle.simulation.clock import NANOSECONDS
 from gazelle.streams import Stream
 
 # Gazebo's plugin: speed [m/s], when a target is reached, how far it stays away from models,
@@ -49,7 +50,7 @@ class ActorWalk(ModelPlugin):
         self._ignored = {robot.name, *(tag.text for tag in tags)}
         nworld = robot.simulation.nworld
         self._position, self._target = np.zeros((2, nworld, 3))
-        self._yaw, self._last_time = np.zeros(nworld), np.zeros(nworld)
+        self._yaw, self._last_ns = np.zeros(nworld), np.zeros(nworld, np.int64)
         self._stream = Stream(robot.simulation.seed, f"{robot.name}::walk", nworld)
         robot.simulation.engine.make_kinematic(robot.name)
         self._begin(None)
@@ -58,13 +59,14 @@ class ActorWalk(ModelPlugin):
         rows = slice(None) if worlds is None else worlds
         start = self._robot.description.pose
         self._position[rows], self._yaw[rows] = start.position, start.rpy[2]
-        self._target[rows], self._last_time[rows] = self._first, self._simulation.clock.now
+        self._target[rows], self._last_ns[rows] = self._first, self._simulation.clock.now_ns
         self._place()
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Turn and walk."""
-        interval = time - self._last_time
-        self._last_time[:] = time
+        now_ns = self._simulation.clock.now_ns
+        interval = (now_ns - self._last_ns) / NANOSECONDS
+        self._last_ns[:] = now_ns
         way = self._target - self._position
         there = np.flatnonzero(np.linalg.norm(way, axis=1) < _REACHED)
         if there.size:
@@ -134,7 +136,7 @@ class ActorWalk(ModelPlugin):
             "position": self._position.copy(),
             "yaw": self._yaw.copy(),
             "target": self._target.copy(),
-            "time": self._last_time.copy(),
+            "time": self._last_ns.copy(),
             "keys": self._stream.keys.copy(),
             "counters": self._stream.counters.copy(),
         }
@@ -142,7 +144,7 @@ class ActorWalk(ModelPlugin):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._position[:], self._yaw[:] = state["position"], state["yaw"]
-        self._target[:], self._last_time[:] = state["target"], state["time"]
+        self._target[:], self._last_ns[:] = state["target"], state["time"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
 
 

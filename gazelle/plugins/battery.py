@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.simulation import ModelPlugin, Robot
+from gazelle.simulation import ModelPlugin, Robot, Stopwatch
 
 
 class BatteryConsumer(ModelPlugin):
@@ -60,15 +60,14 @@ class LinearBattery(ModelPlugin):
         self.charge: Floats = np.full(nworld, self._first)
         self.current: Floats = np.zeros(nworld)
         self.voltage: Floats = self._open_voltage()
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
 
     def _open_voltage(self) -> Floats:
         return np.asarray(self._full + self._slope * (1.0 - self.charge / self._capacity))
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Lose charge."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         taken = sum(
             entry.plugin.power
             for entry in self._simulation.plugins
@@ -88,7 +87,7 @@ class LinearBattery(ModelPlugin):
         self.charge[rows], self.current[rows] = self._first, 0.0
         self.voltage[rows] = self._open_voltage()[rows]
         if worlds is None:
-            self._last_time = self._simulation.time
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Charge, current, voltage."""
@@ -96,11 +95,11 @@ class LinearBattery(ModelPlugin):
             "charge": self.charge.copy(),
             "current": self.current.copy(),
             "voltage": self.voltage.copy(),
-            "time": np.array(self._last_time),
+            "time": np.array(self._watch.start_ns),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self.charge[:], self.current[:] = state["charge"], state["current"]
         self.voltage[:] = state["voltage"]
-        self._last_time = float(np.asarray(state["time"], np.float64))
+        self._watch.start_ns = int(np.asarray(state["time"]))

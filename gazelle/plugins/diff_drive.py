@@ -24,6 +24,7 @@ from gazelle.simulation import (
     Odometry,
     Output,
     Robot,
+    Stopwatch,
     Transforms,
     TwistInput,
     absolute,
@@ -78,7 +79,7 @@ class DiffDrive(ModelPlugin):
         self._speeds = np.zeros((nworld, 2))
         self._settled = -1  # the command whose speeds the motors already have
         self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
         self._open_ports(robot, parameters, nworld)
 
     def _open_ports(self, robot: Robot, parameters: Parameters, nworld: int) -> None:
@@ -103,10 +104,9 @@ class DiffDrive(ModelPlugin):
             published.append(robot.outputs["joint_states"])
         self._published = tuple(published)
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Drive the wheels and publish the odometry."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         if self._from_encoders:
             self._reckoning.advance(self._angles(), interval)
         self._drive(interval)
@@ -161,12 +161,12 @@ class DiffDrive(ModelPlugin):
         self._settled = -1
         self._reckoning.reset(worlds, self._angles())
         if worlds is None:
-            self._last_time = self._robot.simulation.time
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Wheel speeds, odometry and time of the last update."""
         rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
-        last_time = np.array(self._last_time)
+        last_time = np.array(self._watch.start_ns)
         return {"speeds": self._speeds.copy(), **rolled, "last_time": last_time}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -174,7 +174,7 @@ class DiffDrive(ModelPlugin):
         self._speeds[:] = state["speeds"]
         self._settled = -1
         self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
-        self._last_time = float(state["last_time"])
+        self._watch.start_ns = int(state["last_time"])
 
 
 def _source(parameters: Parameters) -> str:

@@ -11,7 +11,7 @@ from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.pid import Gains, Pid
-from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
+from gazelle.simulation import Input, ModelPlugin, Robot, Stopwatch, absolute, namespace_of
 from gazelle.states import restore_all, states_of
 
 _LIFT = Gains(100000.0, 0.0, 100000.0)
@@ -45,7 +45,7 @@ class Elevator(ModelPlugin):
         self._floor = np.zeros(nworld)
         self._until = np.zeros(nworld)
         self._pids = {"lift": Pid(_LIFT, nworld), "door": Pid(_DOOR, nworld)}
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
         # Gazebo's own topic begins with ~, which stands for the world there.
         topic = parameters.get("topic", "elevator").removeprefix("~/")
         robot.inputs["elevator"] = Input(
@@ -69,8 +69,7 @@ class Elevator(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Push lift and door to where they have to be."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         lift = self._lift.positions()[:, 0] - self._floor * self._height
         opened = (self._phase == _OPENING) | (self._phase == _WAITING)
         door = self._door.positions()[:, 0] - _OPEN * opened
@@ -98,7 +97,7 @@ class Elevator(ModelPlugin):
         for pid in self._pids.values():
             pid.reset(worlds)
         if worlds is None:
-            self._last_time = self._clock.now
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Where it goes, and how far it is."""
@@ -107,7 +106,7 @@ class Elevator(ModelPlugin):
             "phase": self._phase.copy(),
             "floor": self._floor.copy(),
             "until": self._until.copy(),
-            "time": np.array(self._last_time),
+            "time": np.array(self._watch.start_ns),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -115,7 +114,7 @@ class Elevator(ModelPlugin):
         restore_all(self._pids, state)
         self._phase[:], self._floor[:] = state["phase"], state["floor"]
         self._until[:] = state["until"]
-        self._last_time = float(np.asarray(state["time"], np.float64))
+        self._watch.start_ns = int(np.asarray(state["time"]))
 
 
 def _own(name: str) -> str:

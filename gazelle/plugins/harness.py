@@ -21,7 +21,7 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.sdf import read_sdf
 from gazelle.plugins.pid import Gains, Pid
-from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
+from gazelle.simulation import Input, ModelPlugin, Robot, Stopwatch, absolute, namespace_of
 from gazelle.simulation.values import Number
 from gazelle.states import restore_all, states_of
 
@@ -74,7 +74,7 @@ class Harness(ModelPlugin):
             self._drop()
             raise
         self._speed, self._place = np.zeros((2, nworld))
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
         self._open(robot, namespace_of(robot, parameters))
         self._unsubscribe = robot.simulation.events.deleted.subscribe(self._end)
 
@@ -139,9 +139,9 @@ class Harness(ModelPlugin):
         """Whether the model hangs in any world."""
         return bool(self._held.any())
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Pull at the winch: by its speed, and where it shall hold by its place too."""
-        interval, self._last_time = time - self._last_time, time
+        interval = self._watch.lap()
         engine, joint = self._simulation.engine, self._winch.joint
         holds = np.abs(self._speed) <= _STILL
         off = np.where(holds, engine.joint_position(joint)[:, 0] - self._place, 0.0)
@@ -171,7 +171,7 @@ class Harness(ModelPlugin):
         self._speed[rows], self._place[rows] = 0.0, 0.0
         for pid in self._pids.values():
             pid.reset(worlds)
-        self._last_time = self._simulation.clock.now
+        self._watch.restart()
         self._hang(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
@@ -181,7 +181,7 @@ class Harness(ModelPlugin):
             "held": self._held.copy(),
             "speed": self._speed.copy(),
             "place": self._place.copy(),
-            "time": np.array(self._last_time),
+            "time": np.array(self._watch.start_ns),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -189,7 +189,7 @@ class Harness(ModelPlugin):
         restore_all(self._pids, state)
         self._held[:] = state["held"]
         self._speed[:], self._place[:] = state["speed"], state["place"]
-        self._last_time = float(np.asarray(state["time"], np.float64))
+        self._watch.start_ns = int(np.asarray(state["time"]))
 
 
 def _ropes(robot: Robot, parameters: Parameters) -> Iterator[_Rope]:

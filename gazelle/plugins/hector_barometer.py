@@ -44,7 +44,7 @@ class HectorBarometer(OnBody):
 
     def _measure(self) -> Floats:
         """Height [m], shape (nworld, 1)."""
-        interval = self._interval.since(self._simulation.clock.now)
+        interval = self._interval.since(self._simulation.clock.now_ns)
         return self._error.apply(placed(self._frame).position[:, 2:], interval)
 
     def _height(self) -> Floats:

@@ -7,7 +7,6 @@ it shrinks by ``exp(-interval * frequency)`` and takes up
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -17,6 +16,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
 from gazelle.simulation import Tunable, Tuning
+from gazelle.simulation.clock import NANOSECONDS
 from gazelle.streams import Stream
 
 _TAGS = {
@@ -158,12 +158,12 @@ class Interval:
     """Time since the last measurement."""
 
     def __init__(self) -> None:
-        self._last: float | None = None
+        self._last_ns: int | None = None
 
-    def since(self, now: float) -> float:
+    def since(self, now_ns: int) -> float:
         """The time since the last call [s]; 0 at the first and when time went back."""
-        last, self._last = self._last, now
-        return max(0.0, now - last) if last is not None else 0.0
+        last, self._last_ns = self._last_ns, now_ns
+        return max(0, now_ns - last) / NANOSECONDS if last is not None else 0.0
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
         """It has no random numbers."""
@@ -171,16 +171,16 @@ class Interval:
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over when all worlds do."""
         if worlds is None:
-            self._last = None
+            self._last_ns = None
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """The last time; NaN for none."""
-        return {"last": np.array(math.nan if self._last is None else self._last)}
+        """The last time [ns]; -1 for none."""
+        return {"last": np.array(-1 if self._last_ns is None else self._last_ns)}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        last = float(np.asarray(state["last"], np.float64))
-        self._last = None if math.isnan(last) else last
+        last = int(np.asarray(state["last"]))
+        self._last_ns = None if last < 0 else last
 
 
 def _numbers(parameters: Parameters, prefix: str, tag: str, axes: int, default: float) -> Floats:

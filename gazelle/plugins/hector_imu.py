@@ -81,7 +81,7 @@ class HectorImu(Noisy, Publishing):
     def _measure(self) -> UnsureImu:
         now = self._simulation.clock
         true = self._model.reading(self._model.measure(), now.now_ns)
-        interval = self._interval.since(now.now)
+        interval = self._interval.since(now.now_ns)
         rates = self._rate.apply(true.angular_velocity, interval)
         accelerations = self._accel.apply(true.linear_acceleration, interval)
         self._yaw.apply(np.zeros((self._simulation.nworld, 1)), interval)

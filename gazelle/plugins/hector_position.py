@@ -101,7 +101,7 @@ class HectorGps(OnBody):
 
     def _measure(self) -> tuple[Floats, Floats]:
         """Position and velocity in the world; the velocity's drift moves the position's."""
-        interval = self._interval.since(self._simulation.clock.now)
+        interval = self._interval.since(self._simulation.clock.now_ns)
         velocity = self._velocity.apply(self._frame[0].motion().linear, interval)
         position = self._position.apply(placed(self._frame).position, interval)
         drifted = self._position.drifted + interval * self._velocity.drifted
@@ -175,4 +175,4 @@ class HectorMagnetic(OnBody):
         place = placed(self._frame)
         field = np.broadcast_to(self._field, place.position.shape)
         felt = rotate(conjugate(place.quaternion), field)
-        return self._kind(clock.now_ns, self._error.apply(felt, self._interval.since(clock.now)))
+        return self._kind(clock.now_ns, self._error.apply(felt, self._interval.since(clock.now_ns)))

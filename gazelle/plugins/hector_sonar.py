@@ -50,7 +50,7 @@ class HectorSonar(Noisy, SensorPlugin):
 
     def _read(self) -> SonarValue:
         nearest = np.minimum(self._sensor.current().min(axis=1), self._most)
-        interval = self._interval.since(self._clock.now)
+        interval = self._interval.since(self._clock.now_ns)
         wrong = self._error.apply(nearest[:, None], interval)[:, 0]
         distance = np.where(nearest < self._most, wrong, nearest)
         return SonarValue(

@@ -13,7 +13,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.plugins.pid import Gains, Pid
-from gazelle.simulation import JointHandle, ModelPlugin, Robot
+from gazelle.simulation import JointHandle, ModelPlugin, Robot, Stopwatch
 from gazelle.states import restore_all, states_of
 
 _TYPES = ("force", "position", "velocity")
@@ -57,12 +57,11 @@ class JointControl(ModelPlugin):
         ]
         pids = enumerate(each.pid for each in self._controllers)
         self._pids = {str(i): pid for i, pid in pids if pid is not None}
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Turn the joints."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         efforts: dict[str, Floats] = {}
         joints: dict[str, JointHandle] = {}
         for each in self._controllers:
@@ -76,15 +75,15 @@ class JointControl(ModelPlugin):
         for pid in self._pids.values():
             pid.reset(worlds)
         if worlds is None:
-            self._last_time = self._clock.now
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Sums and errors."""
-        return {**states_of(self._pids), "time": np.array(self._last_time)}
+        return {**states_of(self._pids), "time": np.array(self._watch.start_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._last_time = float(np.asarray(state["time"], np.float64))
+        self._watch.start_ns = int(np.asarray(state["time"]))
         restore_all(self._pids, state)
 
 

@@ -24,6 +24,7 @@ from gazelle.simulation import (
     Output,
     Robot,
     Setting,
+    Stopwatch,
     TwistInput,
     absolute,
     namespace_of,
@@ -64,9 +65,9 @@ class Kobuki(ModelPlugin):
         self._cliffs, self._bumpers = Cliffs(robot, parameters), Bumpers(robot, parameters)
         self._power = np.ones(robot.simulation.nworld, np.bool_)
         self._reckoning = DeadReckoning(separation, radius, self._angles())
-        self._last_time = robot.simulation.time
+        self._watch, self._silence = Stopwatch(self._clock), Stopwatch(self._clock)
         self._open_ports(robot, parameters)
-        self._heard, self._heard_at = self._command.revision, self._clock.now
+        self._heard = self._command.revision
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
         namespace = namespace_of(robot, parameters)
@@ -114,24 +115,25 @@ class Kobuki(ModelPlugin):
     def _switch(self, power: MotorPower, worlds: Worlds | None) -> None:
         self._power[slice(None) if worlds is None else worlds] = power.on
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Drive, count and tell."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         turning = self._feel().angular_velocity[:, 2]
         self._reckoning.advance(self._angles(), interval, turning * interval)
-        self._drive(time)
+        self._drive()
         for output in self._published:
             output.publish()
         self._cliffs.tell()
         self._bumpers.tell()
 
-    def _drive(self, time: float) -> None:
+    def _drive(self) -> None:
         if self._command.revision != self._heard:
-            self._heard, self._heard_at = self._command.revision, time
-        elif time - self._heard_at > self._timeout:
+            self._heard = self._command.revision
+            self._silence.restart()
+        elif self._silence.elapsed > self._timeout:
             self._command.clear()
-            self._heard, self._heard_at = self._command.revision, time
+            self._heard = self._command.revision
+            self._silence.restart()
         forward = self._command.linear[:, 0] * self._power
         across = self._command.angular[:, 2] * self._half * self._power
         for wheel, sign in zip(self._wheels, (-1.0, 1.0), strict=True):
@@ -164,9 +166,10 @@ class Kobuki(ModelPlugin):
         self._reckoning.reset(worlds, self._angles())
         self._cliffs.reset(worlds)
         self._bumpers.reset(worlds)
-        self._heard, self._heard_at = self._command.revision, self._clock.now
+        self._heard = self._command.revision
+        self._silence.restart()
         if worlds is None:
-            self._last_time = self._clock.now
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Odometry, power, what is touched, and the times."""
@@ -175,7 +178,7 @@ class Kobuki(ModelPlugin):
             "power": self._power.copy(),
             "deep": self._cliffs.deep.copy(),
             "pressed": self._bumpers.pressed.copy(),
-            "times": np.array([self._last_time, self._heard_at]),
+            "times": np.array([self._watch.start_ns, self._silence.start_ns]),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -183,5 +186,5 @@ class Kobuki(ModelPlugin):
         self._reckoning.restore(state)
         self._power[:] = state["power"]
         self._cliffs.deep[:], self._bumpers.pressed[:] = state["deep"], state["pressed"]
-        self._last_time, self._heard_at = (float(x) for x in np.asarray(state["times"], float))
+        self._watch.start_ns, self._silence.start_ns = (int(x) for x in state["times"])
         self._heard = self._command.revision

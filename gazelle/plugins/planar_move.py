@@ -15,6 +15,7 @@ from gazelle.simulation import (
     ModelPlugin,
     Odometry,
     Robot,
+    Stopwatch,
     TwistInput,
     absolute,
     namespace_of,
@@ -38,7 +39,7 @@ class PlanarMove(ModelPlugin):
         topic = absolute(namespace, parameters.get("commandTopic", "cmd_vel"))
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, topic)
         self._timeout = parameters.get("cmdTimeout", -1.0)
-        self._heard, self._heard_at = self._command.revision, self._clock.now
+        self._heard, self._silence = self._command.revision, Stopwatch(self._clock)
         self._frame = parameters.get("odometryFrame", "odom")
         self._base = parameters.get("robotBaseFrame", "base_footprint")
         rate = parameters.get("odometryRate", 20.0)
@@ -46,9 +47,9 @@ class PlanarMove(ModelPlugin):
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
         self._odometry = OdometryOutputs(robot, odometry, self._measure, namespace)
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Move, and publish when it is time to."""
-        self._give_up_old(time)
+        self._give_up_old()
         turn = from_yaw(yaw_of(self._robot.quaternion))
         planar = self._command.linear * (1.0, 1.0, 0.0)
         spin = self._command.angular * (0.0, 0.0, 1.0)
@@ -59,28 +60,31 @@ class PlanarMove(ModelPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""
-        self._heard, self._heard_at = self._command.revision, self._clock.now
+        self._heard = self._command.revision
+        self._silence.restart()
         if worlds is None and self._schedule is not None:
             self._schedule.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """The time of the last command."""
-        return {"heard_at": np.array(self._heard_at)}
+        return {"heard_at": np.array(self._silence.start_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._heard_at = float(state["heard_at"])
+        self._silence.start_ns = int(state["heard_at"])
         self._heard = self._command.revision
         if self._schedule is not None:
             self._schedule.done(self._clock.now_ns)
 
-    def _give_up_old(self, time: float) -> None:
+    def _give_up_old(self) -> None:
         """Stand still when no command came for too long."""
         if self._command.revision != self._heard:
-            self._heard, self._heard_at = self._command.revision, time
-        elif 0.0 <= self._timeout < time - self._heard_at:
+            self._heard = self._command.revision
+            self._silence.restart()
+        elif 0.0 <= self._timeout < self._silence.elapsed:
             self._command.clear()
-            self._heard, self._heard_at = self._command.revision, time
+            self._heard = self._command.revision
+            self._silence.restart()
 
     def _measure(self) -> Odometry:
         return true_odometry(self._robot, self._frame, self._base)

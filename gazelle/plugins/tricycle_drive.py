@@ -21,6 +21,7 @@ from gazelle.simulation import (
     Odometry,
     Output,
     Robot,
+    Stopwatch,
     Transforms,
     TwistInput,
     absolute,
@@ -66,7 +67,7 @@ class TricycleDrive(ModelPlugin):
             self._angles(),
         )
         self.update_rate = parameters.get("updateRate", 100.0)
-        self._last_time = robot.simulation.time
+        self._watch = Stopwatch(robot.simulation.clock)
         self._open_ports(robot, parameters)
 
     def _read_limits(self, parameters: Parameters) -> None:
@@ -100,10 +101,9 @@ class TricycleDrive(ModelPlugin):
             published.append(robot.outputs["joint_states"])
         self._published = tuple(published)
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Drive, steer and publish."""
-        interval = time - self._last_time
-        self._last_time = time
+        interval = self._watch.lap()
         if self._from_encoders:
             self._reckoning.advance(self._angles(), interval)
         self._drive(interval)
@@ -157,13 +157,13 @@ class TricycleDrive(ModelPlugin):
         """The odometry starts at its origin."""
         self._reckoning.reset(worlds, self._angles())
         if worlds is None:
-            self._last_time = self._robot.simulation.time
+            self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Odometry and time of the last update."""
-        return {**self._reckoning.state(), "last_time": np.array(self._last_time)}
+        return {**self._reckoning.state(), "last_time": np.array(self._watch.start_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._reckoning.restore(state)
-        self._last_time = float(state["last_time"])
+        self._watch.start_ns = int(state["last_time"])

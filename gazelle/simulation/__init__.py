@@ -1,6 +1,6 @@
 """One running set of worlds: clock, requests, spawn and delete, sensors, plugins and ports."""
 
-from gazelle.simulation.clock import Clock, Schedule
+from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
 from gazelle.simulation.handles import JointHandle, LinkHandle
 from gazelle.simulation.known_plugins import KnownPlugin
@@ -50,6 +50,7 @@ __all__ = [
     "Service",
     "Setting",
     "Simulation",
+    "Stopwatch",
     "SystemPlugin",
     "Transform",
     "Transforms",

@@ -38,6 +38,39 @@ class Clock:
         return max(1, -((self.now_ns - due_ns) // self.step_ns))
 
 
+class Stopwatch:
+    """How long something lasts, counted in whole nanoseconds.
+
+    The difference of two times in seconds is wrong by the last digit of those times, the more the
+    longer a simulation runs; that of two counts is not.
+
+    Args:
+        clock: What it counts by; it is started at once.
+
+    Attributes:
+        start_ns: When it was started [ns].
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self.start_ns = clock.now_ns
+
+    @property
+    def elapsed(self) -> float:
+        """Time since the start [s]."""
+        return (self._clock.now_ns - self.start_ns) / NANOSECONDS
+
+    def restart(self) -> None:
+        """Start anew."""
+        self.start_ns = self._clock.now_ns
+
+    def lap(self) -> float:
+        """Time since the start [s], which is now from here on."""
+        elapsed = self.elapsed
+        self.restart()
+        return elapsed
+
+
 class Schedule:
     """When something is due: at multiples of its period, on the first step not before.
 

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.simulation import Clock, Schedule
+from gazelle.simulation import Clock, Schedule, Stopwatch
 
 
 @given(rate=st.floats(0.5, 2000), step=st.sampled_from([0.001, 0.002, 0.01, 1 / 240]))
@@ -36,3 +36,20 @@ def test_rate_zero_means_every_step():
         schedule.done(clock.now_ns)
         assert schedule.steps_until(clock) == 1
         clock.advance(1)
+
+
+@given(
+    step=st.sampled_from([0.0005, 0.001, 1 / 240, 0.02]),
+    start=st.integers(0, 10**18),
+    laps=st.lists(st.integers(0, 10**6), min_size=1, max_size=20),
+)
+def test_a_stopwatch_tells_the_same_whenever_it_is_started(step, start, laps):
+    early, late = Clock(step), Clock(step)
+    late.now_ns = start
+    watches = Stopwatch(early), Stopwatch(late)
+    for steps in laps:
+        early.advance(steps)
+        late.advance(steps)
+        assert watches[0].elapsed == watches[1].elapsed
+        assert watches[0].lap() == watches[1].lap() == steps * early.step_ns / 1e9
+        assert watches[1].elapsed == 0.0
