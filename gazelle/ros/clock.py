@@ -13,7 +13,6 @@ from collections.abc import Callable
 from typing import Protocol
 
 from gazelle.ros.errors import TimeMovedBackwardsError
-from gazelle.ros.loop import give_way
 
 SECOND = 1_000_000_000
 _CHECK_S = 0.3
@@ -58,7 +57,6 @@ class WallClock:
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait; see `Clock.sleep`."""
-        give_way()
         if cancelled is None:
             time.sleep(max(0, nanoseconds) / SECOND)
             return True
@@ -117,7 +115,6 @@ class SimulatedClock:
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait; see `Clock.sleep`. Before the first time there is, it waits for that."""
-        give_way()
         if not self._wait_for_start(cancelled):
             return False
         with self._lock:

@@ -1,12 +1,18 @@
-"""The event loop of the process: all sockets and timers, on few threads (see `crew`).
+"""The event loop of the process: one thread that waits for all its sockets and timers.
 
-Handlers of sockets and timers run only on the leader: what they own needs no locks.
+Handlers of sockets and timers run on that thread, so that what they own needs no locks; they are
+quick and never wait. What may take long, such as a user's callback, goes to a pool of threads.
+
+A socket that the loop watches is closed by the loop: `EventLoop.close` forgets it and closes it in one
+step on the loop's thread, and every other use of a watched socket's number is an error that is said.
 """
 
 from __future__ import annotations
 
+import contextlib
 import heapq
 import os
+import selectors
 import socket
 import threading
 import time
@@ -14,19 +20,17 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.ros import poller
-from gazelle.ros.crew import GRACE, Crew, Seat, Task
 from gazelle.ros.errors import report
-from gazelle.ros.poller import READ, WRITE, Handler, Ready
+from gazelle.ros.thread_pool import Task, ThreadPool
 
-__all__ = ["READ", "WRITE", "EventLoop", "Handler", "Timer", "acquire", "give_way", "release"]
+READ = selectors.EVENT_READ
+WRITE = selectors.EVENT_WRITE
 
-
-_MOST_ATTENDED = 4
+Handler = Callable[[int], None]
 
 
 class Timer:
-    """Something that runs later, on the leader; `cancel` it from anywhere."""
+    """Something that runs later, on the loop's thread; `cancel` it from anywhere."""
 
     __slots__ = ("callback",)
 
@@ -38,32 +42,44 @@ class Timer:
         self.callback = None
 
 
-class EventLoop(Crew):
+class EventLoop:
     """Sockets, timers and tasks of one process."""
 
     def __init__(self) -> None:
-        super().__init__()
-        self._poller = poller.make()
+        self._selector = selectors.DefaultSelector()
+        self._watched: dict[int, tuple[socket.socket, Handler]] = {}
+        """Sockets and their handlers by file descriptor."""
         self._soon: deque[Task] = deque()
         self._timers: list[tuple[float, int, Timer]] = []
         self._timer_count = 0
-        self.attended = 0
-        """Busy sockets that threads wait for by themselves; see `tcpros.attendant`."""
-        self._spawn_leader()
+        self._sleeping = False
+        self._stopping = False
+        self._wakeup, self._waker = socket.socketpair()
+        self._wakeup.setblocking(False)
+        self._waker.setblocking(False)
+        self.dedicated = 0
+        """Busy sockets that workers read by themselves now; see `tcpros.dedicated`."""
+        self._pool = ThreadPool(self.call_later)
+        self.submit = self._pool.submit
+        """Runs a task on a worker; what it raises is reported."""
+        self._thread = threading.Thread(target=self._run, name="gazelle-ros-loop", daemon=True)
+        self._thread.start()
 
     # What any thread may call ------------------------------------------------------------
 
-    def leads(self) -> bool:
-        """True on the leading thread."""
-        return self._leader == threading.get_ident()
+    def is_current(self) -> bool:
+        """True on the loop's own thread."""
+        return self._thread is threading.current_thread()
 
     def call_soon(self, callback: Task) -> None:
-        """Run `callback` on the leader, after those asked for before."""
+        """Run `callback` on the loop's thread, after those asked for before."""
         self._soon.append(callback)
-        self._ring()
+        if self._sleeping:
+            self._sleeping = False
+            self._wake()
 
     def call_later(self, seconds: float, callback: Task) -> Timer:
-        """Run `callback` on the leader after `seconds` of wall time."""
+        """Run `callback` on the loop's thread after `seconds` of wall time."""
         timer = Timer(callback)
         due = time.monotonic() + seconds
 
@@ -71,17 +87,20 @@ class EventLoop(Crew):
             self._timer_count += 1
             heapq.heappush(self._timers, (due, self._timer_count, timer))
 
-        if self.leads():
+        if self.is_current():
             add()
         else:
             self.call_soon(add)
         return timer
 
     def run(self, function: Callable[[], Any], timeout: float = 10.0) -> Any:
-        """Run `function` on the leader and wait for what it returns or raises."""
-        if self.leads():
+        """Run `function` on the loop's thread and wait for what it returns or raises.
+
+        Raises:
+            TimeoutError: The loop does not answer.
+        """
+        if self.is_current():
             return function()
-        self.give_way()
         done = threading.Lock()
         done.acquire()
         outcome: list[Any] = []
@@ -100,78 +119,129 @@ class EventLoop(Crew):
             raise outcome[1]
         return outcome[1]
 
+    def stop(self) -> None:
+        """End all threads, as soon as their tasks are done, and wait for them."""
+        self._pool.stop()
+        self._stopping = True
+        self._wake()
+        if not self.is_current():
+            self._thread.join(timeout=2.0)
+
     # What only handlers may call ---------------------------------------------------------
 
-    def may_attend(self) -> bool:
-        """True if one more thread may wait for one socket alone."""
-        return self.attended < _MOST_ATTENDED and not self._stopping
-
     def watch(self, sock: socket.socket, events: int, handler: Handler) -> None:
-        """Call `handler(ready)` whenever `sock` is ready for one of `events`; 0 ends it."""
-        self._poller.watch(sock, events, handler)
+        """Call `handler(ready)` whenever `sock` is ready for one of `events`, READ or WRITE.
 
-    # What the leader does ----------------------------------------------------------------
+        Raises:
+            ValueError: The socket is closed, or there are no events.
+            RuntimeError: This is not the loop's thread.
+        """
+        number = self._number(sock)
+        if number < 0:
+            raise ValueError("a closed socket cannot be watched")
+        known = self._watched.get(number)
+        if known is not None and known[0] is not sock:
+            self._forget_stale(number)
+            known = None
+        if known is None:
+            self._selector.register(number, events)
+        else:
+            self._selector.modify(number, events)
+        self._watched[number] = sock, handler
 
-    def _lead(self, seat: Seat) -> bool:
-        """Handle sockets and timers until there is a task to run; False if deposed."""
-        self._leader = threading.get_ident()
-        poll, clock = self._poller.poll, time.monotonic
-        soon, quick, timers = self._soon, self._quick, self._timers
-        now = clock()
+    def unwatch(self, sock: socket.socket) -> None:
+        """Wait for a socket no more; nothing happens to one that is not watched.
+
+        Raises:
+            RuntimeError: This is not the loop's thread.
+        """
+        number = self._number(sock)
+        known = self._watched.get(number)
+        if known is not None and known[0] is sock:
+            self._selector.unregister(number)
+            del self._watched[number]
+
+    def close(self, sock: socket.socket) -> None:
+        """Close a socket that is, or was, watched; again is harmless.
+
+        Raises:
+            RuntimeError: This is not the loop's thread.
+        """
+        self.unwatch(sock)
+        sock.close()
+
+    def watches(self, number: int) -> bool:
+        """Whether a socket with that file descriptor is watched."""
+        return number in self._watched
+
+    def _number(self, sock: socket.socket) -> int:
+        if not self.is_current():
+            raise RuntimeError("only the event loop's thread says which sockets are watched")
+        return sock.fileno()
+
+    def _forget_stale(self, number: int) -> None:
+        """A watched socket was closed behind the loop's back, and its number is another's now."""
+        report("the event loop", RuntimeError(f"socket {number} was closed while it was watched"))
+        del self._watched[number]
+        with contextlib.suppress(OSError):  # the system forgot it with the socket
+            self._selector.unregister(number)
+
+    # The loop ----------------------------------------------------------------------------
+
+    def _run(self) -> None:
+        self._selector.register(self._wakeup, READ)
         while not self._stopping:
-            if self._tasks and self._should_step_down():
-                return True
-            self._sleeping = True  # from here on others ring, so look at their wishes after it
-            ready = poll(self._patience(now))
+            self._sleeping = True  # from here on others wake it, so look at their wishes after it
+            ready = self._selector.select(self._patience())
             self._sleeping = False
-            if ready:
-                self._handle(ready)
-            if soon:
-                self._run_soon()
-            now = clock()
-            if quick and not self._run_quick(seat, now):
-                return False
-            if timers and timers[0][0] <= now:
-                self._run_timers(now)
-        return False
+            for key, events in ready:
+                self._handle(key.fd, events)
+            for _ in range(len(self._soon)):
+                self._try(self._soon.popleft())
+            self._run_timers()
+        while self._soon:  # what workers asked for before they ended
+            self._try(self._soon.popleft())
+        self._selector.close()
+        self._wakeup.close()
+        self._waker.close()
 
-    def _handle(self, ready: Ready) -> None:
-        handlers = self._poller.handlers
-        for number, events in ready:
-            handler = handlers.get(number)
-            if handler is None:
-                continue  # the bell, or a socket that another handler closed in this very round
+    def _handle(self, number: int, events: int) -> None:
+        known = self._watched.get(number)
+        if known is not None:
             try:
-                handler(events)
+                known[1](events)
             except Exception as error:  # noqa: BLE001  # one socket must not end the loop
                 report("a socket's handler", error)
+        elif number == self._wakeup.fileno():
+            with contextlib.suppress(BlockingIOError):
+                self._wakeup.recv(4096)
+        # Else another handler of this very round closed it.
 
-    def _patience(self, now: float) -> float | None:
+    def _patience(self) -> float | None:
         """How long to wait for sockets, in seconds; None for as long as it takes."""
-        if self._soon or self._quick or self._stopping:
+        if self._soon or self._stopping:
             return 0.0
-        if self._tasks:
-            return GRACE
         if not self._timers:
             return None
-        return self._timers[0][0] - now
+        return max(0.0, self._timers[0][0] - time.monotonic())
 
-    def _run_soon(self) -> None:
-        for _ in range(len(self._soon)):
-            self._try(self._soon.popleft())
-
-    def _run_timers(self, now: float) -> None:
-        while self._timers and self._timers[0][0] <= now:
+    def _run_timers(self) -> None:
+        while self._timers and self._timers[0][0] <= time.monotonic():
             timer = heapq.heappop(self._timers)[2]
             callback, timer.callback = timer.callback, None
             if callback is not None:
                 self._try(callback)
 
-    def _press(self) -> None:
-        self._poller.ring()
+    @staticmethod
+    def _try(task: Task) -> None:
+        try:
+            task()
+        except Exception as error:  # noqa: BLE001  # one task must not end the loop
+            report("a task of the event loop", error)
 
-    def _close(self) -> None:
-        self._poller.close()
+    def _wake(self) -> None:
+        with contextlib.suppress(OSError):  # it is awake anyway, or has ended
+            self._waker.send(b"\0")
 
 
 _shared: EventLoop | None = None
@@ -181,7 +251,7 @@ _lock = threading.Lock()
 
 def _forget_loop() -> None:
     """In a forked child there are no threads of the loop, and its locks may be held."""
-    global _shared, _users, _lock  # as above
+    global _shared, _users, _lock  # there is one loop a process
     _shared, _users, _lock = None, 0, threading.Lock()
 
 
@@ -210,13 +280,3 @@ def release(loop: EventLoop) -> None:
             return
         _shared = None
     loop.stop()
-
-
-def give_way() -> None:
-    """Say that the calling thread is about to wait for something.
-
-    It changes nothing but speed: a callback that waits without saying so holds up the loop
-    for a few milliseconds.
-    """
-    if _shared is not None:
-        _shared.give_way()

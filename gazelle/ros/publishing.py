@@ -148,7 +148,7 @@ class Publication:
         for link in local:
             link.send(message, data)
 
-    # Subscribers come and go; only on the leader -------------------------------------------
+    # Subscribers come and go; only on the loop's thread -------------------------------------------
 
     def reply_header(self) -> dict[str, str]:
         """What a subscriber is told."""
@@ -229,7 +229,7 @@ class Publication:
             report(f"connection hook of {self.topic}", error)
 
     def close(self) -> None:
-        """Let all subscribers go. Only for the leader."""
+        """Let all subscribers go. Only on the loop's thread."""
         for link in self.remote:
             link.finish()
         for local in self.local:

@@ -49,7 +49,7 @@ class RegisteredNode(Protocol):
 
 
 class Registrar:
-    """Asks the master from time to time whether it still knows the node. Leader only."""
+    """Asks the master from time to time whether it still knows the node. On the loop's thread."""
 
     def __init__(self, node: RegisteredNode) -> None:
         self._node = node

@@ -22,7 +22,6 @@ from gazelle.ros.errors import (
     UnreachableError,
     report,
 )
-from gazelle.ros.loop import give_way
 from gazelle.ros.node_base import NodeBase
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import frame
@@ -101,7 +100,7 @@ class ServiceServer:
                 f"[{theirs}] vs. [{mine}]"
             )
 
-    # Connections; only on the leader -------------------------------------------------------
+    # Connections; only on the loop's thread -------------------------------------------------------
 
     def adopt(self, sock: socket.socket, fields: dict[str, str], rest: bytes) -> None:
         """Take over the connection of a client.
@@ -261,9 +260,7 @@ class ServiceClient:
 
     def _call_persistent(self, data: bytes, deadline: float | None) -> bytes:
         channel = self._channel
-        if isinstance(channel, ServiceChannel):
-            give_way()
-        elif deadline is not None:
+        if deadline is not None and not isinstance(channel, ServiceChannel):
             channel = None  # a handler on this thread cannot be left behind
         if channel is not None and channel.is_stale():
             channel.close()
@@ -284,7 +281,6 @@ class ServiceClient:
         return body
 
     def _connect(self, deadline: float | None) -> ServiceChannel | NearChannel:
-        give_way()
         host, port = find_service(self.node, self.name)
         fields = {
             "callerid": self.node.name,
@@ -360,7 +356,6 @@ def wait_for_service(node: NodeBase, name: str, timeout: float | None) -> None:
     Raises:
         RosTimeoutError: It does not within `timeout` seconds of wall time.
     """
-    give_way()
     deadline = None if timeout is None else time.monotonic() + timeout
     fields = {"callerid": node.name, "service": name, "md5sum": headers.ANY, "probe": "1"}
     while True:

@@ -43,7 +43,7 @@ class AskedNode(Protocol):
 
 
 class SlaveApi:
-    """The methods of one node; all run on the leader."""
+    """The methods of one node; all run on the loop's thread."""
 
     def __init__(self, node: AskedNode) -> None:
         self._node = node

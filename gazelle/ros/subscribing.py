@@ -15,8 +15,8 @@ from gazelle.ros.messages.base import Message
 from gazelle.ros.node_base import NodeBase
 from gazelle.ros.publishing import LocalLink, Publication
 from gazelle.ros.raw import RawMessage
+from gazelle.ros.serial_queue import SerialQueue
 from gazelle.ros.statistics import Statistics
-from gazelle.ros.strand import Strand
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.inbound import InboundLink
 
@@ -69,7 +69,7 @@ class Subscription:
         measured = statistics is not None and statistics.measures(topic)
         self._statistics = statistics if measured else None
         self._loop: EventLoop = node.loop
-        self._strand = Strand(self._loop, self._deliver, f"callback of {topic}")
+        self._queue = SerialQueue(self._loop, self._deliver, f"callback of {topic}")
         self._drops = threading.Lock()
         self.updated = False
         """True when the publishers were told for the first time."""
@@ -78,7 +78,7 @@ class Subscription:
         self._marks = hasattr(message_class, "_connection_header")
         self._make = _maker(message_class)
 
-    # Publishers come and go; only on the leader --------------------------------------------
+    # Publishers come and go; only on the loop's thread --------------------------------------------
 
     def update(self, uris: list[str]) -> None:
         """Connect to these publishers, and to no others."""
@@ -147,7 +147,7 @@ class Subscription:
         """Disconnect."""
         self.update([])
         self._closed = True
-        self._strand.items.clear()
+        self._queue.items.clear()
 
     # What links need of it -----------------------------------------------------------------
 
@@ -176,7 +176,7 @@ class Subscription:
 
     def receive(self, link: InboundLink, frames: list[bytes], *, now: bool) -> bool:
         """Queue whole messages for the callbacks; see `Receiver`."""
-        strand, limit = self._strand, self.queue_size
+        queue, limit = self._queue, self.queue_size
         if len(frames) == 1:
             link.bytes += len(frames[0])
             items: list[Item] = [(link, frames[0], None)]
@@ -186,35 +186,33 @@ class Subscription:
         if now:
             if limit and len(items) > limit:
                 self._forget_oldest(link, items, limit)
-            quick = strand.handle_all(items)
+            keeps_up = queue.handle_all(items)
         else:
-            strand.post_all(items)
-            quick = strand.is_quick()
+            keeps_up = queue.post_all(items)
         if limit is None:
             if link.bytes - link.handled - link.lost > self._most_behind:
                 self._pause(link)
         elif limit:
-            while len(strand.items) > limit:
+            while len(queue.items) > limit:
                 link.dropped += self._drop_oldest()
-        return quick
+        return keeps_up
 
     def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:
         """Queue a message of a publisher in this process; called by the publishing thread."""
         if self._closed:
             return
-        self._strand.post((link, data, message if data is None else None))
+        self._queue.post((link, data, message if data is None else None))
         limit = self.queue_size or _LOCAL_BACKLOG
-        if len(self._strand.items) > limit and link.waits and self.queue_size is None:
+        if len(self._queue.items) > limit and link.waits and self.queue_size is None:
             self._let_catch_up(limit)
-        while len(self._strand.items) > limit:
+        while len(self._queue.items) > limit:
             self._drop_oldest()
 
     def _let_catch_up(self, limit: int) -> None:
         """A publisher without queue size waits, though not for ever: it may wait for itself."""
-        self._loop.give_way()
         deadline = time.monotonic() + _LOCAL_PATIENCE_S
-        while len(self._strand.items) > limit // 2 and not self._closed:
-            if self._strand.runs_here() or time.monotonic() > deadline:
+        while len(self._queue.items) > limit // 2 and not self._closed:
+            if self._queue.runs_here() or time.monotonic() > deadline:
                 return
             time.sleep(0.001)
 
@@ -232,7 +230,7 @@ class Subscription:
 
     def _drop_oldest(self) -> int:
         try:
-            link, data, _ = self._strand.items.popleft()
+            link, data, _ = self._queue.items.popleft()
         except IndexError:
             return 0
         if data is not None and not link.is_local:

@@ -145,7 +145,6 @@ class TopicNode(NodeBase):
             found.append(message)
             event.set()
 
-        self.loop.give_way()
         deadline = None if timeout is None else time.monotonic() + timeout
         subscriber = self.subscribe(topic, message_class, keep)
         try:

@@ -1,4 +1,4 @@
-"""Connections with so much traffic that a thread attends them."""
+"""Connections with so much traffic that a worker of their own reads them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gazelle.ros import loop as loops
 from gazelle.ros.errors import ServiceError, ServiceFailedError, ServiceNotFoundError
 from gazelle.ros.slave import SlaveApi
 
-only_linux = pytest.mark.skipif(sys.platform != "linux", reason="threads attend only on Linux")
+only_linux = pytest.mark.skipif(sys.platform != "linux", reason="only on Linux")
 
 
 @pytest.fixture
@@ -28,14 +28,14 @@ def talk(make_node, strangers):
     return publisher, subscriber, got
 
 
-def attended():
-    return loops._shared.attended
+def dedicated():
+    return loops._shared.dedicated
 
 
 def make_busy(publisher, got):
     """Send and wait for each message, as a conversation does."""
     deadline = time.monotonic() + 10
-    while not attended():
+    while not dedicated():
         assert time.monotonic() < deadline, "the connection never became busy"
         count = len(got)
         publisher.publish(Word(count))
@@ -44,16 +44,16 @@ def make_busy(publisher, got):
 
 
 @only_linux
-def test_a_busy_connection_is_attended_and_given_back(talk):
+def test_a_busy_connection_is_read_by_a_worker_and_given_back(talk):
     publisher, _, got = talk
     make_busy(publisher, got)
-    until(lambda: not attended())
+    until(lambda: not dedicated())
     count = len(got)
     publisher.publish(Word(count))
     until(lambda: len(got) == count + 1)
     for _ in range(3):
         make_busy(publisher, got)
-        until(lambda: not attended())
+        until(lambda: not dedicated())
     assert got == list(range(len(got)))
 
 
@@ -63,14 +63,14 @@ def test_a_busy_connection_can_be_closed_from_either_end(talk, make_node):
     make_busy(publisher, got)
     subscriber.close()
     until(lambda: publisher.num_connections == 0)
-    until(lambda: not attended())
+    until(lambda: not dedicated())
     again = make_node("again")
     heard = []
     again.subscribe("chatter", Word, lambda message: heard.append(message.data))
     until(lambda: publisher.num_connections == 1)
     make_busy(publisher, heard)
     publisher.close()
-    until(lambda: not attended())
+    until(lambda: not dedicated())
 
 
 @only_linux
@@ -115,7 +115,7 @@ def test_a_callback_of_a_busy_connection_may_close_it(make_node, strangers):
     make_busy(publisher, got)
     publisher.publish(Word(-1))
     until(lambda: publisher.num_connections == 0)
-    until(lambda: not attended())
+    until(lambda: not dedicated())
 
 
 @only_linux
@@ -124,14 +124,14 @@ def test_busy_services_answer_in_order_and_end(make_node, strangers):
     service = server.serve("flip", Flag, lambda request: (not request.data, "x" * 100))
     client = caller.client("flip", Flag, persistent=True)
     deadline = time.monotonic() + 10
-    while not attended():
+    while not dedicated():
         assert time.monotonic() < deadline
         assert client.call(Flag._request_class(True)).success is False
         assert client.call(Flag._request_class(False)).success is True
     service.close()
     with pytest.raises(ServiceError):
         client.call(Flag._request_class(True))
-    until(lambda: not attended())
+    until(lambda: not dedicated())
 
 
 def test_services_of_one_process_behave_as_over_a_socket(make_node):

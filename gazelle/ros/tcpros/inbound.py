@@ -11,7 +11,7 @@ from gazelle.ros.errors import Md5MismatchError, ProtocolError, RosError, report
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
 from gazelle.ros.tcpros import headers
-from gazelle.ros.tcpros.attendant import Attendant
+from gazelle.ros.tcpros.dedicated import DedicatedReader
 from gazelle.ros.tcpros.frames import FrameReader
 from gazelle.ros.xmlrpc.async_client import AsyncClient
 
@@ -40,7 +40,7 @@ class Receiver(Protocol):
             now: Handle them on this thread if possible, which need not be back soon.
 
         Returns:
-            Whether they are handled in no time.
+            Whether those who handle them keep up.
         """
 
     def connected(self, link: InboundLink) -> None:
@@ -51,7 +51,7 @@ class Receiver(Protocol):
 
 
 class InboundLink:
-    """The connection to one publisher, kept up until it is closed. Only for the leader.
+    """The connection to one publisher, kept up until it is closed. Only on the loop's thread.
 
     Args:
         loop: Where it lives.
@@ -97,7 +97,7 @@ class InboundLink:
         self._timer: Timer | None = None
         self.paused = False
         self._complained = ""
-        self._attendant = Attendant(loop, self._attend, self._attended)
+        self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)
 
     def open(self) -> None:
         """Begin: ask the publisher where to connect to."""
@@ -118,14 +118,14 @@ class InboundLink:
         """Read no more for now; the publisher will notice when the buffers are full."""
         if not self.paused and self._sock is not None:
             self.paused = True
-            if not self._attendant.active:
-                self._loop.watch(self._sock, 0, self._ready)
+            if not self._dedicated.active:
+                self._loop.unwatch(self._sock)
 
     def resume(self) -> None:
         """Read again."""
         if self.paused and self._sock is not None:
             self.paused = False
-            if not self._attendant.active:
+            if not self._dedicated.active:
                 self._loop.watch(self._sock, READ, self._ready)
 
     def _answered(self, value: Any, error: RosError | None) -> None:
@@ -181,6 +181,8 @@ class InboundLink:
             return
         net.keep_alive(sock)
         self._sock = sock
+        # A worker may still be busy with a message of the connection before.
+        self._dedicated = DedicatedReader(self._loop, self._read_next, self._given_back)
         self.paused = False
         self._reader = FrameReader(self._receiver.limits.header_bytes)
         self._outgoing = headers.encode(self._receiver.request_header())
@@ -200,16 +202,15 @@ class InboundLink:
                     frames = self._greet(frames)
                 if frames:
                     self.messages += len(frames)
-                    quick = self._receiver.receive(self, frames, now=False)
-                    if self._attendant.is_wanted() and quick and not self.paused:
-                        self._loop.watch(sock, 0, self._ready)
-                        self._attendant.begin(sock)
+                    keeps_up = self._receiver.receive(self, frames, now=False)
+                    if self._dedicated.is_wanted() and keeps_up and not self.paused:
+                        self._dedicated.begin(sock)
         except OSError as error:
             self._try_again(ProtocolError(f"the connection to {self.uri} broke: {error}"))
         except RosError as error:
             self._try_again(error)
 
-    def _attend(self) -> bool:
+    def _read_next(self) -> bool:
         """Wait for messages and handle them; runs on a worker while there are many."""
         sock, reader = self._sock, self._reader
         if sock is None:
@@ -221,12 +222,14 @@ class InboundLink:
         self.messages += len(frames)
         return self._receiver.receive(self, frames, now=True) and not self.paused
 
-    def _attended(self, error: RosError | None) -> None:
+    def _given_back(self, sock: socket.socket, error: RosError | None) -> None:
         """The socket is the event loop's again."""
-        if error is not None:
+        if sock is not self._sock:  # the link has left it
+            self._loop.close(sock)
+        elif error is not None:
             self._try_again(error)
-        elif self._sock is not None and not self.paused:
-            self._loop.watch(self._sock, READ, self._ready)
+        elif not self.paused:
+            self._loop.watch(sock, READ, self._ready)
 
     def _write_header(self, sock: socket.socket) -> None:
         with contextlib.suppress(BlockingIOError):
@@ -273,11 +276,12 @@ class InboundLink:
 
     def _drop(self) -> None:
         sock, self._sock = self._sock, None
-        if sock is not None and self._attendant.active:
-            self._attendant.abandon(sock)
+        if sock is not None and self._dedicated.active:
+            self._dedicated.stop()
+            with contextlib.suppress(OSError):  # the peer was faster
+                sock.shutdown(socket.SHUT_RDWR)
         elif sock is not None:
-            self._loop.watch(sock, 0, self._ready)
-            sock.close()
+            self._loop.close(sock)
         self.latched = None
         if self.up:
             self.up = False

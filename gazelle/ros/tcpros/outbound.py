@@ -32,7 +32,7 @@ class OutboundLink:
         header: What the subscriber sent.
         address: Of the subscriber.
         queue_size: Most frames to keep; None to wait instead.
-        on_close: Called on the leader when the connection is gone.
+        on_close: Called on the loop's thread when the connection is gone.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class OutboundLink:
         """Identity in bus info."""
 
     def start(self, first: bytes = b"") -> None:
-        """Send the header, and notice when the subscriber goes. Only for the leader."""
+        """Send the header, and notice when the subscriber goes. Only on the loop's thread."""
         if first:
             with self._lock:
                 self._send_or_keep(first)
@@ -102,18 +102,18 @@ class OutboundLink:
                 self._loop.call_soon(self._watch_writable)
 
     def close(self) -> None:
-        """Close the connection. Only for the leader."""
+        """Close the connection. Only on the loop's thread."""
         if self._ended:
             return
         self._ended = self.closed = True
-        self._loop.watch(self._sock, 0, self._ready)
+        self._loop.unwatch(self._sock)
         with contextlib.suppress(OSError):
             self._sock.shutdown(socket.SHUT_RDWR)  # wakes a thread that waits in `send`
         self._close_socket()
         self._on_close(self)
 
     def finish(self) -> None:
-        """Close when what waits has been sent, or soon anyway. Only for the leader."""
+        """Close when what waits has been sent, or soon anyway. Only on the loop's thread."""
         if self._current is None and not self._queue:
             self.close()
             return
@@ -121,7 +121,7 @@ class OutboundLink:
 
     def _close_socket(self) -> None:
         if self._lock.acquire(blocking=False):
-            self._sock.close()
+            self._loop.close(self._sock)
             self._lock.release()
         else:
             self._loop.call_later(0.05, self._close_socket)
@@ -145,7 +145,6 @@ class OutboundLink:
 
     def _send_patiently(self, rest: memoryview) -> None:
         """Wait for the subscriber, as a publisher without queue does."""
-        self._loop.give_way()
         while rest and not self.closed:
             try:
                 if AT_ONCE is None and not wait_writable(self._sock, _POLL_S):

@@ -36,18 +36,17 @@ class TcprosServer:
         loop.run(lambda: loop.watch(self._listener, READ, self._accept))
 
     def close(self) -> None:
-        """Stop listening. Only for the leader."""
+        """Stop listening. Only on the loop's thread."""
         if self._closed:
             return
         self._closed = True
-        self._loop.watch(self._listener, 0, self._accept)
-        self._listener.close()
+        self._loop.close(self._listener)
         for greeting in list(self._greeting):
             greeting.close()
 
     def _accept(self, _events: int) -> None:
         if not net.accept_all(self._listener, self._adopt):
-            self._loop.watch(self._listener, 0, self._accept)
+            self._loop.unwatch(self._listener)
             self._loop.call_later(_RETRY_ACCEPT, self._listen_again)
 
     def _listen_again(self) -> None:
@@ -71,7 +70,7 @@ class TcprosServer:
             self._route(greeting.sock, greeting.address, headers.decode(body), rest)
         except RosError as error:
             refuse(greeting.sock, error.message)
-            greeting.sock.close()
+            self._loop.close(greeting.sock)
 
 
 class _Greeting:
@@ -91,11 +90,11 @@ class _Greeting:
     def close(self) -> None:
         """Drop the connection."""
         self._leave()
-        self.sock.close()
+        self._loop.close(self.sock)
 
     def _leave(self) -> None:
         self._timer.cancel()
-        self._loop.watch(self.sock, 0, self._ready)
+        self._loop.unwatch(self.sock)
         self._server.forget(self)
 
     def _ready(self, _events: int) -> None:

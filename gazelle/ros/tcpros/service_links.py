@@ -17,9 +17,9 @@ from gazelle.ros.errors import (
 )
 from gazelle.ros.limits import Limits
 from gazelle.ros.loop import READ, EventLoop
-from gazelle.ros.strand import Strand
+from gazelle.ros.serial_queue import SerialQueue
 from gazelle.ros.tcpros import headers
-from gazelle.ros.tcpros.attendant import Attendant
+from gazelle.ros.tcpros.dedicated import DedicatedReader
 from gazelle.ros.tcpros.frames import LENGTH, FrameReader
 from gazelle.ros.tcpros.outbound import AT_ONCE, wait_writable
 
@@ -42,7 +42,7 @@ class ServiceConnection:
         sock: Connected, header exchanged, non-blocking.
         fields: The client's header; without ``persistent`` one call ends the connection.
         answer: Does the work.
-        on_close: Called on the leader when the connection is gone.
+        on_close: Called on the loop's thread when the connection is gone.
     """
 
     def __init__(
@@ -62,13 +62,13 @@ class ServiceConnection:
         self._on_close = on_close
         self._persistent = headers.flag(fields, "persistent")
         self._reader = FrameReader(limits.message_bytes)
-        self._strand = Strand(loop, self._work, f"service call of {self.peer}")
+        self._queue = SerialQueue(loop, self._work, f"service call of {self.peer}")
         self._closed = False
         self._working = False
-        self._attendant = Attendant(loop, self._attend, self._attended)
+        self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)
 
     def start(self, reply: bytes, rest: bytes) -> None:
-        """Send the header and take requests. Only for the leader."""
+        """Send the header and take requests. Only on the loop's thread."""
         with contextlib.suppress(OSError):
             self._sock.send(reply)
         self._loop.watch(self._sock, READ, self._ready)
@@ -79,21 +79,23 @@ class ServiceConnection:
                 self.close()
 
     def close(self) -> None:
-        """Close the connection. Only for the leader."""
+        """Close the connection. Only on the loop's thread."""
         if self._closed:
             return
-        attended = self._attendant.active
-        if not attended:
-            self._loop.watch(self._sock, 0, self._ready)
-        self._closed = True  # from here on a worker may close the socket: it is watched no more
+        self._closed = True
         self._on_close(self)
-        if attended:
-            self._attendant.abandon(self._sock)
-        elif not self._working:
-            self._sock.close()
-        else:  # the worker closes it; end its waiting
-            with contextlib.suppress(OSError):
-                self._sock.shutdown(socket.SHUT_RDWR)
+        self._loop.unwatch(self._sock)
+        with contextlib.suppress(OSError):
+            self._sock.shutdown(
+                socket.SHUT_RDWR
+            )  # ends the waiting of a worker that sends or reads
+        self._dedicated.stop()
+        self._close_socket()
+
+    def _close_socket(self) -> None:
+        """Close the socket as soon as no worker uses it; who does asks for this when it is done."""
+        if not (self._working or self._dedicated.active):
+            self._loop.close(self._sock)
 
     def _ready(self, _events: int) -> None:
         try:
@@ -101,23 +103,24 @@ class ServiceConnection:
         except (OSError, ProtocolError):
             self.close()
             return
-        if self._persistent and self._attendant.is_wanted() and not self._closed:
-            self._loop.watch(self._sock, 0, self._ready)
-            self._attendant.begin(self._sock)
+        if self._persistent and self._dedicated.is_wanted() and not self._closed:
+            self._dedicated.begin(self._sock)
 
-    def _attend(self) -> bool:
+    def _read_next(self) -> bool:
         """Wait for requests and answer them; runs on a worker while there are many."""
         before = self._reader.received
         requests = self._reader.read(self._sock)
         if requests:
-            self._strand.handle_all(requests)
+            self._queue.handle_all(requests)
         return self._reader.received > before
 
-    def _attended(self, error: RosError | None) -> None:
+    def _given_back(self, _sock: socket.socket, error: RosError | None) -> None:
         """The socket is the event loop's again."""
-        if error is not None:
+        if self._closed:
+            self._close_socket()
+        elif error is not None:
             self.close()
-        elif not self._closed:
+        else:
             self._loop.watch(self._sock, READ, self._ready)
 
     def _take(self, requests: list[bytes]) -> None:
@@ -125,22 +128,22 @@ class ServiceConnection:
             return
         if not self._persistent:
             # One call is all there is; what else comes is not read.
-            self._loop.watch(self._sock, 0, self._ready)
+            self._loop.unwatch(self._sock)
             requests = requests[:1]
-        elif len(self._strand.items) > _MOST_WAITING:
+        elif len(self._queue.items) > _MOST_WAITING:
             self.close()
             return
-        self._strand.post_all(requests)
+        self._queue.post_all(requests)
 
     def _work(self, request: bytes) -> None:
-        self._working = True
+        self._working = True  # before it looks whether the connection is closed
         try:
             if not self._closed:
                 self._send(self._answer(request, self.fields))
         finally:
             self._working = False
             if self._closed:
-                self._sock.close()
+                self._loop.call_soon(self._close_socket)
             elif not self._persistent:
                 self._loop.call_soon(self._linger)
 
@@ -168,7 +171,6 @@ class ServiceConnection:
             self._send_patiently(memoryview(data)[sent:])
 
     def _send_patiently(self, rest: memoryview) -> None:
-        self._loop.give_way()
         deadline = time.monotonic() + _SEND_PATIENCE_S
         try:
             while rest and not self._closed:

@@ -24,7 +24,7 @@ _MOST_QUEUED = 10_000
 
 
 class AsyncClient:
-    """Calls servers from the leader, in order for each server; keeps connections open.
+    """Calls servers from the loop's thread, in order for each server; keeps connections open.
 
     Args:
         loop: Where it lives.
@@ -48,7 +48,7 @@ class AsyncClient:
         self._aside = Aside(loop)
 
     def call(self, uri: str, method: str, params: Sequence[Any], done: Done | None = None) -> None:
-        """Call; `done(value, error)` runs on the leader. Only for the leader."""
+        """Call; `done(value, error)` runs on the loop's thread. Only on the loop's thread."""
         try:
             document = None if is_long(params) else write_call(method, params)
             peer = self._peers.get(uri)
@@ -82,7 +82,7 @@ class AsyncClient:
             del self._peers[peer.uri]
 
     def close(self) -> None:
-        """Close everything. Only for the leader."""
+        """Close everything. Only on the loop's thread."""
         peers, self._peers = self._peers, {}
         for peer in peers.values():
             peer.close()
@@ -286,6 +286,5 @@ class _Peer:
 
     def _drop(self) -> None:
         if self._sock is not None:
-            self._loop.watch(self._sock, 0, self._ready)
-            self._sock.close()
+            self._loop.close(self._sock)
             self._sock = None

@@ -16,7 +16,6 @@ from gazelle.ros.errors import (
     UnreachableError,
 )
 from gazelle.ros.limits import LIMITS, Limits
-from gazelle.ros.loop import give_way
 from gazelle.ros.xmlrpc.http import Message, MessageReader, request
 from gazelle.ros.xmlrpc.reading import read_response
 from gazelle.ros.xmlrpc.writing import write_call
@@ -67,7 +66,6 @@ class BlockingClient:
         """
         document = write_call(method, params)
         data = request(f"{self._host}:{self._port}", self._path, document)
-        give_way()
         while True:
             sock = self._take()
             if sock is None:

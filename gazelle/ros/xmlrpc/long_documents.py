@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import deque
 from typing import Any
 
-from gazelle.ros.crew import Task
 from gazelle.ros.loop import EventLoop
+from gazelle.ros.thread_pool import Task
 
 LONG_BYTES = 64 * 1024
 """Reading or writing a document of this length takes a few milliseconds."""
@@ -37,10 +37,10 @@ def is_long(value: Any) -> bool:
 
 
 class Aside:
-    """Runs tasks one after another on a thread that holds up nobody. Only for the leader.
+    """Runs tasks one after another on a thread that holds up nobody. Only on the loop's thread.
 
     There is one at a time, however many clients send long documents: Python runs one thread at a
-    time, and the leader would have to wait for its turn.
+    time, and the loop would have to wait for its turn.
 
     Args:
         loop: Whose threads are used.

@@ -36,7 +36,7 @@ class UnknownMethodError(Exception):
 
 
 class XmlRpcServer:
-    """Answers calls; `dispatch(method, params)` runs on the leader and must be quick.
+    """Answers calls; `dispatch(method, params)` runs on the loop's thread and must be quick.
 
     Long requests are read, and long answers written, on another thread, so that nobody else waits.
 
@@ -47,7 +47,7 @@ class XmlRpcServer:
         dispatch: Returns the value of the answer; what it raises becomes a fault.
         limits: What peers may demand.
         prepare: Used instead of `dispatch`, where checking arguments may take long: it does
-            that on any thread, and only what it returns runs on the leader.
+            that on any thread, and only what it returns runs on the loop's thread.
 
     Raises:
         OSError: The port is taken.
@@ -80,15 +80,14 @@ class XmlRpcServer:
             self._loop.run(self._close)
 
     def _close(self) -> None:
-        self._loop.watch(self._listener, 0, self._accept)
-        self._listener.close()
+        self._loop.close(self._listener)
         for connection in list(self._connections):
             connection.close()
 
     def _accept(self, _events: int) -> None:
         if not net.accept_all(self._listener, self._adopt):
             self._drop_idle(1)
-            self._loop.watch(self._listener, 0, self._accept)
+            self._loop.unwatch(self._listener)
             self._loop.call_later(_RETRY_ACCEPT, self._listen_again)
 
     def _listen_again(self) -> None:
@@ -116,7 +115,7 @@ class XmlRpcServer:
         self._connections.pop(connection, None)
 
     def prepared(self, body: bytes) -> Step:
-        """What does the call of a document on the leader; raises nothing, and may take long."""
+        """What does the call of a document on the loop's thread; raises nothing, and may take long."""
         try:
             return self._prepare_call(*read_call(body, self.limits))
         except Exception as error:  # noqa: BLE001  # a bad call must not end the server
@@ -204,8 +203,7 @@ class _Connection:
 
     def close(self) -> None:
         if self._sock.fileno() >= 0:
-            self._loop.watch(self._sock, 0, self._ready)
-            self._sock.close()
+            self._loop.close(self._sock)
             self._server.forget(self)
 
     def _ready(self, events: int) -> None:
