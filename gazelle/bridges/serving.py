@@ -5,11 +5,11 @@ from __future__ import annotations
 import contextlib
 import socket
 import threading
-from types import TracebackType
 from typing import Self
 
 from gazelle.bridges.gazebo import GazeboDoor
 from gazelle.bridges.pacing import Pacer
+from gazelle.closing import Closeable
 from gazelle.errors import RosError
 from gazelle.ros import Master, Node, WallClock, net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
@@ -18,7 +18,7 @@ from gazelle.ros.tools.nodes import process_of
 from gazelle.simulation import Simulation
 
 
-class RosDoor:
+class RosDoor(Closeable):
     """A simulation on a ROS 1 graph; also a context manager.
 
     Attributes:
@@ -72,17 +72,6 @@ class RosDoor:
         self.node.close()
         if self._master is not None:
             self._master.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def serve_ros(

@@ -9,7 +9,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Sequence
-from types import TracebackType
 from typing import Self
 
 import numpy as np
@@ -19,6 +18,7 @@ from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
+from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
 from gazelle.ros import Node, load_message
@@ -27,7 +27,7 @@ _PATIENCE_S = 30.0  # of wall time without a new pose
 _MOST_NAMES = 5  # in one message
 
 
-class AGVFleet:
+class AGVFleet(Closeable):
     """Many AGVs, moved together by one thread; also a context manager, which stops them.
 
     Args:
@@ -153,17 +153,6 @@ class AGVFleet:
             publisher.publish(twist_message((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
             publisher.close()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def _finish(self, robots: ArrayLike | None) -> Floats:
         """Wait until these robots stand; the time they took."""
         rows = np.arange(self.motions.count) if robots is None else np.atleast_1d(robots)
@@ -216,7 +205,7 @@ def _list_of(names: Sequence[str]) -> str:
     return ", ".join(name or "the AGV" for name in names[:_MOST_NAMES]) + more
 
 
-class AGV:
+class AGV(Closeable):
     """One AGV; its moves return the simulated time they took [s]. Many may run in threads.
 
     Args:
@@ -288,14 +277,3 @@ class AGV:
     def close(self) -> None:
         """Stop and leave the topics."""
         self._fleet.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

@@ -5,8 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self, Unpack
+from typing import Any, Unpack
 
 from gazelle.clients.calls import Caller
 from gazelle.clients.descriptions import find_file, read_urdf
@@ -22,6 +21,7 @@ from gazelle.clients.poses import (
     twist_message,
 )
 from gazelle.clients.states import LiveStates
+from gazelle.closing import Closeable
 from gazelle.ros import Duration, Node, Time, WallClock, load_message
 
 _FOREVER = Duration(-1, 0)
@@ -30,7 +30,7 @@ _TAKEN = "SpawnModel: Failure - entity already exists."
 _GONE = "DeleteModel: model does not exist"
 
 
-class Gazebo(PhysicsCalls):
+class Gazebo(PhysicsCalls, Closeable):
     """Calls the services of ``gazebo_ros``; also a context manager.
 
     Args:
@@ -338,14 +338,3 @@ class Gazebo(PhysicsCalls):
         self._caller.close()
         if self._owned:
             self.node.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

@@ -10,11 +10,10 @@ import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
+from gazelle.closing import Closeable
 from gazelle.ros import net
 from gazelle.ros.errors import MasterUnreachableError, RosError
 from gazelle.ros.tools import nodes as node_tools
@@ -24,7 +23,7 @@ _POLL_S = 0.05
 _END_S = 10.0
 
 
-class SimulatorProcess:
+class SimulatorProcess(Closeable):
     """A Gazelle on a ROS 1 graph; also a context manager.
 
     It is there when the constructor returns, and gone when ``close`` does.
@@ -95,17 +94,6 @@ class SimulatorProcess:
         """End it and wait until it is gone."""
         self.gazebo.close()
         self._end()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _wait(self, uri: str, deadline: float, timeout: float) -> Gazebo:
         while True:

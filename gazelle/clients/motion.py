@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import threading
-from types import TracebackType
 from typing import Any, Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state, twist_message
+from gazelle.closing import Closeable
 from gazelle.ros import Node, load_message
 
 
-class Driver:
+class Driver(Closeable):
     """Commands one base and knows its pose; also a context manager, which stops it at the end.
 
     Args:
@@ -96,17 +96,6 @@ class Driver:
         self.stop()
         self._publisher.close()
         self._subscriber.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _receive(self, message: Any) -> None:
         self._state = read_state(message.pose.pose, message.twist.twist)

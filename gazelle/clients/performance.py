@@ -10,10 +10,10 @@ import threading
 import time
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from gazelle.clients.errors import ClientError
+from gazelle.closing import Closeable
 from gazelle.errors import MissingExtraError
 from gazelle.ros import Node, load_message
 
@@ -46,7 +46,7 @@ class Sample:
     memory: float
 
 
-class PerformanceWatch:
+class PerformanceWatch(Closeable):
     """Looks at ``/clock`` and at processes at a rate; also a context manager.
 
     Args:
@@ -75,17 +75,6 @@ class PerformanceWatch:
         self._end.set()
         self._thread.join()
         self._subscriber.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     # -- results -----------------------------------------------------------------------------
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator, Mapping
-from types import TracebackType
 from typing import Any, Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state
+from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
 from gazelle.ros import Node, load_message
 
 
-class LiveStates(Mapping[str, ModelState]):
+class LiveStates(Mapping[str, ModelState], Closeable):
     """States by name, as the last message has them.
 
     Args:
@@ -59,17 +59,6 @@ class LiveStates(Mapping[str, ModelState]):
 
     def __len__(self) -> int:
         return len(self._rows)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _receive(self, message: Any) -> None:
         if self._last is None or message.name != self._last.name:

@@ -10,9 +10,9 @@ import contextlib
 import socket
 import threading
 from collections.abc import Callable, Mapping
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from gazelle.closing import Closeable
 from gazelle.ros import loop as loops
 from gazelle.ros import names, net, statistics
 from gazelle.ros.clock import Clock
@@ -40,7 +40,7 @@ _CLOSING_S = 5.0
 _REQUIRED: Any = object()
 
 
-class Node(TopicNode, ServiceNode):
+class Node(TopicNode, ServiceNode, Closeable):
     """A node on a ROS 1 graph.
 
     Args:
@@ -194,17 +194,6 @@ class Node(TopicNode, ServiceNode):
         self._leave_process()
         self._closed.set()
         loops.release(self.loop)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _unregister_all(self) -> None:
         calls: list[tuple[str, ...]] = []

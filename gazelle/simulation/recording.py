@@ -12,12 +12,12 @@ import json
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
-from types import TracebackType
-from typing import IO, TYPE_CHECKING, Any, Self
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.closing import Closeable
 from gazelle.engines import CHANGES, Call, DivergenceError, Engine
 from gazelle.errors import Error
 from gazelle.simulation.encoding import encode
@@ -50,7 +50,7 @@ def header(
     }
 
 
-class Recorder:
+class Recorder(Closeable):
     """Writes down a run until it is closed; a context manager.
 
     It listens to the methods of the engine that change something, whoever calls them.
@@ -109,14 +109,3 @@ class Recorder:
 
     def _write(self, line: dict[str, Any]) -> None:
         self._file.write(json.dumps(line, separators=(",", ":")) + "\n")
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
 from gazelle.engines import CHANGES, DivergenceError
 from gazelle.errors import EngineError, SimulationError
@@ -19,7 +19,7 @@ from gazelle.simulation.simulation import Simulation
 _DAMAGE = (ArithmeticError, AttributeError, EngineError, LookupError, TypeError, ValueError)
 
 
-class Replay:
+class Replay(Closeable):
     """A recorded run, done again step by step.
 
     ``simulation`` is the run: look at its robots, read its sensors, render it. It has no
@@ -126,17 +126,6 @@ class Replay:
     def close(self) -> None:
         """Free the engine."""
         self.simulation.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def _begin(first: dict[str, Any], threads: int | None) -> Simulation:

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from types import TracebackType
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
+from gazelle.closing import Closeable
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageSimulation
@@ -26,7 +26,7 @@ _SAFE = {
 }
 
 
-class LiveView:
+class LiveView(Closeable):
     """Shows a world of the planar engine in a browser while it runs; also a context manager.
 
     A small web server answers on this machine's loopback address only, and only tells: nobody
@@ -94,17 +94,6 @@ class LiveView:
         self._server.shutdown()
         self._server.server_close()
         self._thread.join()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 class _Server(ThreadingHTTPServer):

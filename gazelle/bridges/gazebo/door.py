@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from gazelle.array_types import Worlds
 from gazelle.bridges.binding import Binding
@@ -17,6 +16,7 @@ from gazelle.bridges.gazebo.models import ModelServices
 from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
 from gazelle.bridges.gazebo.world import WorldServices
+from gazelle.closing import Closeable
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.rosout_log import report_on_rosout
@@ -29,7 +29,7 @@ _MOVES = {
 }
 
 
-class GazeboDoor:
+class GazeboDoor(Closeable):
     """What a ROS graph sees of a simulation.
 
     Every service is carried out between two steps, also while the simulation is paused, and
@@ -114,17 +114,6 @@ class GazeboDoor:
             self._closing.pop()()
         for beat in self._beats:
             beat.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     # -- ports -----------------------------------------------------------------------------
 

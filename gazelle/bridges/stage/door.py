@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
 from gazelle.bridges.stage.parameters import read_parameters
@@ -14,6 +13,7 @@ from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
 from gazelle.bridges.stage.watchdog import Watchdog
+from gazelle.closing import Closeable
 from gazelle.ros import Node, Time, load_message
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation.clock import Schedule
@@ -24,7 +24,7 @@ _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
 _LATE = 0.1  # what is later than this is not caught up with in a burst [s]
 
 
-class StageDoor:
+class StageDoor(Closeable):
     """What a ROS graph sees of a Stage world; also a context manager.
 
     Topics, frames, parameters and services are those of stage_ros (wiki.ros.org/stage_ros);
@@ -203,14 +203,3 @@ class StageDoor:
             self._node.on_new_master.remove(self._make_time)
         if self._reports is not None:
             self._reports.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

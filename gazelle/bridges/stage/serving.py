@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from types import TracebackType
-from typing import Self
-
 from gazelle.bridges.serving import join_graph
 from gazelle.bridges.stage.door import StageDoor
+from gazelle.closing import Closeable
 from gazelle.ros import Master, Node
 from gazelle.simulation.stage import StageSimulation
 
 
-class StageServer:
+class StageServer(Closeable):
     """A Stage world on a ROS 1 graph, and the node and master made for it.
 
     Attributes:
@@ -42,17 +40,6 @@ class StageServer:
             self.node.close()
         if self._master is not None:
             self._master.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def serve_stage(

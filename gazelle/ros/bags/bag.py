@@ -14,9 +14,9 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from io import BytesIO
 from pathlib import Path
-from types import TracebackType
-from typing import IO, Any, Self
+from typing import IO, Any
 
+from gazelle.closing import Closeable
 from gazelle.ros.bags import compression as compressions
 from gazelle.ros.bags import records
 from gazelle.ros.bags.answers import (
@@ -47,7 +47,7 @@ class Compression:
     LZ4 = compressions.LZ4
 
 
-class Bag:
+class Bag(Closeable):
     """A bag file.
 
     Args:
@@ -136,17 +136,6 @@ class Bag:
         if self._streamed is not None:
             self._streamed.finish()
             self._streamed = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def __iter__(self) -> Iterator[BagMessage]:
         return iter(self.read_messages())

@@ -10,9 +10,8 @@ import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from types import TracebackType
-from typing import Self
 
+from gazelle.closing import Closeable
 from gazelle.ros import net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
 from gazelle.ros.launch import core, folders, machines, setup
@@ -59,7 +58,7 @@ class Options:
     """Whether a master that the launch started outlives it if it is killed, as with roslaunch."""
 
 
-class Launch:
+class Launch(Closeable):
     """A plan that is carried out.
 
     ::
@@ -380,14 +379,3 @@ class Launch:
         self._core = []
         self._guard.close()
         self._proxy.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

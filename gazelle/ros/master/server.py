@@ -8,9 +8,9 @@ import os
 import threading
 import uuid
 from collections.abc import Callable, Sequence
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from gazelle.closing import Closeable
 from gazelle.ros import loop, net
 from gazelle.ros.errors import RosError
 from gazelle.ros.limits import LIMITS, Limits
@@ -26,7 +26,7 @@ _GREETING_S = 1.0
 """A master on this machine that somebody asks who it is answers within this time."""
 
 
-class Master:
+class Master(Closeable):
     """A ROS master with parameter server and, unless told otherwise, the rosout aggregator.
 
     Args:
@@ -89,17 +89,6 @@ class Master:
         self._server.close()
         self._loop.run(self._calls.close)
         loop.release(self._loop)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _notify(self, uri: str, method: str, params: Sequence[Any]) -> None:
         self._calls.call(uri, method, params)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from types import TracebackType
-from typing import Self
 
+from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
 from gazelle.ros import names, net
 from gazelle.ros.errors import ApiError
@@ -18,7 +17,7 @@ Uses = list[tuple[str, str, list[str]]]
 UNKNOWN_TYPE = "unknown type"
 
 
-class Graph:
+class Graph(Closeable):
     """A master, asked by a tool.
 
     Args:
@@ -90,14 +89,3 @@ class Graph:
     def close(self) -> None:
         """Close the connections."""
         self.master.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
