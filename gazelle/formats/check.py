@@ -82,7 +82,8 @@ def check(
         for miss in reading.misses
     ]
     problems += [_noted(note) for note in reading.notes if note.severity == "warning"]
-    return problems + judged
+    told = {(each.rule, each.file, each.line) for each in problems if each.rule}
+    return problems + [each for each in judged if (each.rule, each.file, each.line) not in told]
 
 
 def is_semantic(file: Path) -> bool:
@@ -127,7 +128,7 @@ def _judged(finding: Finding, severity: Literal["error", "warning"] = "warning")
 
 def _noted(note: Note) -> Problem:
     place = note.source or Source()
-    rule = TOLERATED if note.severity == "error" else None
+    rule = TOLERATED if note.severity == "error" else note.rule
     return Problem(
         note.severity, note.message, place.file, place.line, place.element, note.hint, rule=rule
     )

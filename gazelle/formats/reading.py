@@ -44,12 +44,14 @@ class Note:
         source: Where.
         hint: What to do about it.
         severity: An error is what the format does not allow, and Gazebo goes on with.
+        rule: Name of what is found, where a check finds it in a description too.
     """
 
     message: str
     source: Source | None = None
     hint: str | None = None
     severity: Literal["error", "warning"] = "warning"
+    rule: str | None = None
 
 
 @dataclass(slots=True)
@@ -79,9 +81,11 @@ class Reading:
             self.misses.append(Miss(uri, node.source, self.resolver.looked_in(uri)))
         return path
 
-    def note(self, message: str, node: Parameters, hint: str | None = None) -> None:
+    def note(
+        self, message: str, node: Parameters, hint: str | None = None, *, rule: str | None = None
+    ) -> None:
         """Record a remark about an element, once for each place."""
-        self.remark(message, node.source, hint)
+        self._keep(Note(message, node.source, hint, rule=rule))
 
     def remark(self, message: str, source: Source | None, hint: str | None = None) -> None:
         """Record a remark, once for each place."""

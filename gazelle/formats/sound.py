@@ -30,6 +30,12 @@ _HINT = "the diagonal must be positive and outweigh the products of inertia"
 _ROUNDING = 1e-9
 """Second moments in this proportion are still positive when they are written down."""
 
+TRIANGLE = "inertia-triangle"
+"""The rule that moments of inertia obey a + b >= c."""
+
+TRIANGLE_ROUNDING = 1e-3
+"""Relative slack on that rule, for figures rounded in a file."""
+
 LEAST_MASS = 1e-3
 """For a mass that is not positive [kg]."""
 
@@ -39,8 +45,8 @@ def sound_inertial(
 ) -> Inertial:
     """The inertial, or one that a body can have, with a fault that says which.
 
-    An inertia that breaks only the triangle inequality stays: it can be inverted, and ODE takes
-    it as it is.
+    An inertia that breaks only the triangle inequality stays, with a note: it can be inverted, and
+    ODE takes it as it is.
 
     Args:
         inertial: As the file says, in the link's frame.
@@ -58,6 +64,7 @@ def sound_inertial(
         inertial = replace(inertial, mass=mass)
     given = inertial.inertia
     if _is_positive(given):
+        _note_triangle(given, node, reading)
         return inertial
     tensor = _sound_tensor(given.matrix(), mass, collisions)
     taken = Inertia.from_matrix(tensor)
@@ -68,6 +75,19 @@ def sound_inertial(
     )
     finite = np.isfinite(given.matrix()).all()
     return replace(inertial, inertia=taken, written=given if finite else None)
+
+
+def _note_triangle(inertia: Inertia, node: Parameters, reading: Reading) -> None:
+    low, middle, high = (float(each) for each in np.linalg.eigvalsh(inertia.matrix()))
+    if low + middle < high * (1.0 - TRIANGLE_ROUNDING):
+        reading.note(
+            f"no body has the principal moments {low:.3g}, {middle:.3g} and {high:.3g} kg m², for "
+            "the sum of two must not be below the third: they are simulated as they are, as in "
+            "Gazebo",
+            node.find("inertia") or node,
+            "compute the inertia from the mesh or the shape again",
+            rule=TRIANGLE,
+        )
 
 
 def is_sound(inertial: Inertial) -> bool:

@@ -380,12 +380,28 @@ def test_every_inertia_that_is_taken_can_be_that_of_a_body(mass, numbers):
             .inertial
         )
     given_inertia = found.inertia.matrix()
-    if caught:
+    if any("was taken" in str(each.message) for each in caught):
         moments = np.linalg.eigvalsh(given_inertia)
         assert moments[0] > 0
         assert moments[0] + moments[1] >= moments[2] * (1 - 1e-9)
     else:
         assert [getattr(found.inertia, name) for name in names] == numbers
+        low, middle, high = np.linalg.eigvalsh(given_inertia)
+        assert bool(caught) == (low + middle < high * (1 - 1e-3))
+
+
+@pytest.mark.parametrize("moments", [(0.001, 0.001, 1.0), (0.1, 0.2, 0.31), (5.0, 1.0, 1.0)])
+def test_an_inertia_that_breaks_the_triangle_inequality_is_told_and_stays(moments, tmp_path):
+    body = INERTIA.format(1, *moments)
+    found, text = one_warning(model, f"<link name='l'>\n{body}</link>")
+    inertia = found.links[0].inertial.inertia
+    assert (inertia.ixx, inertia.iyy, inertia.izz) == moments
+    assert text.startswith("test.sdf:5:")
+    assert "as in Gazebo" in text
+    file = tmp_path / "test.sdf"
+    file.write_text(sdf(f"<model name='m'><link name='l'>{body}</link></model>"))
+    rules = [problem.rule for problem in formats.check(file)]
+    assert rules.count("inertia-triangle") == 1
 
 
 def test_an_inertia_of_zero_is_that_of_the_shapes():

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.askew import straight_pose
@@ -24,13 +23,14 @@ from gazelle.engines.mujoco.contacts import (
     tune_springs,
 )
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
+from gazelle.engines.mujoco.inertia import give_inertias, inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import add_probes, find_forces, set_options
-from gazelle.engines.mujoco.remarks import LEAST_MOMENT, warn_of_links
+from gazelle.engines.mujoco.remarks import warn_of_links
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
@@ -118,8 +118,12 @@ class Draft:
     slips: Mapping[str, Slip]
     damped: bool = False
 
-    def compile(self) -> mujoco.MjModel:
+    def compile(self, *, as_written: bool = True) -> mujoco.MjModel:
         """The MuJoCo model.
+
+        Args:
+            as_written: Give links the inertias of the file also where those are no body's, which
+                MuJoCo simulates but does not compile.
 
         Raises:
             EngineError: Something in the description cannot be simulated.
@@ -128,6 +132,8 @@ class Draft:
             compiled = self.spec.compile()
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
+        if as_written:
+            give_inertias(compiled, itertools.chain.from_iterable(self.bodies.values()))
         hold_fast(compiled)
         self.spec.option.impratio = compiled.opt.impratio
         tune_springs(compiled, self.springs)
@@ -318,8 +324,6 @@ class _Builder:
 
 def _set_inertial(handle: Any, body: Body) -> None:
     inertial = body.link.inertial or Inertial()
-    rotation = inertial.pose.matrix()[:3, :3]
-    turned = rotation @ inertial.inertia.matrix() @ rotation.T
     if inertial.mass <= 0.0:
         raise EngineError(
             f"link '{body.name}' moves but has the mass {inertial.mass:g} kg",
@@ -329,35 +333,10 @@ def _set_inertial(handle: Any, body: Body) -> None:
     handle.explicitinertial = True
     handle.mass = inertial.mass
     handle.ipos = list(inertial.pose.position)
-    principal = _principal_inertia(turned, body)
-    handle.inertia, handle.iquat = principal
+    moments, quaternion = inertia_of(body)
+    handle.inertia, handle.iquat = possible(moments).tolist(), quaternion.tolist()
     if not body.link.gravity:
         handle.gravcomp = 1.0
-
-
-def _principal_inertia(tensor: Any, body: Body) -> tuple[list[float], list[float]]:
-    """Moments and axes (w, x, y, z) of an inertia tensor, made possible if it is not.
-
-    A rigid body's moments obey a + b >= c. Files break that by rounding or by guess-work;
-    the smaller moments are raised just enough.
-    """
-    moments, axes = np.linalg.eigh(tensor)
-    if moments[0] <= 0.0:
-        inertial = body.link.inertial or Inertial()
-        raise EngineError(
-            f"link '{body.name}' has an inertia that is not positive definite "
-            f"(principal moments {', '.join(f'{m:.3g}' for m in moments)} kg m²)",
-            source=inertial.source or body.link.source,
-        )
-    moments = np.maximum(moments, LEAST_MOMENT)
-    lack = moments[2] - moments[0] - moments[1]
-    if lack > 0.0:
-        moments[:2] += lack / 2.0 * (1.0 + 1e-9)
-    if np.linalg.det(axes) < 0.0:
-        axes[:, 0] *= -1.0
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, axes.ravel())
-    return [float(m) for m in moments], [float(q) for q in quaternion]
 
 
 def _first_line(error: Exception) -> str:

@@ -42,7 +42,7 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
     _warn_of(draft)
     if visuals:
         _add_visuals(draft)
-    draft.spec.copy_back(draft.compile())
+    draft.spec.copy_back(draft.compile(as_written=False))
     with _exact_numbers():
         text: str = draft.spec.to_xml()
     return text

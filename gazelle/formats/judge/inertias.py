@@ -21,12 +21,10 @@ from gazelle.description import (
 )
 from gazelle.formats.judge.finding import Finding, moving_links_of
 from gazelle.formats.solids import solid_of
+from gazelle.formats.sound import TRIANGLE, TRIANGLE_ROUNDING
 
 # An inertia this many times off the one of a solid of the link's shape is a typing error.
 _FACTOR = 10.0
-
-# Relative slack on a + b >= c, for figures rounded in a file.
-_ROUNDING = 1e-3
 
 # Masses of joined links this far apart make constraint solvers slow and soft.
 _MASS_RATIO = 1e4
@@ -73,12 +71,12 @@ def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | 
 
 def _triangle(name: str, inertial: Inertial) -> Iterator[Finding]:
     low, middle, high = principal_moments(inertial.inertia)
-    if low + middle < high * (1.0 - _ROUNDING):
+    if low + middle < high * (1.0 - TRIANGLE_ROUNDING):
         yield Finding(
-            "inertia-triangle",
+            TRIANGLE,
             f"link '{name}': the principal moments {low:.3g}, {middle:.3g} and {high:.3g} kg m² "
             "are those of no body: the sum of two must not be below the third",
-            "engines refuse or bend such an inertia, each in its own way",
+            "engines simulate, bend or refuse such an inertia, each in its own way",
             "compute the inertia from the mesh or the shape again",
             inertial.source,
         )
