@@ -5,6 +5,8 @@ PYTHON ?= python3
 EXTRAS ?= test,lint
 VENV := .venv
 PIP := $(VENV)/bin/pip --disable-pip-version-check
+# Also for what builds the package, which pip installs aside.
+export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
 # One stamp for each set of extras: another set is another installation.
 STAMP := $(VENV)/.installed
 # Tests run in so many processes, a file in one.
@@ -13,9 +15,16 @@ PYTEST := $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile
 ALL := $(STAMP)-$(EXTRAS)
 # What is compiled when the package is installed, and with what.
 KERNELS := $(shell grep -rl --include='*.py' '^import cython$$' gazelle) \
-	$(shell find gazelle -name '*.pxd' -o -name '*.h') setup.py $(wildcard tools/packaging/*.py)
+	$(shell find gazelle -name '*.pxd' -o -name '*.h') setup.py $(wildcard tools/compiling/*.py)
 
-.PHONY: help setup demo test test-slow ros-suites lint bench clean
+# What runs most of what is compiled, in little time.
+KERNEL_TESTS := tests/native/test_schedule.py tests/engines/test_laws.py tests/engines/test_cylinders.py \
+	tests/engines/test_rolling.py $(wildcard tests/engines/planar/test_fleet.py tests/engines/planar/test_scans.py)
+BUILD_INPLACE = $(VENV)/bin/python setup.py --quiet build_ext --inplace
+ON_KERNELS = $(VENV)/bin/python -m pytest -q -m "not slow" -p no:cacheprovider \
+	-W error::pytest.PytestUnraisableExceptionWarning $(KERNEL_TESTS)
+
+.PHONY: help setup demo test test-slow ros-suites lint bench checked wheel clean
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
@@ -25,6 +34,8 @@ help:
 	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make bench      the benchmark of the environments"
+	@echo "make checked    kernels' tests with checked indices, then with sanitizers (gcc)"
+	@echo "make wheel      wheels for Linux and macOS into dist, with Zig's C compiler"
 	@echo "make clean      remove .venv and caches"
 
 $(VENV)/bin/python:
@@ -62,6 +73,16 @@ lint: $(ALL)
 bench: $(ALL)
 	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
 	$(VENV)/bin/gazelle bench env
+
+checked: $(ALL)
+	GAZELLE_BUILD="checked sanitize" $(BUILD_INPLACE)
+	GAZELLE_NATIVE=checked $(ON_KERNELS)
+	GAZELLE_NATIVE=sanitize ASAN_OPTIONS=detect_leaks=0 \
+		LD_PRELOAD="$$(gcc -print-file-name=libasan.so) $$(gcc -print-file-name=libubsan.so)" $(ON_KERNELS)
+
+wheel: $(ALL)
+	$(PIP) install --quiet --constraint constraints.txt build
+	$(VENV)/bin/python tools/compiling/wheels.py dist
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

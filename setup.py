@@ -5,7 +5,7 @@ from pathlib import Path
 
 from setuptools import setup
 
-sys.path.insert(0, str(Path(__file__).parent / "tools" / "packaging"))
+sys.path.insert(0, str(Path(__file__).parent / "tools" / "compiling"))
 
 from extensions import BuildModules, BuildSources, extensions
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 import sysconfig
 from pathlib import Path
 
@@ -41,7 +40,10 @@ BUILDS = {
     "baseline": FAST,
     "avx2": [*FAST, "-mavx2"],
     "checked": ["-O1", *PRECISE, "-g1"],
-    "sanitize": ["-O1", *PRECISE, "-g1", "-fsanitize=address,undefined", "-fno-omit-frame-pointer"],
+    "sanitize": [
+        *["-O1", *PRECISE, "-g1", "-fno-omit-frame-pointer"],
+        *["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
+    ],
 }
 VISUAL_STUDIO = {"baseline": ["/O2", "/fp:precise"], "avx2": ["/O2", "/fp:precise", "/arch:AVX2"]}
 
@@ -148,16 +150,16 @@ class BuildModules(build_ext):
 
     def _choose_compiler(self) -> None:
         found = compilers.system_compiler()
-        zig = found is None or "GAZELLE_TARGET" in os.environ
+        zig = found is None
         command = compilers.zig() if zig else found.split()
         if zig:  # Debian's Python.h includes another header by its path below /usr/include
             command += ["-idirafter", str(Path(sysconfig.get_path("include")).parent)]
         if compilers.is_x86():  # processors from 2009 on; Zig spells it in its own way
             command.append("-march=x86_64_v2" if zig else "-march=x86-64-v2")
-        ending = ["-bundle", "-undefined", "dynamic_lookup"] if sys.platform == "darwin" else []
+        macos = compilers.is_macos()
+        ending = ["-bundle", "-undefined", "dynamic_lookup"] if macos else ["-shared"]
         self.compiler.set_executables(
-            compiler_so=[*command, "-fPIC", "-fwrapv"],
-            linker_so=[*command, *(ending or ["-shared"])],
+            compiler_so=[*command, "-fPIC", "-fwrapv"], linker_so=[*command, *ending]
         )
 
     def copy_extensions_to_source(self) -> None:
@@ -173,3 +175,5 @@ def _set_flags(module: Extension, build: str, *, unix: bool) -> None:
         return
     module.extra_compile_args = [*BUILDS[build], *QUIET]
     module.extra_link_args = [each for each in BUILDS[build] if each.startswith("-fsanitize")]
+    if BUILDS[build][0] == FAST[0] and not compilers.is_macos():
+        module.extra_link_args.append("-s")  # nobody looks at symbols

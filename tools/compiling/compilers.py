@@ -17,9 +17,9 @@ OLDEST_GLIBC = "2.17"  # as manylinux2014 has it
 
 
 def system_compiler() -> str | None:
-    """The command of a C compiler of this system that works; None if there is none."""
-    if os.environ.get("GAZELLE_COMPILER") == "zig":
-        return None
+    """The command of a C compiler of this system that makes what is wanted; None without one."""
+    if "GAZELLE_TARGET" in os.environ:
+        return None  # for another machine only Zig's will do
     if sys.platform == "win32":
         return ""  # setuptools finds Visual Studio's by itself
     names = [os.environ.get("CC"), sysconfig.get_config_var("CC"), "cc", "gcc", "clang"]
@@ -64,5 +64,9 @@ def zig() -> list[str]:
 
 def is_x86() -> bool:
     """Whether what is built is for 64-bit x86."""
-    target = os.environ.get("GAZELLE_TARGET") or platform.machine()
-    return target.lower().startswith(("x86_64", "amd64"))
+    return zig_target().startswith("x86_64")
+
+
+def is_macos() -> bool:
+    """Whether what is built is for macOS."""
+    return "macos" in zig_target()
