@@ -2,8 +2,9 @@
 
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
-from gazelle.simulation.handles import JointHandle, LinkHandle
+from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.known_plugins import KnownPlugin
+from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.plugin import (

@@ -20,6 +20,8 @@ VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 # A quaternion's largest number is taken as it is up to so many decades from one.
 _FAR_FROM_UNIT = 100.0
 
+_MOST_STEPS = 2**31 - 1
+
 # Characters of a value that a message shows.
 _LONGEST = 60
 
@@ -144,6 +146,8 @@ def steps(count: int) -> int:
         raise SimulationError(f"cannot step {count} times: that is no whole number") from None
     if whole < 0:
         raise SimulationError(f"cannot step {whole} times; time goes forward only")
+    if whole > _MOST_STEPS:
+        raise SimulationError(f"cannot step {whole} times at once, but {_MOST_STEPS} at most")
     return whole
 
 

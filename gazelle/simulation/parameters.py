@@ -13,6 +13,7 @@ from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
 from gazelle.simulation.inputs import VECTORS, chosen, finite, numbers, placement, size_of
+from gazelle.simulation.requests import between_steps
 from gazelle.streams import Stream
 
 if TYPE_CHECKING:
@@ -27,15 +28,19 @@ class Parameter:
 
     def __init__(self, simulation: Simulation, kind: str) -> None:
         self._simulation = simulation
+        self._requests = simulation.requests
         self._kind = kind
 
+    @between_steps
     def __getitem__(self, name: str) -> Floats:
         values = self._simulation.engine.parameter(self._kind, name)
         return values[:, 0] if values.shape[1] == 1 else values
 
+    @between_steps
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         self.set(name, values)
 
+    @between_steps
     def set(self, name: str, values: ArrayLike, worlds: Worlds | None = None) -> None:
         """Change some worlds (all if None).
 
@@ -50,14 +55,11 @@ class Parameter:
         """
         engine = self._simulation.engine
 
-        def work() -> None:
-            some = chosen(worlds, engine.nworld)
-            width = engine.parameter(self._kind, name, np.array([0])).shape[1]
-            what, count = f"the {self._kind} of '{name}'", size_of(some, engine.nworld)
-            given = numbers(what, values, width, count, alike=self._kind not in VECTORS)
-            engine.set_parameter(self._kind, name, given, some)
-
-        self._simulation.requests.call(work)
+        some = chosen(worlds, engine.nworld)
+        width = engine.parameter(self._kind, name, np.array([0])).shape[1]
+        what, count = f"the {self._kind} of '{name}'", size_of(some, engine.nworld)
+        given = numbers(what, values, width, count, alike=self._kind not in VECTORS)
+        engine.set_parameter(self._kind, name, given, some)
 
 
 class SensorNoise:
@@ -65,17 +67,19 @@ class SensorNoise:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+        self._requests = simulation.requests
 
+    @between_steps
     def __getitem__(self, name: str) -> Floats:
         return self._model(name).noise.stddev
 
+    @between_steps
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         what, nworld = f"the noise of '{name}'", self._simulation.nworld
         spread = np.broadcast_to(finite(what, values, 1, nworld)[..., 0], (nworld,))
         if not (spread >= 0.0).all():
             raise SimulationError(f"{what} must not be negative")
-        model = self._model(name)
-        self._simulation.requests.call(lambda: setattr(model.noise, "stddev", spread))
+        self._model(name).noise.stddev = spread
 
     def _model(self, name: str) -> LidarModel:
         lidars = {
@@ -94,20 +98,24 @@ class InitialPoses:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+        self._requests = simulation.requests
         self._poses: dict[str, Floats] = {}
 
+    @between_steps
     def __getitem__(self, name: str) -> Floats:
         if name in self._poses:
             return self._poses[name].copy()
         pose = self._simulation.robots[name].description.pose
         return np.tile((*pose.position, *pose.quaternion), (self._simulation.nworld, 1))
 
+    @between_steps
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         count, width = self[name].shape
         given = finite(f"the initial poses of '{name}'", values, width, count)
         placement(name, given[..., :3], given[..., 3:], count)
         self._poses[name] = np.array(np.broadcast_to(given, (count, width)))
 
+    @between_steps
     def apply(self, worlds: Worlds | None) -> None:
         """Put the models there; part of a reset."""
         rows = slice(None) if worlds is None else worlds
@@ -116,14 +124,17 @@ class InitialPoses:
                 name, poses[rows, :3], poses[rows, 3:], worlds
             )
 
+    @between_steps
     def forget(self, model: str) -> None:
         """Drop those of a model that is gone."""
         self._poses.pop(model, None)
 
+    @between_steps
     def state(self) -> dict[str, Floats]:
         """All that was set."""
         return {name: poses.copy() for name, poses in self._poses.items()}
 
+    @between_steps
     def restore(self, state: Mapping[str, Any]) -> None:
         """Put back what ``state`` gave."""
         self._poses = dict(state)
@@ -153,6 +164,7 @@ class WorldParameters:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+        self._requests = simulation.requests
         self.link_mass = Parameter(simulation, "link_mass")
         self.link_inertia = Parameter(simulation, "link_inertia")
         self.link_centre = Parameter(simulation, "link_centre")
@@ -168,15 +180,17 @@ class WorldParameters:
         self._streams: dict[str, Stream] = {}
 
     @property
+    @between_steps
     def gravity(self) -> Floats:
         """Gravity of each world [m/s²], shape (nworld, 3); settable."""
         return self._simulation.engine.parameter("gravity", "")
 
     @gravity.setter
+    @between_steps
     def gravity(self, values: ArrayLike) -> None:
-        engine = self._simulation.engine
-        self._simulation.requests.call(lambda: engine.set_parameter("gravity", "", values))
+        self._simulation.engine.set_parameter("gravity", "", values)
 
+    @between_steps
     def scale_mass(self, link: str, factor: ArrayLike) -> None:
         """Multiply mass and inertia of a link, as if it were made of another material.
 
@@ -189,6 +203,7 @@ class WorldParameters:
         self.link_mass[link] = self.link_mass[link] * by
         self.link_inertia[link] = self.link_inertia[link] * by[:, None]
 
+    @between_steps
     def stream(self, name: str) -> Stream:
         """Random numbers for one purpose; world i's depend on the seed, the name and i alone."""
         if name not in self._streams:
@@ -196,6 +211,7 @@ class WorldParameters:
             self._streams[name] = Stream(seed, f"parameters/{name}", nworld)
         return self._streams[name]
 
+    @between_steps
     def randomize(
         self,
         kind: str,
@@ -234,21 +250,22 @@ class WorldParameters:
             for bound in (low, high)
         )
         drawn: Floats = least + share * (most - least)
-        self._simulation.requests.call(
-            lambda: engine.set_parameter(engine_kind, name, drawn, worlds)
-        )
+        engine.set_parameter(engine_kind, name, drawn, worlds)
         return drawn
 
+    @between_steps
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
         """Draw with the random numbers of another seed from now on."""
         for stream in self._streams.values():
             stream.reseed(seed, worlds)
 
+    @between_steps
     def state(self) -> dict[str, Any]:
         """What is not the engine's, for a snapshot."""
         streams = {n: (s.keys.copy(), s.counters.copy()) for n, s in self._streams.items()}
         return {"pose": self.pose.state(), "streams": streams}
 
+    @between_steps
     def restore(self, state: Mapping[str, Any]) -> None:
         """Put back what ``state`` gave."""
         self.pose.restore(state["pose"])

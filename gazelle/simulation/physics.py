@@ -12,6 +12,7 @@ from gazelle.description import Atmosphere, Physics, Vector3, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.simulation.inputs import finite
+from gazelle.simulation.requests import between_steps
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
@@ -76,6 +77,7 @@ class PhysicsProperties:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+        self._requests = simulation.requests
 
     # -- what there is -----------------------------------------------------------------
 
@@ -125,7 +127,8 @@ class PhysicsProperties:
         that runs in real time gives it to ``Simulation.run`` as ``rate``; Python's own
         default is as fast as possible.
         """
-        return self.update_rate * self.time_step or None
+        profile = self.profile
+        return profile.real_time_update_rate * profile.max_step_size or None
 
     @property
     def gravity(self) -> Vector3:
@@ -287,7 +290,8 @@ class PhysicsProperties:
 
     # -- change ------------------------------------------------------------------------
 
-    def set(self, **values: Any) -> None:
+    @between_steps
+    def set(self, /, **values: Any) -> None:
         """Change several properties at once, by the names of this class's attributes.
 
         Raises:
@@ -296,8 +300,9 @@ class PhysicsProperties:
         """
         for name, value in values.items():
             _check(name, value)
-        self._simulation.requests.call(lambda: self._apply(values))
+        self._apply(values)
 
+    @between_steps
     def use(self, preset: str) -> None:
         """Take another of the physics profiles that the world's file has.
 
@@ -310,7 +315,7 @@ class PhysicsProperties:
             )
         world = self._simulation.world
         chosen = tuple(replace(each, default=each.name == preset) for each in world.physics)
-        self._simulation.requests.call(lambda: self._change(replace(world, physics=chosen)))
+        self._change(replace(world, physics=chosen))
 
     def _apply(self, values: dict[str, Any]) -> None:
         world = self._simulation.world

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, size_of
+from gazelle.simulation.requests import RequestQueue, StatePart, between_steps
 from gazelle.simulation.settings import Setting, Tuning
 
 T = TypeVar("T")
@@ -25,7 +26,7 @@ Q = TypeVar("Q")
 R = TypeVar("R")
 
 
-class TwistInput:
+class TwistInput(StatePart):
     """Velocity commands for a base: forward is x, left is y, counter-clockwise is positive.
 
     The last command holds until the next, as in Gazebo.
@@ -44,6 +45,7 @@ class TwistInput:
         self.linear: Floats = np.zeros((nworld, 3))
         self.angular: Floats = np.zeros((nworld, 3))
 
+    @between_steps
     def send(
         self,
         linear: ArrayLike = 0.0,
@@ -94,6 +96,7 @@ class TwistInput:
         vectors[:, axis] = values
         return vectors
 
+    @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last command: stand still."""
         rows: slice | Worlds = slice(None) if worlds is None else worlds
@@ -102,7 +105,7 @@ class TwistInput:
         self.revision += 1
 
 
-class Input(Generic[T]):
+class Input(StatePart, Generic[T]):
     """A value that a plugin acts on when it comes.
 
     Args:
@@ -128,6 +131,7 @@ class Input(Generic[T]):
         self._receive = receive
         self._forget = forget
 
+    @between_steps
     def send(self, value: T, worlds: Worlds | None = None) -> None:
         """Hand over a value.
 
@@ -137,13 +141,14 @@ class Input(Generic[T]):
         """
         self._receive(value, worlds)
 
+    @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last value."""
         if self._forget is not None:
             self._forget(worlds)
 
 
-class Service(Generic[Q, R]):
+class Service(StatePart, Generic[Q, R]):
     """A question that a plugin answers.
 
     Args:
@@ -165,6 +170,7 @@ class Service(Generic[Q, R]):
         self.response = response
         self._answer = answer
 
+    @between_steps
     def call(self, request: Q, worlds: Worlds | None = None) -> R:
         """Ask.
 
@@ -184,7 +190,7 @@ class FramePrefix(Enum):
     NONE = "nothing"
 
 
-class Output(Generic[T]):
+class Output(StatePart, Generic[T]):
     """A value that is published at a rate.
 
     Args:
@@ -230,28 +236,33 @@ class Output(Generic[T]):
         return bool(self._listeners)
 
     @property
+    @between_steps
     def last(self) -> T:
         """What was published last; what would be published now if nobody listens."""
         if self._last is None or not self._listeners:
             return self._produce()
         return self._last
 
+    @between_steps
     def subscribe(self, listener: Callable[[T], None]) -> Callable[[], None]:
         """Call a function with every value published; returns what ends it."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
+    @between_steps
     def publish(self) -> None:
         """Compute the value and hand it to all who listen, if anybody does."""
         if self._listeners:
             self.hand(self._produce())
 
+    @between_steps
     def hand(self, value: T) -> None:
         """Publish a value that was computed already."""
         self._last = value
         for listener in tuple(self._listeners):
             listener(value)
 
+    @between_steps
     def forget(self) -> None:
         """Let ``last`` be what is true now: after a reset what was published is not."""
         self._last = None
@@ -261,7 +272,14 @@ class Table(dict[str, T]):
     """Ports by name. One that takes the name of another leaves that one ``NAME 2``, ``NAME 3``...
 
     A model may have two plugins of a kind, such as a drive for each pair of wheels.
+
+    Args:
+        requests: Of the simulation that the ports belong to from then on.
     """
+
+    def __init__(self, requests: RequestQueue | None = None) -> None:
+        super().__init__()
+        self._requests = requests
 
     def __setitem__(self, name: str, port: T) -> None:
         """Add a port."""
@@ -270,6 +288,8 @@ class Table(dict[str, T]):
             while f"{name} {number}" in self:
                 number += 1
             super().__setitem__(f"{name} {number}", self[name])
+        if isinstance(port, StatePart):
+            port.bind(self._requests)
         super().__setitem__(name, port)
 
 
@@ -282,14 +302,18 @@ class Ports:
         services: Ports that answer.
         settings: Values that are found around it.
         tunings: Values that can be changed while it runs.
+
+    Args:
+        requests: Of the simulation; what comes through the ports from other threads is done
+            between two steps.
     """
 
-    def __init__(self) -> None:
-        self.inputs: dict[str, Any] = Table()
-        self.outputs: dict[str, Output[Any]] = Table()
-        self.services: dict[str, Service[Any, Any]] = Table()
-        self.settings: dict[str, Setting[Any]] = Table()
-        self.tunings: dict[str, Tuning] = Table()
+    def __init__(self, requests: RequestQueue | None = None) -> None:
+        self.inputs: dict[str, Any] = Table(requests)
+        self.outputs: dict[str, Output[Any]] = Table(requests)
+        self.services: dict[str, Service[Any, Any]] = Table(requests)
+        self.settings: dict[str, Setting[Any]] = Table(requests)
+        self.tunings: dict[str, Tuning] = Table(requests)
 
     def mark(self) -> tuple[Mapping[str, Any], ...]:
         """What there is now, for ``back_to``."""

@@ -74,10 +74,11 @@ class Recorder(Closeable):
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
-        if not self._file.closed:
-            for name in CHANGES:
-                delattr(self._engine, name)
-            self._file.close()
+        with self._simulation.requests:
+            if not self._file.closed:
+                for name in CHANGES:
+                    delattr(self._engine, name)
+                self._file.close()
 
     def _called(self, name: str, method: Callable[..., Any], *args: Any, **options: Any) -> Any:
         """Do what was asked; write it down unless it is part of something larger."""

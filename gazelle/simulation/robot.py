@@ -13,10 +13,12 @@ from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.rotations import yaw_of
-from gazelle.simulation.handles import JointHandle, LinkHandle, orientation_of
 from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
+from gazelle.simulation.joints import JointHandle
+from gazelle.simulation.links import LinkHandle, orientation_of
 from gazelle.simulation.models import mounts, sensor_model
 from gazelle.simulation.ports import Ports
+from gazelle.simulation.requests import between_steps
 from gazelle.simulation.sensors import SensorUnit
 
 if TYPE_CHECKING:
@@ -77,8 +79,9 @@ class Robot(Ports):
     """
 
     def __init__(self, simulation: Simulation, model: Model, namespace: str = "") -> None:
-        super().__init__()
+        super().__init__(simulation.requests)
         self.simulation = simulation
+        self._requests = simulation.requests
         self.name = model.name
         self.namespace = namespace
         self.description = model
@@ -93,36 +96,43 @@ class Robot(Ports):
         )
 
     @property
+    @between_steps
     def pose(self) -> Pose:
         """Pose of the model frame in world 0."""
         place = self.placement(np.array([0]))
         return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
 
     @property
+    @between_steps
     def twist(self) -> Motion:
         """Velocity of the model frame in world 0, in the world frame."""
         motion = self.motion(np.array([0]))
         return Motion(motion.linear[0], motion.angular[0])
 
     @property
+    @between_steps
     def position(self) -> Floats:
         """[m], shape (nworld, 3)."""
         return self.placement().position
 
     @property
+    @between_steps
     def quaternion(self) -> Floats:
         """(x, y, z, w), shape (nworld, 4)."""
         return self.placement().quaternion
 
     @property
+    @between_steps
     def yaw(self) -> Floats:
         """Heading [rad], shape (nworld,)."""
         return yaw_of(self.placement().quaternion)
 
+    @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Pose of the model frame in many worlds."""
         return self.simulation.engine.model_placement(self.name, worlds)
 
+    @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Velocity of the canonical link in many worlds, in the world frame; 0 without a link."""
         first = next(iter(self._links.values()), None)
@@ -131,6 +141,7 @@ class Robot(Ports):
             return Motion(np.zeros((count, 3)), np.zeros((count, 3)))
         return first.motion(worlds)
 
+    @between_steps
     def set_pose(
         self,
         position: ArrayLike,
@@ -154,12 +165,10 @@ class Robot(Ports):
         some, turned = chosen(worlds, engine.nworld), orientation_of(quaternion, yaw)
         place = placement(self.name, position, turned, size_of(some, engine.nworld))
 
-        def work() -> None:
-            engine.set_model_placement(self.name, *place, some)
-            engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), some)
+        engine.set_model_placement(self.name, *place, some)
+        engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), some)
 
-        self.simulation.requests.call(work)
-
+    @between_steps
     def set_twist(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
@@ -174,8 +183,9 @@ class Robot(Ports):
         some = chosen(worlds, engine.nworld)
         twist = motion(self.name, linear, angular, size_of(some, engine.nworld))
         if self._links:
-            self.simulation.requests.call(lambda: engine.set_model_motion(self.name, *twist, some))
+            engine.set_model_motion(self.name, *twist, some)
 
+    @between_steps
     def set_configuration(
         self,
         joints: Sequence[str],
@@ -205,13 +215,11 @@ class Robot(Ports):
         what = f"the positions of {', '.join(joints)}"
         values = finite(what, positions, len(joints), size_of(some, engine.nworld))
 
-        def work() -> None:
-            for column, handle in enumerate(handles):
-                engine.set_joint_position(handle.name, values[..., column, None], some)
-                engine.set_joint_velocity(handle.name, np.zeros(1), some)
+        for column, handle in enumerate(handles):
+            engine.set_joint_position(handle.name, values[..., column, None], some)
+            engine.set_joint_velocity(handle.name, np.zeros(1), some)
 
-        self.simulation.requests.call(work)
-
+    @between_steps
     def wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """What the child of a joint exerts on its parent, about the joint, in the world frame.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,8 @@ from gazelle.sensors import SensorModel
 from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.ports import FramePrefix, Output
+from gazelle.simulation.requests import between_steps
+from gazelle.simulation.sharing import shared
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
@@ -30,14 +33,15 @@ class SensorUnit:
     Attributes:
         description: What the file says.
         robot: The robot that it is on.
-        model: Measures now, in any world.
     """
 
     def __init__(self, robot: Robot, sensor: Sensor, name: str, model: SensorModel) -> None:
         self.description = sensor
         self.robot = robot
         self.name = name
-        self.model = model
+        self._model = model
+        self._requests = robot.simulation.requests
+        self._shared_model = shared(model, self._requests)
         self.schedule = Schedule(sensor.update_rate)
         self.schedule.done(robot.simulation.clock.now_ns)
         self._values: Floats | None = None
@@ -47,19 +51,27 @@ class SensorUnit:
         self._listeners: list[Callable[[SensorUnit], None]] = []
 
     @property
+    def model(self) -> SensorModel:
+        """Measures now, in any world; for others than the stepping thread between two steps."""
+        return self._model if self._requests.owner == get_ident() else self._shared_model
+
+    @property
     def awake(self) -> bool:
         """Whether it measures at its rate."""
         return self._awake or bool(self._listeners)
 
+    @between_steps
     def slow_to(self, rate: float) -> None:
         """Measure no more often than a rate [Hz]; 0 changes nothing."""
         if rate > 0.0 and not 0.0 < self.schedule.rate <= rate:
             self.schedule.rate = rate
 
+    @between_steps
     def measure(self, worlds: Worlds | None = None) -> Floats:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
-        return self.model.measure(worlds, self._period())
+        return self._model.measure(worlds, self._period())
 
+    @between_steps
     def read(self, world: int = 0) -> Any:
         """The last reading of one world: a LaserScan, an ImuReading, ...; see ``gazelle.sensors``.
 
@@ -67,11 +79,13 @@ class SensorUnit:
         """
         return self.reading(self.latest()[world])
 
+    @between_steps
     def latest(self) -> Floats:
         """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
         self._awake = True
         return self.current()
 
+    @between_steps
     def current(self) -> Floats:
         """The same without waking it: measured now if it sleeps or never measured."""
         if not self.awake:
@@ -84,15 +98,18 @@ class SensorUnit:
             self._stale = _NO_WORLDS
         return self._values
 
+    @between_steps
     def reading(self, values: Floats) -> Any:
         """Values by name."""
-        return self.model.reading(values, self._stamp)
+        return self._model.reading(values, self._stamp)
 
+    @between_steps
     def subscribe(self, listener: Callable[[SensorUnit], None]) -> Callable[[], None]:
         """Call a function after every measurement; returns what ends it."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
+    @between_steps
     def update(self, now_ns: int) -> Floats:
         """Measure in turn; returns what ``latest`` will until the next time."""
         values = self._values = self.measure()
@@ -102,31 +119,35 @@ class SensorUnit:
             listener(self)
         return values
 
+    @between_steps
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
         """Use the random numbers of another seed, from their start."""
-        self.model.reseed(seed, worlds)
+        self._model.reseed(seed, worlds)
 
+    @between_steps
     def reset(self, worlds: Worlds | None) -> None:
         """Forget drifts and readings; of all worlds, also that somebody read it.
 
         Readings of the other worlds stay as they are, so that they do not depend on who is reset.
         """
-        self.model.reset(worlds)
+        self._model.reset(worlds)
         if worlds is not None:
             self._stale = np.union1d(self._stale, worlds)
             return
         self._values, self._stale, self._stamp, self._awake = None, _NO_WORLDS, 0, False
         self.schedule.done(self.robot.simulation.clock.now_ns)
 
+    @between_steps
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
-        state = dict(self.model.state())
+        state = dict(self._model.state())
         state["stamp"] = np.array([self._stamp, int(self._awake), self.schedule.count])
         state["stale"] = self._stale
         if self._values is not None:
             state["values"] = self._values.copy()
         return state
 
+    @between_steps
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         own = dict(state)
@@ -136,7 +157,7 @@ class SensorUnit:
         if stale.size and not 0 <= stale.min() <= stale.max() < self.robot.simulation.nworld:
             raise IndexError("a reading belongs to a world that is not there")
         self._stale = stale
-        self.model.restore(own)
+        self._model.restore(own)
         self._stamp, self._awake = int(stamp[0]), bool(stamp[1])
         self._values = values
         self.schedule.count = int(stamp[2])
@@ -183,6 +204,7 @@ class SensorOutput(Output[Any]):
         self._asleep: Callable[[], None] | None = None
         self._failed = False
 
+    @between_steps
     def subscribe(self, listener: Callable[[Any], None]) -> Callable[[], None]:
         """Call a function with every reading; returns what ends it."""
         end = super().subscribe(listener)

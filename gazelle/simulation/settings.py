@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from gazelle.errors import SimulationError, did_you_mean
+from gazelle.simulation.requests import StatePart, between_steps
 
 T = TypeVar("T")
 
 
-class Setting(Generic[T]):
+class Setting(StatePart, Generic[T]):
     """A value that somebody around may know; its default holds until then.
 
     Args:
@@ -35,6 +36,7 @@ class Setting(Generic[T]):
         self._kind = type(default)
         self._receive = receive
 
+    @between_steps
     def send(self, value: Any) -> None:
         """Give another value.
 
@@ -79,7 +81,7 @@ class Tunable:
         return kind(min(max(value, self.least), self.most))
 
 
-class Tuning:
+class Tuning(StatePart):
     """Values that are changed together while the simulation runs.
 
     Args:
@@ -102,11 +104,13 @@ class Tuning:
         self._values = values
 
     @property
+    @between_steps
     def values(self) -> dict[str, Any]:
         """What holds now."""
         return dict(self._values())
 
-    def send(self, **wanted: Any) -> dict[str, Any]:
+    @between_steps
+    def send(self, /, **wanted: Any) -> dict[str, Any]:
         """Change some values, each to the nearest that is allowed; returns what holds then.
 
         Raises:

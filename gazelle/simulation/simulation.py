@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from threading import get_ident
 from types import TracebackType
 from typing import Any, Self
 
@@ -15,16 +15,17 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.description import Model, Plugin, Pose, World
-from gazelle.engines import DivergenceError, make_engine
-from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.engines import Engine, make_engine
+from gazelle.errors import SimulationError
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
 from gazelle.simulation.clock import Clock
+from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.events import Events
 from gazelle.simulation.faults import Fault, FaultLog
-from gazelle.simulation.handles import LinkHandle
 from gazelle.simulation.lights import with_light
-from gazelle.simulation.loading import adopt, load_world_plugin
+from gazelle.simulation.links import LinkHandle
+from gazelle.simulation.loading import load_world_plugin
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
@@ -32,23 +33,20 @@ from gazelle.simulation.ports import Ports
 from gazelle.simulation.recording import Recorder, state_hash
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Named, Robot
-from gazelle.simulation.seeing import Eye
-from gazelle.simulation.sensors import SensorUnit
-from gazelle.simulation.stepping import (
-    ScheduledPlugin,
-    indices_of,
-    steps_to_next,
-    update_plugins,
-    update_sensors,
-)
+from gazelle.simulation.scene_renderer import SceneRenderer
+from gazelle.simulation.sharing import shared
+from gazelle.simulation.stepping import ScheduledPlugin, indices_of
+from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
 
 
 class Simulation:
     """A world that runs, or many copies of it in step.
 
-    Everything that changes the state from outside is done between two steps, also when it
-    comes from another thread, and is true when the call returns.
+    One thread at a time owns the state: the one that steps, or that reads or changes something.
+    Everything that is read or changed through this object, its robots and their links, joints,
+    sensors and ports is read or changed between two steps, from whichever thread, and is true
+    when the call returns. A callback must not wait for another thread that does so.
 
     Args:
         world: A description, or a file or bundled name to load one from.
@@ -86,42 +84,58 @@ class Simulation:
         fault_dump: str | Path | None = None,
     ) -> None:
         loaded = world if isinstance(world, World) else formats.load(world)
-        self.engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
+        self.requests = RequestQueue()
+        self._engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
+        self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
         self.seed = seed_of(seed)
-        self.clock = Clock(self.engine.time_step)
-        self.requests = RequestQueue()
-        self.plugins: list[ScheduledPlugin] = []
+        self.clock = Clock(self._engine.time_step)
         self.paused = False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
-        self.loads = Loads(self.engine, self.clock)
-        self.ports, self.events = Ports(), Events()
-        self._robots: dict[str, Robot] = {}
-        self._sensors: list[SensorUnit] = []
-        self._closed = False
-        self._eye = Eye()
+        self._loads = Loads(self._engine, self.clock)
+        self._shared_loads = shared(self._loads, self.requests)
+        self.ports, self.events = Ports(self.requests), Events()
+        self.entities = EntityManager(self)
+        self._renderer = SceneRenderer()
         self._faults = FaultLog(on_fault, fault_dump)
-        for plugin in loaded.plugins:
-            load_world_plugin(self, plugin)
-        for model in loaded.models:
-            self._adopt(model, "")
+        self._loop = StepLoop(self, self._engine, self._loads, self._faults)
+        with self.requests:
+            for plugin in loaded.plugins:
+                load_world_plugin(self, plugin)
+            for model in loaded.models:
+                self.entities.adopt(model, "")
 
     # -- what there is -----------------------------------------------------------------
 
     @property
+    def engine(self) -> Engine:
+        """What moves the world; a thread that does not step uses it between two steps."""
+        return self._engine if self.requests.owner == get_ident() else self._shared_engine
+
+    @property
+    def loads(self) -> Loads:
+        """Forces that act for a time; likewise."""
+        return self._loads if self.requests.owner == get_ident() else self._shared_loads
+
+    @property
     def world(self) -> World:
         """The world that runs, with what was spawned and without what was deleted."""
-        return self.engine.world
+        return self._engine.world
 
     @property
     def nworld(self) -> int:
         """Number of copies."""
-        return self.engine.nworld
+        return self._engine.nworld
 
     @property
     def robots(self) -> Mapping[str, Robot]:
         """All models by name, immovable ones too."""
-        return Named("model", self._robots)
+        return Named("model", self.entities.robots)
+
+    @property
+    def plugins(self) -> list[ScheduledPlugin]:
+        """Of the world and of all models."""
+        return self.entities.plugins
 
     @property
     def time(self) -> float:
@@ -137,7 +151,7 @@ class Simulation:
             SimulationError: The simulation is closed, or ``count`` is no number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        self._walk(inputs.steps(count), lambda: False)
+        self._loop.walk(inputs.steps(count), _never)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time, or until somebody pauses the simulation.
@@ -153,7 +167,7 @@ class Simulation:
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
         pacing.run_paced(
-            lambda piece: self._walk(self.clock.steps_in(piece), lambda: self.paused),
+            lambda piece: self._loop.walk(self.clock.steps_in(piece), lambda: self.paused),
             inputs.duration(seconds),
             rate,
         )
@@ -165,51 +179,6 @@ class Simulation:
     def unpause(self) -> None:
         """Let ``run`` run again."""
         self.requests.call(lambda: setattr(self, "paused", False))
-
-    def _walk(self, count: int, stop: Callable[[], bool]) -> None:
-        """Make steps, and what others ask for between two of them."""
-        if self._closed:
-            raise SimulationError("the simulation is closed")
-        with self.requests.lock:
-            remaining = count
-            try:
-                while remaining > 0:
-                    self.requests.drain()
-                    if stop():
-                        return
-                    remaining -= self._advance(remaining)
-                self.requests.drain()
-            finally:
-                self.events.rested.tell()
-
-    def _advance(self, most: int) -> int:
-        """Do what is due, then step to the next thing that will be; returns the steps made."""
-        clock = self.clock
-        update_plugins(self.plugins, clock.now_ns, clock.now)
-        if self.loads.any:
-            self.loads.update(clock.now_ns)
-        steps = steps_to_next(self.plugins, self._sensors, clock, most)
-        if self.loads.any:
-            steps = min(steps, self.loads.steps_until(clock) or steps)
-        fault: DivergenceError | None = None
-        try:
-            self.engine.step(steps)
-        except DivergenceError as error:
-            fault = error
-        before = clock.now_ns
-        clock.advance(steps)
-        if fault is not None:
-            self._give_up(fault, before)
-        update_sensors(self._sensors, clock.now_ns)
-        return steps
-
-    def _give_up(self, error: DivergenceError, before_ns: int) -> None:
-        """Start worlds over that broke down, as ``on_fault`` says."""
-        text = self._faults.note(self, error, before_ns)
-        self._reset(error.worlds)
-        if self._faults.policy == "raise":
-            raise DivergenceError(text, error.worlds, error.before, error.steps) from error
-        warnings.warn(SimulationWarning(text), stacklevel=5)
 
     # -- change ------------------------------------------------------------------------
 
@@ -238,7 +207,7 @@ class Simulation:
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
         whole = inputs.placeable(placed)
-        return self.requests.call(lambda: self._spawn(whole, namespace))
+        return self.requests.call(lambda: self.entities.spawn(whole, namespace))
 
     def load_plugin(self, filename: str) -> None:
         """Start a plugin that no file names, with empty parameters, for the whole simulation.
@@ -256,7 +225,7 @@ class Simulation:
         Raises:
             SimulationError: There is no such model.
         """
-        self.requests.call(lambda: self._delete(name))
+        self.requests.call(lambda: self.entities.delete(name))
 
     def reset(
         self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
@@ -274,7 +243,7 @@ class Simulation:
         """
         chosen = indices_of(worlds, self.nworld)
         given = None if seed is None else seed_of(seed)
-        self.requests.call(lambda: self._reset(chosen, seed=given, time=time))
+        self.requests.call(lambda: self.entities.reset(chosen, seed=given, time=time))
 
     def attach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
         """Hold two links together as they are to each other now, until ``detach`` or a reset.
@@ -306,75 +275,6 @@ class Simulation:
         """
         self.requests.call(lambda: self.engine.update_world(with_light(self.world, name, changes)))
 
-    def _spawn(self, model: Model, namespace: str) -> Robot:
-        if model.name in self._robots:
-            raise SimulationError(
-                f"there is a model '{model.name}' already",
-                source=model.source,
-                hint="give the new one another name, or delete the old one",
-            )
-        self.engine.spawn(model)
-        try:
-            robot = self._adopt(model, namespace)
-        except Exception:
-            self._delete(model.name)
-            raise
-        self.events.spawned.tell(robot)
-        return robot
-
-    def _delete(self, name: str) -> None:
-        if name not in {model.name for model in self.engine.world.models}:
-            raise SimulationError(
-                f"there is no model '{name}'", hint=did_you_mean(name, self._robots)
-            )
-        self.plugins = [entry for entry in self.plugins if entry.owner != name]
-        gone = self._robots.pop(name, None)
-        self._sensors = [unit for unit in self._sensors if unit.robot is not gone]
-        self.loads.forget(name)
-        self.parameters.pose.forget(name)
-        self.engine.delete(name)
-        if gone is not None:
-            self.events.deleted.tell(gone)
-
-    def _reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
-        self.engine.reset(worlds)
-        self.loads.reset(worlds)
-        if seed is not None:
-            self._reseed(seed, worlds)
-        self.parameters.pose.apply(worlds)
-        rewind = worlds is None and time
-        if rewind:
-            self.clock.now_ns = 0
-        for ports in (self.ports, *self._robots.values()):
-            for port in ports.inputs.values():
-                port.clear(worlds)
-            for output in ports.outputs.values():
-                output.forget()
-        for unit in self._sensors:
-            unit.reset(worlds)
-        for entry in self.plugins:
-            entry.reset(worlds)
-            if rewind and entry.schedule is not None:
-                entry.schedule.restart()
-        self.events.reset.tell(worlds, rewind)
-
-    def _reseed(self, seed: int, worlds: Worlds | None) -> None:
-        if worlds is None:
-            self.seed = seed
-        self.parameters.reseed(seed, worlds)
-        for unit in self._sensors:
-            unit.reseed(seed, worlds)
-        for entry in self.plugins:
-            entry.reseed(seed, worlds)
-
-    def _adopt(self, model: Model, namespace: str) -> Robot:
-        """Make the handle of a model that the engine has, and start its plugins."""
-        robot = Robot(self, model, namespace)
-        self._robots[model.name] = robot
-        self._sensors.extend(robot.sensors.values())
-        adopt(self, model, robot)
-        return robot
-
     # -- seeing ------------------------------------------------------------------------
 
     def render(self, view: View, world: int = 0) -> NDArray[np.uint8]:
@@ -384,7 +284,7 @@ class Simulation:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
             world: Which world.
         """
-        return self._eye.see(self, view, world)
+        return self.requests.call(lambda: self._renderer.picture(self, view, world))
 
     # -- saving and ending -------------------------------------------------------------
 
@@ -422,10 +322,23 @@ class Simulation:
         return tuple(self._faults.faults)
 
     def close(self) -> None:
-        """Free the engine; a second call does nothing."""
-        if not self._closed:
-            self._closed = True
-            self.engine.close()
+        """Free the engine, between two steps if another thread steps; a second call does nothing.
+
+        That thread, and all that wait for an answer, get a ``SimulationError``, and so does what
+        is asked for from now on.
+        """
+        if self.requests.closed:
+            return
+        try:
+            self.requests.call(self._close)
+        except SimulationError:
+            if not self.requests.closed:  # else another thread was faster
+                raise
+
+    def _close(self) -> None:
+        if not self.requests.closed:
+            self.requests.close(CLOSED)
+            self._engine.close()
 
     def __enter__(self) -> Self:
         return self
@@ -437,3 +350,7 @@ class Simulation:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def _never() -> bool:
+    return False

@@ -128,7 +128,7 @@ class GazeboDoor(Closeable):
 
     def _leave(self) -> None:
         plugins = self._simulation.plugins
-        self._simulation.plugins = [entry for entry in plugins if entry not in self._entries]
+        self._simulation.plugins[:] = [entry for entry in plugins if entry not in self._entries]
         for name in list(self._bindings):
             self._unbind(name)
 

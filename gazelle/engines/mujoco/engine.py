@@ -24,7 +24,7 @@ from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import Layout, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.motors import motor_again, motor_of, refuse_motors
-from gazelle.engines.mujoco.overlaps import PIECE, Overlaps
+from gazelle.engines.mujoco.overlaps import Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.process import settle
 from gazelle.engines.mujoco.suspects import suspect
@@ -127,8 +127,6 @@ class MujocoEngine(ForcedSteps):
         self._now()
         self._stale = True
         self._find_dropped()
-        for tyre in self._layout.tyres.values():
-            self._state.qpos[:, tyre.positions] = 0.0
         np.copyto(self._before, self._batch.state)
         failed = self._let_out(count) if self._overlaps.any else self._advance(count)
         self._placed = False
@@ -150,8 +148,9 @@ class MujocoEngine(ForcedSteps):
             self._overlaps.clear(self._batch)
         failed: set[int] = set()
         while count > 0:
-            piece = min(count, PIECE) if self._overlaps.any else count
-            self._overlaps.rise(self._batch, piece * self.time_step)
+            piece = count
+            if self._overlaps.any:
+                piece = min(count, self._overlaps.rise(self._batch, self.time_step))
             failed |= self._advance(piece)
             count -= piece
         return failed

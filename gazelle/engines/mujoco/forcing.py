@@ -1,7 +1,8 @@
 """Steps with forces that depend on how fast things move: wind, and efforts held back.
 
-MuJoCo is told forces once for all steps of a call. Where such a force acts, the physics is
-stepped one step at a time; where none does, which is nearly always, nothing is different.
+MuJoCo is told forces once for all steps of a call. Where such a force acts, or a tyre slips on
+its wheel (see ``tyres``), the physics is stepped one step at a time; where none does, which is
+nearly always, nothing is different.
 """
 
 from __future__ import annotations
@@ -36,10 +37,13 @@ class ForcedSteps(ForceAccess):
 
     def _advance(self, count: int) -> set[int]:
         """Step all worlds; returns those in which MuJoCo gave up."""
-        if not self._is_forced():
+        tyres = self._layout.tyres
+        if not tyres and not self._is_forced():
             return self._step_batch(count)
         failed: set[int] = set()
         for _ in range(count):
+            for tyre in tyres.values():
+                self._state.qpos[:, tyre.positions] = 0.0
             with self._forced():
                 failed |= self._step_batch(1)
             self._stale = True

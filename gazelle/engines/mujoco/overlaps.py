@@ -22,8 +22,9 @@ from gazelle.description import Contact, World
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
 
-# Physics steps between two rises of a surface, at most.
-PIECE = 10
+# Physics steps between two rises of a surface, counted by the time of each world, so that
+# it does not matter how many steps are made at once.
+_PIECE = 10
 
 # Margin of what touches with other pieces of a body that is let out [m]: it marks them.
 _MARK = -1e-9
@@ -132,22 +133,37 @@ class Overlaps:
             self._marked[slice(None) if worlds is None else worlds] = False
             self._show(batch)
 
-    def rise(self, batch: Batch, seconds: float) -> None:
-        """Let out what overlaps for a time [s]."""
-        np.minimum(self._margins + self._rates * seconds, 0.0, out=self._margins)
-        self._mark(batch)
-        self._show(batch)
+    def rise(self, batch: Batch, step: float) -> int:
+        """Let out what overlaps in the worlds whose turn it is.
 
-    def _mark(self, batch: Batch) -> None:
+        Args:
+            batch: The worlds.
+            step: Physics step [s].
+
+        Returns:
+            How many steps may be made until the next turn of some world.
+        """
+        done = np.rint(batch.state[:, 0] / step).astype(np.int64) % _PIECE
+        due = np.flatnonzero(done == 0)
+        if due.size:
+            raised = self._margins[due] + self._rates * (step * _PIECE)
+            self._margins[due] = np.minimum(raised, 0.0)
+            self._mark(batch, due)
+            self._show(batch)
+        return int(_PIECE - done.max())
+
+    def _mark(self, batch: Batch, worlds: Worlds) -> None:
         """Mark all pieces of what is let out, until nothing of it is deep in anything."""
         ngeom = self._model.ngeom
-        rising = self._margins < _MARK
-        self._margins[~rising] = 0.0
-        waiting = np.flatnonzero(self._marked.any(axis=1) & ~rising.any(axis=1))
+        margins = self._margins[worlds]
+        rising = margins < _MARK
+        margins[~rising] = 0.0
+        waiting = worlds[self._marked[worlds].any(axis=1) & ~rising.any(axis=1)]
         if waiting.size:
             out = waiting[self._deepest(batch, waiting) >= -self._shallow]
             self._marked[out] = False
-        np.minimum(self._margins[:, :ngeom], self._marked * _MARK, out=self._margins[:, :ngeom])
+        np.minimum(margins[:, :ngeom], self._marked[worlds] * _MARK, out=margins[:, :ngeom])
+        self._margins[worlds] = margins
 
     def _pieces(self) -> None:
         """Take down which pieces belong to what is let out now."""

@@ -8,7 +8,7 @@ the constraint's regularisation and f its force; so R = slip / h. The solver tak
 with the contacts, which makes it as stable as a rigid wheel.
 
 Where the tyre is on its wheel does not matter, as contacts remember nothing: it is put back
-before every run of steps.
+before every step.
 """
 
 from __future__ import annotations

@@ -122,8 +122,20 @@ class PlanarEngine(Refusals, PlanarAccess):
             command[:, each.body] = apply_matrix(each.matrix, self._targets[:, each.columns])
         self._fleet.step(count)
         if self._layout.axes:
-            self._angles += self._rates * (self.time_step * count)
-            np.clip(self._angles, *self._layout.limits, out=self._angles)
+            self._turn(count)
+            lower, upper = self._layout.limits
+            np.maximum(self._angles, lower, out=self._angles)
+            np.minimum(self._angles, upper, out=self._angles)
+
+    def _turn(self, count: int) -> None:
+        """Turn the wheels, one step after another: it must not matter how many are made at once."""
+        if count == 1:
+            self._angles += self._rates * self.time_step
+            return
+        turned = np.empty((count + 1, *self._angles.shape))
+        turned[0], turned[1:] = self._angles, self._rates * self.time_step
+        np.add.accumulate(turned, axis=0, out=turned)
+        self._angles[:] = turned[-1]
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""

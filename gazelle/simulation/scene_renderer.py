@@ -15,18 +15,18 @@ if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
 
-class Eye:
-    """Renders, and keeps what it needs while the models stay the same."""
+class SceneRenderer:
+    """Renders a running world, and keeps what it needs while the models stay the same."""
 
     def __init__(self) -> None:
         self._models: tuple[Model, ...] = ()
         self._tracer: Tracer | None = None
 
-    def see(self, simulation: Simulation, view: View, world: int) -> NDArray[np.uint8]:
+    def picture(self, simulation: Simulation, view: View, world: int) -> NDArray[np.uint8]:
         """A picture of one world, shape (height, width, 3)."""
         return render(self._placed(simulation, world), simulation.engine.world, view)
 
-    def measure(self, simulation: Simulation, view: View, world: int) -> NDArray[np.float64]:
+    def ranges(self, simulation: Simulation, view: View, world: int) -> NDArray[np.float64]:
         """Distances to what a picture shows, shape (height, width)."""
         return range_image(self._placed(simulation, world), view)
 

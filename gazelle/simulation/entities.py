@@ -1,0 +1,113 @@
+"""The models of a running simulation, with their sensors and plugins."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gazelle.array_types import Worlds
+from gazelle.description import Model
+from gazelle.errors import SimulationError, did_you_mean
+from gazelle.simulation.loading import adopt
+from gazelle.simulation.robot import Robot
+from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.stepping import ScheduledPlugin
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+
+class EntityManager:
+    """Makes, resets and ends what lives in a simulation; its methods are called by the owner.
+
+    Args:
+        simulation: Whose.
+
+    Attributes:
+        robots: All models by name.
+        sensors: Of all models.
+        plugins: Of the world and of all models, in the order they were loaded.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self.robots: dict[str, Robot] = {}
+        self.sensors: list[SensorUnit] = []
+        self.plugins: list[ScheduledPlugin] = []
+
+    def spawn(self, model: Model, namespace: str) -> Robot:
+        """Add a model to every world; what cannot be added leaves nothing behind."""
+        if model.name in self.robots:
+            raise SimulationError(
+                f"there is a model '{model.name}' already",
+                source=model.source,
+                hint="give the new one another name, or delete the old one",
+            )
+        self._simulation.engine.spawn(model)
+        try:
+            robot = self.adopt(model, namespace)
+        except Exception:
+            self.delete(model.name)
+            raise
+        self._simulation.events.spawned.tell(robot)
+        return robot
+
+    def adopt(self, model: Model, namespace: str) -> Robot:
+        """Make the handle of a model that the engine has, and start its plugins."""
+        robot = Robot(self._simulation, model, namespace)
+        self.robots[model.name] = robot
+        self.sensors.extend(robot.sensors.values())
+        adopt(self._simulation, model, robot)
+        return robot
+
+    def delete(self, name: str) -> None:
+        """Take a model out of every world, with its plugins.
+
+        Raises:
+            SimulationError: There is no such model.
+        """
+        simulation = self._simulation
+        if name not in {model.name for model in simulation.engine.world.models}:
+            raise SimulationError(
+                f"there is no model '{name}'", hint=did_you_mean(name, self.robots)
+            )
+        self.plugins[:] = [entry for entry in self.plugins if entry.owner != name]
+        gone = self.robots.pop(name, None)
+        self.sensors[:] = [unit for unit in self.sensors if unit.robot is not gone]
+        simulation.loads.forget(name)
+        simulation.parameters.pose.forget(name)
+        simulation.engine.delete(name)
+        if gone is not None:
+            simulation.events.deleted.tell(gone)
+
+    def reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
+        """Put everything back to its initial state; see ``Simulation.reset``."""
+        simulation = self._simulation
+        simulation.engine.reset(worlds)
+        simulation.loads.reset(worlds)
+        if seed is not None:
+            self._reseed(seed, worlds)
+        simulation.parameters.pose.apply(worlds)
+        rewind = worlds is None and time
+        if rewind:
+            simulation.clock.now_ns = 0
+        for ports in (simulation.ports, *self.robots.values()):
+            for port in ports.inputs.values():
+                port.clear(worlds)
+            for output in ports.outputs.values():
+                output.forget()
+        for unit in self.sensors:
+            unit.reset(worlds)
+        for entry in self.plugins:
+            entry.reset(worlds)
+            if rewind and entry.schedule is not None:
+                entry.schedule.restart()
+        simulation.events.reset.tell(worlds, rewind)
+
+    def _reseed(self, seed: int, worlds: Worlds | None) -> None:
+        if worlds is None:
+            self._simulation.seed = seed
+        self._simulation.parameters.reseed(seed, worlds)
+        for unit in self.sensors:
+            unit.reseed(seed, worlds)
+        for entry in self.plugins:
+            entry.reseed(seed, worlds)

@@ -1,0 +1,197 @@
+"""Joints of a model in a running simulation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines import Wrench
+from gazelle.errors import SimulationError
+from gazelle.simulation.inputs import chosen, finite, numbers, size_of
+from gazelle.simulation.requests import between_steps
+from gazelle.simulation.retuning import set_parameters
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+
+class JointHandle:
+    """A joint of a robot; values are of world 0 when read, of all worlds when set."""
+
+    def __init__(self, simulation: Simulation, name: str) -> None:
+        self.name = name
+        self._simulation = simulation
+        self._requests = simulation.requests
+        self._engine = simulation.engine
+
+    @property
+    @between_steps
+    def position(self) -> float:
+        """Position of the first axis [m or rad].
+
+        Setting it teleports the joint, to its limits at most, as in Gazebo. It takes a number
+        an axis, of a ball joint a quaternion (x, y, z, w).
+        """
+        return float(self._engine.joint_position(self.name, np.array([0]))[0, 0])
+
+    @position.setter
+    @between_steps
+    def position(self, value: ArrayLike) -> None:
+        width = self.positions(np.array([0])).shape[1]
+        what = f"the position of joint '{self.name}'"
+        self._engine.set_joint_position(self.name, finite(what, value, width, self._engine.nworld))
+
+    @property
+    @between_steps
+    def velocity(self) -> float:
+        """Velocity of the first axis [m/s or rad/s]; setting it changes the state at once."""
+        return float(self._engine.joint_velocity(self.name, np.array([0]))[0, 0])
+
+    @velocity.setter
+    @between_steps
+    def velocity(self, value: ArrayLike) -> None:
+        what, nworld = f"the velocity of joint '{self.name}'", self._engine.nworld
+        given = finite(what, value, self.axes, nworld, alike=True)
+        self._engine.set_joint_velocity(self.name, given)
+
+    @property
+    @between_steps
+    def effort(self) -> None:
+        """Write only: effort applied until told otherwise [N or N m]."""
+        raise SimulationError(f"the effort on joint '{self.name}' is measured by a force sensor")
+
+    @effort.setter
+    @between_steps
+    def effort(self, value: ArrayLike) -> None:
+        self._simulation.loads.set_lasting(self.name, self._effort_of(value, None))
+
+    @property
+    @between_steps
+    def axes(self) -> int:
+        """How many ways the joint can move: numbers of a velocity or an effort."""
+        return int(self._engine.joint_velocity(self.name, np.array([0])).shape[1])
+
+    @between_steps
+    def apply_effort(
+        self,
+        effort: ArrayLike,
+        *,
+        start: float | None = None,
+        duration: float | None = None,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Let an effort act for a time, besides what acts already.
+
+        Args:
+            effort: [N or N m], shape (), (n,) or (n, axes).
+            start: When it begins, in simulated time [s]; now if None or past.
+            duration: How long it acts [s]; until it is cleared if None.
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: A value is not finite, or the duration is negative.
+        """
+        some = chosen(worlds, self._engine.nworld)
+        rows = self._effort_of(effort, some)
+        self._simulation.loads.turn(self.name, rows, start, duration, some)
+
+    @between_steps
+    def clear_efforts(self) -> None:
+        """End all efforts on the joint, in all worlds."""
+        self._simulation.loads.clear_joint(self.name)
+
+    def _effort_of(self, values: ArrayLike, worlds: Worlds | None) -> Floats:
+        """Efforts of the right shape. One that is not finite breaks its own world, no other."""
+        count = size_of(worlds, self._engine.nworld)
+        return numbers(f"the effort on joint '{self.name}'", values, self.axes, count, alike=True)
+
+    @between_steps
+    def positions(self, worlds: Worlds | None = None) -> Floats:
+        """Positions of all axes, shape (n, axes); of ball joints quaternions, shape (n, 4)."""
+        return self._engine.joint_position(self.name, worlds)
+
+    @between_steps
+    def velocities(self, worlds: Worlds | None = None) -> Floats:
+        """Velocities of all axes, shape (n, axes)."""
+        return self._engine.joint_velocity(self.name, worlds)
+
+    @between_steps
+    def wrench(self, worlds: Worlds | None = None) -> Wrench:
+        """What the child exerts on the parent, about the joint's origin, in the world frame."""
+        return self._engine.joint_wrench(self.name, worlds)
+
+    @between_steps
+    def add_motor(self, max_effort: ArrayLike) -> None:
+        """Put a velocity motor on it that holds still until ``drive``.
+
+        Args:
+            max_effort: Of all axes or of each [N or N m], shape () or (axes,).
+
+        Raises:
+            EngineError: It has no axis that a motor could turn, or an effort cannot be.
+        """
+        self._engine.add_motor(self.name, max_effort)
+
+    @between_steps
+    def motor_effort(self, worlds: Worlds | None = None) -> Floats:
+        """Largest efforts of its motor [N or N m], shape (n, axes).
+
+        Raises:
+            EngineError: There is no motor on it.
+        """
+        return self._engine.parameter("motor_effort", self.name, worlds)
+
+    @property
+    @between_steps
+    def has_motor(self) -> bool:
+        """Whether there is a velocity motor on it."""
+        calls = (call for call in self._engine.history() if call.method == "add_motor")
+        return any(call.arguments[0] == self.name for call in calls)
+
+    @between_steps
+    def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
+        try:
+            self._engine.set_motor_velocity(self.name, velocity, worlds)
+        except (TypeError, ValueError) as error:
+            raise SimulationError(
+                f"the velocity of the motor on '{self.name}' cannot be {velocity!r}: {error}",
+                hint="give a number, one for each world, or a row of axes for each world",
+            ) from None
+
+    @between_steps
+    def set_properties(
+        self,
+        *,
+        damping: ArrayLike | None = None,
+        friction: ArrayLike | None = None,
+        lower: ArrayLike | None = None,
+        upper: ArrayLike | None = None,
+        motor_effort: ArrayLike | None = None,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Change how the joint moves; what is None stays. All shapes: (), (n,) or (n, axes).
+
+        Args:
+            damping: Viscous [N s/m or N m s/rad].
+            friction: Static [N or N m].
+            lower: Lower limit [m or rad]; minus infinity for none.
+            upper: Upper limit [m or rad]; infinity for none.
+            motor_effort: Largest effort of its motor [N or N m].
+            worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: A value cannot be, or there is no motor; nothing is changed.
+            SimulationError: The lower limit would be above the upper.
+        """
+        given = {
+            "joint_damping": damping,
+            "joint_friction": friction,
+            "joint_lower": lower,
+            "joint_upper": upper,
+            "motor_effort": motor_effort,
+        }
+        set_parameters(self._simulation, self.name, given, worlds)

@@ -1,0 +1,195 @@
+"""Links of a model in a running simulation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import Inertia, Link, Pose
+from gazelle.engines import Motion, Placement
+from gazelle.errors import SimulationError
+from gazelle.rotations import from_yaw
+from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
+from gazelle.simulation.requests import between_steps
+from gazelle.simulation.retuning import set_parameters
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+
+class LinkHandle:
+    """A link of a robot."""
+
+    def __init__(self, simulation: Simulation, name: str, link: Link) -> None:
+        self.name = name
+        self.description = link
+        self._simulation = simulation
+        self._requests = simulation.requests
+        self._engine = simulation.engine
+
+    @property
+    @between_steps
+    def pose(self) -> Pose:
+        """Its pose in world 0."""
+        place = self._engine.link_placement(self.name, np.array([0]))
+        return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
+
+    @between_steps
+    def placement(self, worlds: Worlds | None = None) -> Placement:
+        """Its pose in many worlds."""
+        return self._engine.link_placement(self.name, worlds)
+
+    @between_steps
+    def motion(self, worlds: Worlds | None = None) -> Motion:
+        """Its velocity in many worlds, in the world frame."""
+        return self._engine.link_motion(self.name, worlds)
+
+    @between_steps
+    def set_pose(
+        self,
+        position: ArrayLike,
+        quaternion: ArrayLike | None = None,
+        *,
+        yaw: ArrayLike | None = None,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Put the link somewhere, with all that hangs together with it, joints as they are.
+
+        Args:
+            position: [m], shape (3,) or (n, 3).
+            quaternion: (x, y, z, w), shape (4,) or (n, 4); upright if None.
+            yaw: Heading [rad] instead of a quaternion, shape () or (n,).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: The link is held to the world by a joint.
+            SimulationError: A value cannot be, or both a quaternion and a heading are given.
+        """
+        some = chosen(worlds, self._engine.nworld)
+        turned = orientation_of(quaternion, yaw)
+        place = placement(self.name, position, turned, size_of(some, self._engine.nworld))
+        self._engine.set_link_placement(self.name, *place, some)
+
+    @between_steps
+    def set_twist(
+        self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Give the link a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
+
+        The joints of what hangs together with it keep their speeds.
+
+        Raises:
+            SimulationError: A value cannot be.
+        """
+        some = chosen(worlds, self._engine.nworld)
+        twist = motion(self.name, linear, angular, size_of(some, self._engine.nworld))
+        self._engine.set_link_motion(self.name, *twist, some)
+
+    @between_steps
+    def apply_wrench(
+        self,
+        force: ArrayLike = (0.0, 0.0, 0.0),
+        torque: ArrayLike = (0.0, 0.0, 0.0),
+        *,
+        point: ArrayLike | None = None,
+        frame: LinkHandle | None = None,
+        follow: bool = False,
+        start: float | None = None,
+        duration: float | None = None,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Push the link for a time. Several wrenches at once add up.
+
+        Args:
+            force: [N], shape (3,) or (n, 3).
+            torque: [N m], shape (3,) or (n, 3).
+            point: Where the force acts [m], in ``frame``, shape (3,) or (n, 3); the link's
+                centre of mass if None.
+            frame: The link in whose frame force, torque and point are given; the world if None.
+            follow: Whether the wrench turns with ``frame``; if not, it keeps the direction and
+                the lever that it has when it begins, as Gazebo's do.
+            start: When it begins, in simulated time [s]; now if None or past.
+            duration: How long it acts [s]; until it is cleared if None.
+            worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: Nothing can push the link: it does not move.
+            SimulationError: A value is not finite, or the duration is negative.
+        """
+        simulation = self._simulation
+        some = chosen(worlds, simulation.nworld)
+        count = size_of(some, simulation.nworld)
+        push = numbers("a force", force, 3, count), numbers("a torque", torque, 3, count)
+        where = None if point is None else finite("the point of a force", point, 3, count)
+        simulation.loads.push(
+            self.name,
+            *push,
+            point=where,
+            frame="" if frame is None else frame.name,
+            follow=follow,
+            start=start,
+            duration=duration,
+            worlds=some,
+        )
+
+    @between_steps
+    def clear_wrenches(self) -> None:
+        """End all wrenches on the link, in all worlds."""
+        self._simulation.loads.clear_link(self.name)
+
+    @between_steps
+    def set_properties(
+        self,
+        *,
+        mass: ArrayLike | None = None,
+        centre: ArrayLike | None = None,
+        inertia: Inertia | ArrayLike | None = None,
+        gravity: ArrayLike | None = None,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Change what the link weighs; what is None stays.
+
+        Args:
+            mass: [kg], shape () or (n,).
+            centre: Centre of mass in the link frame [m], shape (3,) or (n, 3).
+            inertia: About the centre of mass in the link's axes [kg m²]; xx, yy, zz, xy, xz,
+                yz, shape (6,) or (n, 6).
+            gravity: Whether gravity acts on it, shape () or (n,).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: The link does not move, or a value cannot be.
+        """
+        if isinstance(inertia, Inertia):
+            i = inertia
+            inertia = (i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz)
+        given = {
+            "link_mass": mass,
+            "link_centre": centre,
+            "link_inertia": inertia,
+            "link_gravity": gravity,
+        }
+        set_parameters(self._simulation, self.name, given, worlds)
+
+
+def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> ArrayLike:
+    """A quaternion (x, y, z, w), or that of a heading [rad]; upright if neither is given.
+
+    Raises:
+        SimulationError: Both are given.
+    """
+    if quaternion is None:
+        return from_yaw(_headings(0.0 if yaw is None else yaw))
+    if yaw is not None:
+        raise SimulationError("give a quaternion or a yaw, not both")
+    return quaternion
+
+
+def _headings(yaw: ArrayLike) -> Floats:
+    try:
+        return np.asarray(yaw, np.float64)
+    except (TypeError, ValueError):
+        raise SimulationError(f"a heading must be numbers [rad], not {yaw!r}") from None

@@ -1,0 +1,152 @@
+"""Make physics steps, and between them what is due and what others ask for."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gazelle.engines import DivergenceError, Engine
+from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.simulation.faults import FaultLog
+from gazelle.simulation.loads import Loads
+from gazelle.simulation.stepping import steps_to_next, update_plugins, update_sensors
+
+if TYPE_CHECKING:
+    from gazelle.simulation.simulation import Simulation
+
+CLOSED = "the simulation is closed"
+
+# For how long the physics is stepped at once, at most, while others may wait [s].
+_PIECE = 0.003
+
+
+class StepLoop:
+    """Steps a simulation from one thing that is due to the next.
+
+    The physics is never stepped for longer than some milliseconds at once, or for one step, so
+    that other threads get their answers soon. Results do not depend on where it is cut.
+
+    Args:
+        simulation: Whose.
+        engine: Steps the physics.
+        loads: Of the simulation.
+        faults: Told of worlds that break down.
+
+    Attributes:
+        cut: Whether the last steps ended for the sake of others, with nothing due.
+    """
+
+    def __init__(
+        self, simulation: Simulation, engine: Engine, loads: Loads, faults: FaultLog
+    ) -> None:
+        self._simulation = simulation
+        self._engine = engine
+        self._loads = loads
+        self._entities = simulation.entities
+        self._faults = faults
+        self._most = 1
+        self.cut = False
+
+    def walk(self, count: int, stop: Callable[[], bool]) -> None:
+        """Make steps, and what others ask for between two of them.
+
+        Args:
+            count: How many.
+            stop: Asked between two steps whether that is enough.
+
+        Raises:
+            SimulationError: The simulation is closed, or another thread closes it.
+            DivergenceError: Worlds broke down, and that is to raise.
+        """
+        simulation, requests = self._simulation, self._simulation.requests
+        requests.acquire()
+        try:
+            if requests.closed:
+                raise SimulationError(CLOSED)
+            self._walk(count, stop)
+        finally:
+            self.cut = False
+            try:
+                simulation.events.rested.tell()
+            finally:
+                requests.release()
+
+    def _walk(self, remaining: int, stop: Callable[[], bool]) -> None:
+        requests = self._simulation.requests
+        while True:
+            if requests.waiting:
+                self.cut = False
+                requests.drain()
+                if requests.closed:
+                    raise SimulationError(CLOSED)
+            if remaining <= 0 or stop():
+                return
+            remaining -= self._advance(remaining)
+
+    def _advance(self, most: int) -> int:
+        """Do what is due, then step towards the next thing that will be; returns the steps."""
+        clock, entities, loads = self._simulation.clock, self._entities, self._loads
+        plugins, sensors = entities.plugins, entities.sensors
+        update_plugins(plugins, clock.now_ns, clock.now)
+        if self._simulation.requests.closed:
+            raise SimulationError(CLOSED)
+        if loads.any:
+            loads.update(clock.now_ns)
+        steps = steps_to_next(plugins, sensors, clock, most)
+        if loads.any:
+            steps = min(steps, loads.steps_until(clock) or steps)
+        try:
+            if steps < self._most:
+                self._engine.step(steps)
+                self.cut = False
+            else:
+                steps = self._step_piece(steps)
+        except DivergenceError as error:
+            self._give_up(error, steps)
+        else:
+            clock.advance(steps)
+        update_sensors(sensors, clock.now_ns)
+        return steps
+
+    def _step_piece(self, wanted: int) -> int:
+        """Make as many steps at once as are not too long; returns how many."""
+        steps, begin = self._most, time.perf_counter()
+        self._engine.step(steps)
+        took = time.perf_counter() - begin
+        # A slow piece may be chance, a fast one may be rest: double at most, halve at least.
+        if took * 2.0 < _PIECE:
+            self._most *= 2
+        elif took > _PIECE:
+            self._most = max(1, self._most // 2)
+        self.cut = steps < wanted
+        return steps
+
+    def _give_up(self, error: DivergenceError, wanted: int) -> None:
+        """Start worlds over that broke down, as ``on_fault`` says, when the others are there.
+
+        Args:
+            error: What happened in the first of the steps.
+            wanted: How many steps there are in all.
+        """
+        clock, worlds, before = self._simulation.clock, error.worlds, error.before
+        text = self._faults.note(self._simulation, error, clock.now_ns)
+        clock.advance(error.steps)
+        try:
+            if wanted > error.steps:
+                self._engine.step(wanted - error.steps)
+        except DivergenceError as later:
+            new = ~np.isin(later.worlds, worlds)
+            if new.any():
+                found = later.worlds[new], later.before[new]
+                more = DivergenceError(later.message, *found, later.steps)
+                text += f"; {self._faults.note(self._simulation, more, clock.now_ns)}"
+                worlds, before = np.append(worlds, found[0]), np.vstack((before, found[1]))
+        clock.advance(wanted - error.steps)
+        self._entities.reset(worlds)
+        if self._faults.policy == "raise":
+            raise DivergenceError(text, worlds, before, error.steps) from error
+        warnings.warn(SimulationWarning(text), stacklevel=6)
