@@ -68,6 +68,8 @@ class Recorder(Closeable):
         first = header(simulation, self._engine.history(), self._engine.snapshot(), now_ns)
         self._file: IO[str] = self.path.open("w", encoding="utf-8")
         self._depth = 0
+        self._pending: dict[str, Any] = {}
+        self._steps = 0
         self._write(first)
         for name in CHANGES:
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
@@ -78,6 +80,7 @@ class Recorder(Closeable):
             if not self._file.closed:
                 for name in CHANGES:
                     delattr(self._engine, name)
+                self._flush()
                 self._file.close()
 
     def _called(self, name: str, method: Callable[..., Any], *args: Any, **options: Any) -> Any:
@@ -103,10 +106,27 @@ class Recorder(Closeable):
 
     def _note(self, name: str, line: dict[str, Any], args: tuple[Any, ...]) -> None:
         line["time"] = self._simulation.clock.now_ns
-        if name == "step":
-            line["time"] += (args[0] if args else 1) * self._simulation.clock.step_ns
-            line["hash"] = state_hash(self._engine.peek())
-        self._write(line)
+        if name != "step":
+            self._flush()
+            self._write(line)
+            return
+        count = args[0] if args else 1
+        line["time"] += count * self._simulation.clock.step_ns
+        line["hash"] = state_hash(self._engine.peek())
+        # Steps that were cut only to look who waits are one run of steps.
+        if not (self._pending and self._simulation.loop.cut):
+            self._flush()
+            self._steps = 0
+        self._steps += count
+        self._pending = {**line, "arguments": encode((self._steps,))}
+        if "diverged" in line:
+            self._flush()
+
+    def _flush(self) -> None:
+        """Write the last run of steps, which might have gone on."""
+        if self._pending:
+            self._write(self._pending)
+            self._pending = {}
 
     def _write(self, line: dict[str, Any]) -> None:
         self._file.write(json.dumps(line, separators=(",", ":")) + "\n")

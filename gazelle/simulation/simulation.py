@@ -65,6 +65,9 @@ class Simulation:
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         events: Tell who must follow what is spawned, deleted and reset.
+        requests: What threads ask for; hold it with ``with`` to do several things at one moment.
+        entities: Makes and ends models; for the thread that owns the state.
+        loop: Makes the steps; likewise.
 
     Raises:
         FormatError: The file cannot be read.
@@ -98,7 +101,7 @@ class Simulation:
         self.entities = EntityManager(self)
         self._renderer = SceneRenderer()
         self._faults = FaultLog(on_fault, fault_dump)
-        self._loop = StepLoop(self, self._engine, self._loads, self._faults)
+        self.loop = StepLoop(self, self._engine, self._loads, self._faults)
         with self.requests:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
@@ -151,7 +154,7 @@ class Simulation:
             SimulationError: The simulation is closed, or ``count`` is no number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        self._loop.walk(inputs.steps(count), _never)
+        self.loop.walk(inputs.steps(count), _never)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time, or until somebody pauses the simulation.
@@ -167,7 +170,7 @@ class Simulation:
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
         pacing.run_paced(
-            lambda piece: self._loop.walk(self.clock.steps_in(piece), lambda: self.paused),
+            lambda piece: self.loop.walk(self.clock.steps_in(piece), lambda: self.paused),
             inputs.duration(seconds),
             rate,
         )

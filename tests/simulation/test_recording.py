@@ -290,3 +290,17 @@ def test_what_nobody_wrote_is_refused():
         decode({"#": "os.system"})
     with pytest.raises(SimulationError, match="objects"):
         decode({"#": "array", "type": "|O", "shape": [1], "data": ""})
+
+
+def test_a_recording_does_not_tell_where_steps_were_cut_for_the_sake_of_others(tmp_path):
+    """How long the physics is stepped at once depends on the machine; a recording does not."""
+    texts = []
+    for name in ("a", "b"):
+        with Simulation("empty") as sim, sim.record(tmp_path / name):
+            sim.step(700 if name == "a" else 1)
+            sim.reset()
+            sim.run(1.0)
+            sim.step(3)
+        texts.append((tmp_path / name).read_text().splitlines()[3:])
+    assert texts[0] == texts[1]
+    assert len(texts[0]) == 2

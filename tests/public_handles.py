@@ -1,0 +1,202 @@
+"""Everything public that a simulation offers, found by looking at it."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gazelle.engines import CHANGES
+from gazelle.sensors import View, look_at
+from gazelle.simulation import (
+    Input,
+    JointHandle,
+    LinkHandle,
+    Output,
+    PhysicsProperties,
+    Robot,
+    SensorUnit,
+    Service,
+    Simulation,
+    Tuning,
+    TwistInput,
+    WorldParameters,
+)
+from gazelle.simulation.loads import Loads
+from gazelle.simulation.parameters import InitialPoses, Parameter, SensorNoise
+
+# What is no reading: it changes something, or the thing's owner calls it.
+CHANGING = {
+    Simulation: {
+        *("attach", "close", "delete", "detach", "load_plugin", "pause", "record", "reset"),
+        *("restore", "run", "set_light", "spawn", "step", "unpause"),
+    },
+    PhysicsProperties: {"set", "use"},
+    WorldParameters: {"randomize", "reseed", "restore", "scale_mass"},
+    Parameter: {"set"},
+    SensorNoise: set(),
+    InitialPoses: {"apply", "forget", "restore"},
+    Robot: {"back_to", "bind", "mark", "set_configuration", "set_pose", "set_twist"},
+    LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},
+    JointHandle: {"add_motor", "apply_effort", "clear_efforts", "drive", "set_properties"},
+    SensorUnit: {"reseed", "reset", "restore", "slow_to", "subscribe", "update"},
+    TwistInput: {"bind", "clear", "send"},
+    Input: {"bind", "clear", "send"},
+    Output: {"bind", "forget", "hand", "publish", "subscribe"},
+    Service: {"bind", "call"},
+    Tuning: {"bind", "send"},
+    Loads: {
+        *("clear_joint", "clear_link", "forget", "hold", "push", "reset", "restore"),
+        *("set_lasting", "steps_until", "turn", "update"),
+    },
+}
+
+# Readings that a handle refuses, whoever asks.
+REFUSED = {(JointHandle, "effort")}
+
+KINDS = tuple(CHANGING)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A property or method of a handle, and how it is called."""
+
+    path: str
+    handle: object
+    name: str
+    arguments: tuple = ()
+
+    def __call__(self):
+        value = getattr(self.handle, self.name)
+        return value(*self.arguments) if callable(value) else value
+
+
+def kind_of(handle):
+    return next(kind for kind in KINDS if isinstance(handle, kind))
+
+
+def handles(sim):
+    """All handles of a simulation, by path."""
+    yield "sim", sim
+    yield "sim.loads", sim.loads
+    yield "sim.physics", sim.physics
+    yield "sim.parameters", sim.parameters
+    for name, each in vars(sim.parameters).items():
+        if not name.startswith("_"):
+            yield f"sim.parameters.{name}", each
+    yield from ports("sim.ports", sim.ports)
+    for robot in sim.robots.values():
+        yield robot.name, robot
+        for table in ("links", "joints", "sensors"):
+            for name, each in getattr(robot, table).items():
+                yield f"{robot.name}.{table}[{name}]", each
+        yield from ports(robot.name, robot)
+
+
+def ports(path, owner):
+    for table in ("inputs", "outputs", "services", "settings", "tunings"):
+        for name, each in getattr(owner, table).items():
+            if isinstance(each, KINDS):
+                yield f"{path}.{table}[{name}]", each
+
+
+class Everything:
+    """All that can be read of a simulation."""
+
+    def __init__(self, sim):
+        self.sim = sim
+
+    @cached_property
+    def readings(self):
+        found = [each for path, handle in handles(self.sim) for each in self._of(path, handle)]
+        return found + list(self._of_engine())
+
+    def _of(self, path, handle):
+        kind = kind_of(handle)
+        for name in sorted(n for n in dir(kind) if not n.startswith("_")):
+            if name in CHANGING[kind] or (kind, name) in REFUSED:
+                continue
+            member = inspect.getattr_static(kind, name)
+            if not callable(member) and not isinstance(member, property):
+                continue
+            for arguments in self._arguments(kind, name, member):
+                yield Reading(f"{path}.{name}", handle, name, arguments)
+        if hasattr(kind, "__getitem__"):
+            for key in self._keys(handle):
+                yield Reading(f"{path}[{key}]", handle, "__getitem__", (key,))
+
+    def _arguments(self, kind, name, member):
+        """Ways to call a member; a method that needs arguments must be known here."""
+        known = {
+            (Simulation, "render"): [(View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),)],
+            (WorldParameters, "stream"): [("test",)],
+            (Robot, "frame"): [(self.link,)],
+            (Robot, "joint_description"): [(self.joint,)],
+            (Robot, "wrench"): [(self.joint,)],
+        }
+        if kind is SensorUnit and name == "reading":
+            return []  # takes what ``latest`` gives, which is read
+        if (kind, name) in known:
+            return known[kind, name]
+        if isinstance(member, property):
+            return [()]
+        needed = [
+            p
+            for p in list(inspect.signature(member).parameters.values())[1:]
+            if p.default is p.empty and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
+        ]
+        assert not needed, f"say in {__name__} how to call {kind.__name__}.{name}"
+        return [()]
+
+    @property
+    def robot(self):
+        return next(r for r in self.sim.robots.values() if r.joints)
+
+    @property
+    def link(self):
+        return next(iter(self.robot.links))
+
+    @property
+    def joint(self):
+        return next(iter(self.robot.joints))
+
+    def _keys(self, handle):
+        if isinstance(handle, InitialPoses):
+            return [self.robot.name]
+        if isinstance(handle, SensorNoise):
+            return [u.name for u in self.robot.sensors.values() if hasattr(u.model, "noise")]
+        kind = handle._kind.partition("_")[0]
+        link = self.robot.links[self.link]
+        wheel = self.robot.joints[self.joint]
+        collision = f"{link.name}::{link.description.collisions[0].name}"
+        return {"link": [link.name], "joint": [wheel.name], "collision": [collision]}.get(kind, [])
+
+    def _of_engine(self):
+        engine = self.sim.engine
+        for name in ("peek", "snapshot", "history", "link_names", "joint_names", "world"):
+            assert name not in CHANGES
+            yield Reading(f"sim.engine.{name}", engine, name)
+        link, joint = self.robot.links[self.link].name, self.robot.joints[self.joint].name
+        for name, argument in (
+            *((n, link) for n in ("link_placement", "link_motion", "link_acceleration")),
+            *((n, joint) for n in ("joint_position", "joint_velocity", "joint_wrench")),
+            ("model_placement", self.robot.name),
+        ):
+            yield Reading(f"sim.engine.{name}", engine, name, (argument,))
+
+
+def arrays_in(value, depth=4):
+    """All arrays in a value."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif depth and isinstance(value, dict):
+        for each in value.values():
+            yield from arrays_in(each, depth - 1)
+    elif depth and isinstance(value, list | tuple):
+        for each in value:
+            yield from arrays_in(each, depth - 1)
+    elif depth and hasattr(type(value), "__dataclass_fields__"):
+        for name in type(value).__dataclass_fields__:
+            yield from arrays_in(getattr(value, name, None), depth - 1)
