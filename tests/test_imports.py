@@ -175,21 +175,25 @@ KNOWN_CIRCLES = (
     {
         f"gazelle.simulation.{name}"
         for name in [
+            "entities",
             "events",
             "faults",
-            "handles",
+            "joints",
+            "links",
             "loading",
             "parameters",
             "physics",
             "plugin",
             "recording",
             "registry",
+            "retuning",
             "robot",
             "saving",
-            "seeing",
+            "scene_renderer",
             "sensors",
             "simulation",
             "stepping",
+            "walking",
         ]
     },
     {
