@@ -379,6 +379,17 @@ _WHOLE = {
     + urdf_link("f", inertial(1) + shape("visual", "0 1 0", BALL).replace(".1 .2 .3", ".3 1.57 0"))
     + urdf_joint("af", "a", "f", "continuous")
     + gazebo("c", "<sensor name='s' type='imu'><pose>0 0 0 .3 0 .2</pose></sensor>"),
+    "projectors of lumped links": _LUMPS
+    + "".join(
+        gazebo(
+            link,
+            f"<projector name='p{link}'><pose>.1 .2 .3 .4 .5 .6</pose><texture>t.png</texture>"
+            "<fov>.9</fov></projector>",
+        )
+        for link in "abce"
+    )
+    + gazebo("d", "<projector name='p'><texture>t.png</texture></projector>"),
+    "what refers to nothing": _LUMPS + gazebo("nowhere", _PLUGIN.format("") + "<mu1>1</mu1>"),
     "colours": "<material name='m'>"
     + _RED
     + "</material>"

@@ -77,3 +77,16 @@ def test_what_other_programs_put_there_is_no_warning():
         warnings.simplefilter("error")
         warnings.filterwarnings("ignore", message=".*in a <gazebo> is not supported")
         formats.load_model_string(text(rest=rest))
+
+
+def test_a_plugin_of_a_joint_is_the_models_without_a_word_and_one_of_nothing_is_left_out():
+    plugins = "".join(
+        f"<gazebo reference='{name}'><plugin name='{name}' filename='lib{name}.so'/></gazebo>"
+        for name in ("j", "b")
+    )
+    model = formats.load_string(text(rest=plugins)).models[0]
+    assert [plugin.name for plugin in model.plugins] == ["j", "b"]
+    nowhere = plugins.replace("reference='j'", "reference='jj'")
+    with pytest.warns(FormatWarning, match="'jj', which is no link or joint, and was ignored"):
+        model = formats.load_string(text(rest=nowhere)).models[0]
+    assert [plugin.name for plugin in model.plugins] == ["b"]

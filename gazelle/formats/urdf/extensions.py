@@ -31,7 +31,7 @@ LINK_SDF = {
 
 JOINT = {
     "cfmDamping", "disableFixedJointLumping", "fudgeFactor", "implicitSpringDamper", "physics",
-    "preserveFixedJoint", "provideFeedback", "sensor", "springReference", "springStiffness",
+    "plugin", "preserveFixedJoint", "provideFeedback", "sensor", "springReference", "springStiffness",
     "stopCfm", "stopErp",
 }  # fmt: skip
 """Children on a joint."""
@@ -87,17 +87,18 @@ def read_extensions(root: Parameters, reading: Reading) -> Extensions:
     return extensions
 
 
-def note_unused(
+def drop_unused(
     extensions: Extensions, links: set[str], joints: set[str], reading: Reading
 ) -> None:
-    """Note what refers to nothing, and children that mean nothing there."""
-    for reference, nodes in extensions.by_reference.items():
+    """Leave out what refers to nothing, and note it and children that mean nothing there."""
+    for reference, nodes in list(extensions.by_reference.items()):
         if reference and reference not in links and reference not in joints:
             reading.note(
                 f"<gazebo> refers to '{reference}', which is no link or joint, and was ignored",
                 nodes[0],
                 did_you_mean(reference, links | joints),
             )
+            del extensions.by_reference[reference]
             continue
         known = _known(reference, links, joints)
         for child in extensions.of(reference):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from gazelle.description import (
@@ -20,6 +20,7 @@ from gazelle.description import (
 )
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.build import made, with_child
 from gazelle.formats.sdf.draft import draft_part, name_frames
 from gazelle.formats.sdf.frames import MODEL, Scope
 from gazelle.formats.sdf.joint import read_joint_physics, read_joints
@@ -29,7 +30,7 @@ from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 from gazelle.formats.sound import sound_inertial
 from gazelle.formats.urdf.elements import Paint, read_origin, read_paint
-from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, note_unused, read_extensions
+from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, drop_unused, read_extensions
 from gazelle.formats.urdf.lump import body_inertial
 from gazelle.formats.urdf.lumped_plugins import plugins
 from gazelle.formats.urdf.parts import (
@@ -42,6 +43,7 @@ from gazelle.formats.urdf.parts import (
 from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
 from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, Tree, bodies, read_tree
+from gazelle.formats.urdf.upright import upright
 
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
 
@@ -60,7 +62,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     note_unknown(root, reading)
     tree = read_tree(root, reading)
     extensions = read_extensions(root, reading)
-    note_unused(extensions, set(tree.links), set(tree.joints), reading)
+    drop_unused(extensions, set(tree.links), set(tree.joints), reading)
     found = bodies(tree, extensions)
     robot = Robot(extensions, _paints(root, reading), reading, _poses(found, tree))
     kept = _with_mass(found, root, reading)
@@ -164,9 +166,23 @@ def _link(body: Body, robot: Robot) -> Link:
         kinematic=values.flag(sdf, "kinematic", default=False),
         velocity_decay_linear=values.real(sdf, "velocity_decay/linear", damping),
         velocity_decay_angular=values.real(sdf, "velocity_decay/angular", damping),
-        extras=tuple(child for child in sdf.children if child.tag in _LINK_EXTRAS),
+        extras=tuple(_extras(body, extensions)),
         source=body.link.node.source,
     )
+
+
+def _extras(body: Body, extensions: Extensions) -> Iterator[Parameters]:
+    """What is kept as it stands; a projector of a lumped link where that link was."""
+    for member in body.members:
+        for child in extensions.of(member.link.name):
+            if child.tag not in _LINK_EXTRAS:
+                continue
+            if child.tag == "projector" and member.joint is not None:
+                place = upright(member.pose * read_pose(child.find("pose")))
+                numbers = " ".join(map(repr, (*place.position, *place.rpy)))
+                yield with_child(child, made("pose", numbers, like=child))
+            else:
+                yield child
 
 
 def _inertial(body: Body, collisions: tuple[Collision, ...], reading: Reading) -> Inertial | None:

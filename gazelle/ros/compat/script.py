@@ -84,9 +84,13 @@ def run_named(
     from gazelle.ros.launch.programs import Skipped, program_of
 
     packages = Packages()
-    known = packages.installed(word) or registry.package(word)
-    if Path(word).is_file() or not arguments or known is None:
+    known = packages.find(word) or registry.package(word)
+    if Path(word).is_file() or (known is None and (not arguments or _is_path(word))):
         return run_script(word, arguments, sim_sleep=sim_sleep, debug=debug)
+    if known is None:
+        raise packages.missing(word)
+    if not arguments:
+        raise packages.unnamed_program(word)
     path = packages.program(word, arguments[0])
     if path is not None and is_python(path):
         return run_script(str(path), arguments[1:], sim_sleep=sim_sleep, debug=debug)
@@ -94,6 +98,11 @@ def run_named(
     if isinstance(program, Skipped):
         raise RosError(f"'{program.package}' is left out: {program.reason}")
     return _become([*program.command, *arguments[1:]])
+
+
+def _is_path(word: str) -> bool:
+    """Whether a word can only be meant for a file."""
+    return os.sep in word or bool(Path(word).suffix)
 
 
 def runs_tool(word: str, arguments: Sequence[str]) -> bool:

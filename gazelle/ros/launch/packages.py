@@ -130,15 +130,34 @@ class Packages:
 
     def missing_program(self, package: str, kind: str) -> LaunchError:
         """The error that says a node has no program, and what to do."""
-        if self.installed(package) is None and registry.package(package) is None:
+        if self.find(package) is None and registry.package(package) is None:
             return self.missing(package)
         rejected = self.programs(package, kind)
         if rejected:
             hint = f"make it executable: chmod +x {rejected[0]}"
             return LaunchError(f"'{kind}' of package '{package}' cannot be executed", hint=hint)
         known = self.program_names(package)
-        hint = did_you_mean(kind, known) if known else _unbuilt(kind)
+        if known:
+            hint = did_you_mean(kind, known)
+        elif self.installed(package) is None:
+            hint = f"Gazelle brings no programs of it; {self._contents(package)}"
+        else:
+            hint = _unbuilt(kind)
         return LaunchError(f"package '{package}' has no program '{kind}'", hint=hint)
+
+    def unnamed_program(self, package: str) -> LaunchError:
+        """The error that says a package stands where a program of it should stand beside it."""
+        known = self.program_names(package)
+        hint = f"there are: {', '.join(known)}" if known else self._contents(package)
+        return LaunchError(f"'{package}' is a package: name one of its programs too", hint=hint)
+
+    def _contents(self, package: str) -> str:
+        """What there is to launch in a package that is built in, for hints."""
+        folder = self.find(package)
+        files = sorted(path.name for path in folder.glob("launch/*.launch")) if folder else []
+        if not files:
+            return "add the folder that the package is in to ROS_PACKAGE_PATH"
+        return f"it has launch files: gazelle launch {package} {' | '.join(files)}"
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
         """Install and devel spaces that may hold a package, the nearest first."""
