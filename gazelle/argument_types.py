@@ -6,13 +6,13 @@ import argparse
 
 
 def positive_int(text: str) -> int:
-    """A whole number of at least 1, also written like 2_000 or 1e6."""
+    """An int of at least 1, also written like 2_000 or 1e6."""
     try:
         number = int(text) if "e" not in text.lower() else int(float(text))
     except (ValueError, OverflowError):
         number = 0
     if number < 1:
-        raise argparse.ArgumentTypeError(f"expected a whole number above 0, not '{text}'")
+        raise argparse.ArgumentTypeError(f"expected an int above 0, not '{text}'")
     return number
 
 

@@ -31,7 +31,7 @@ class Stream:
     """One source of random numbers for every world of a batch.
 
     Args:
-        seed: The run's seed, any whole number.
+        seed: The run's seed, any int.
         name: What the numbers are for; different names give independent numbers.
         nworld: Number of worlds.
     """
@@ -87,12 +87,12 @@ class Stream:
     def integers(
         self, high: int, size: int, worlds: NDArray[np.intp] | None = None
     ) -> NDArray[np.intp]:
-        """Whole numbers in [0, high), shape (n, size)."""
+        """Ints in [0, high), shape (n, size)."""
         return (self.uniform(size, worlds) * high).astype(np.intp)
 
 
 def seed_of(seed: Any) -> int:
-    """A seed of random numbers: any whole number.
+    """A seed of random numbers: any int.
 
     Raises:
         SimulationError: It is none.
@@ -101,7 +101,7 @@ def seed_of(seed: Any) -> int:
         return operator.index(seed)
     except TypeError:
         raise SimulationError(
-            f"a seed must be a whole number, not {seed!r}", hint="such as 0 or 42"
+            f"a seed must be an int, not {seed!r}", hint="such as 0 or 42"
         ) from None
 
 

@@ -339,7 +339,7 @@ def plugin(name: str, filename: str, **values: str | float | bool) -> Plugin:
 
 def _whole(value: int, what: str) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-        raise BuildError(f"{what} must be a whole number above zero, found {value!r}")
+        raise BuildError(f"{what} must be an int above zero, found {value!r}")
 
 
 def _grows(low: float, high: float, what: str, *, strict: bool = True) -> None:

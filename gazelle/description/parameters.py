@@ -86,7 +86,7 @@ class Parameters(HoldsMappings):
         try:
             return kind(_read_bool(self.text)) if kind is bool else kind(self.text)
         except ValueError:
-            expected = {bool: "true or false", int: "a whole number", float: "a number"}[kind]
+            expected = {bool: "true or false", int: "an int", float: "a number"}[kind]
             raise FormatError(
                 f"expected {expected} in <{self.tag}>, found '{self.text}'", source=self.source
             ) from None

@@ -23,12 +23,12 @@ def whole_number(what: str, value: Any, least: int = 1) -> int:
     """A number of worlds, threads or steps.
 
     Raises:
-        EngineError: It is no whole number, or too small or large.
+        EngineError: It is no int, or too small or large.
     """
     try:
         number = operator.index(value)
     except TypeError:
-        raise EngineError(f"{what} must be a whole number, not {value!r}") from None
+        raise EngineError(f"{what} must be an int, not {value!r}") from None
     if not least <= number <= _MOST:
         raise EngineError(f"{what} must be at least {least} and at most {_MOST}, not {number}")
     return number

@@ -152,13 +152,13 @@ def check_name(kind: str, name: str, known: Iterable[str]) -> None:
 
 
 def check_whole(name: str, value: object, least: int) -> None:
-    """Raise TaskError unless the value is a whole number that is not too small."""
+    """Raise TaskError unless the value is an int that is not too small."""
     try:
         number = operator.index(value)  # type: ignore[arg-type]  # that is what is tested
     except TypeError:
         number = least - 1
     if isinstance(value, bool) or number < least:
-        raise TaskError(f"{name} must be a whole number, {least} or more, not {value!r}")
+        raise TaskError(f"{name} must be an int, {least} or more, not {value!r}")
 
 
 def _check_time_step(value: object) -> None:

@@ -257,7 +257,7 @@ def _whole_seed(seed: object) -> int:
         number = operator.index(seed)  # type: ignore[arg-type]  # that is what is tested
     except TypeError as error:
         raise TaskError(
-            f"seed must be one whole number, not {seed!r}",
+            f"seed must be one int, not {seed!r}",
             hint="every world derives its own random numbers from it",
         ) from error
     if number < 0:

@@ -48,14 +48,14 @@ def parse_reals(node: Parameters, text: str, what: str, count: int | None) -> tu
 
 
 def parse_integer(node: Parameters, text: str, what: str) -> int:
-    """Text as a whole number; hexadecimal and a fraction of zero are accepted."""
+    """Text as an int; hexadecimal and a fraction of zero are accepted."""
     word = text.strip()
     try:
         return int(word, 16) if word.lower().startswith("0x") else int(word.rstrip("uU"))
     except ValueError:
         value = parse_real(node, word, what)
     if not math.isfinite(value):
-        raise fail(node, f"expected a whole number in {what}, found '{word}'")
+        raise fail(node, f"expected an int in {what}, found '{word}'")
     return int(value)
 
 
@@ -111,7 +111,7 @@ def limit(node: Parameters, path: str, default: float) -> float:
 
 
 def whole(node: Parameters, path: str, default: int) -> int:
-    """A whole number in a child."""
+    """An int in a child."""
     found = _text(node, path)
     return default if found is None else parse_integer(found[0], found[1], f"<{found[0].tag}>")
 

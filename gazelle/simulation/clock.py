@@ -30,7 +30,7 @@ class Clock:
         self.now_ns += steps * self.step_ns
 
     def steps_in(self, seconds: float) -> int:
-        """The whole number of physics steps nearest to a time."""
+        """The number of physics steps nearest to a time."""
         return round(seconds * NANOSECONDS / self.step_ns)
 
     def steps_to(self, due_ns: int) -> int:

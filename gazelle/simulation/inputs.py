@@ -138,12 +138,12 @@ def steps(count: int) -> int:
     """A number of physics steps.
 
     Raises:
-        SimulationError: It is negative, or no whole number.
+        SimulationError: It is negative, or no int.
     """
     try:
         whole = operator.index(count)
     except TypeError:
-        raise SimulationError(f"cannot step {count} times: that is no whole number") from None
+        raise SimulationError(f"cannot step {count} times: that is no int") from None
     if whole < 0:
         raise SimulationError(f"cannot step {whole} times; time goes forward only")
     if whole > _MOST_STEPS:

@@ -50,7 +50,7 @@ _FRICTION_MODELS = ("pyramid_model", "box_model", "cone_model")
 
 _CONTACTS = ("exact", "fast")
 
-# Whole numbers among the properties.
+# Ints among the properties.
 _WHOLE = ("iterations", "max_contacts", "precon_iterations")
 
 _POSITIVE = ("time_step", "iterations")
@@ -373,5 +373,5 @@ def _check_number(name: str, value: Any) -> None:
     except (TypeError, OverflowError):
         possible = False
     if not possible:
-        wanted = "a whole number" if name in _WHOLE else "a finite number"
+        wanted = "an int" if name in _WHOLE else "a finite number"
         raise SimulationError(f"the physics property '{name}' must be {wanted}, not {value!r}")

@@ -48,7 +48,7 @@ class Plugin:
         """Use the random numbers of another seed from now on; a reset follows.
 
         Args:
-            seed: Any whole number.
+            seed: Any int.
             worlds: Which worlds; all if None.
         """
 

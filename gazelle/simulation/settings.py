@@ -22,7 +22,7 @@ class Setting(StatePart, Generic[T]):
 
     Args:
         name: Full name.
-        default: Its type is that of all values; whole numbers will do for a float.
+        default: Its type is that of all values; ints will do for a float.
         receive: Called with each value that is given. Ports are put on a graph after that,
             and may get other topics here.
 

@@ -16,7 +16,7 @@ def test_defaults():
     [
         ({"lidar_sample": 24}, "did you mean 'lidar_samples'"),
         ({"engine": "mujocco"}, "did you mean 'mujoco'"),
-        ({"lidar_samples": 1}, "lidar_samples must be a whole number, 2 or more"),
+        ({"lidar_samples": 1}, "lidar_samples must be an int, 2 or more"),
         ({"lidar_samples": 24.0}, "not 24.0"),
         ({"max_episode_steps": 0}, "max_episode_steps"),
         ({"max_episode_steps": True}, "max_episode_steps"),

@@ -26,7 +26,7 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     """Velocities of discrete actions.
 
     Args:
-        actions: Whole numbers 0 to 4, shape (nworld,).
+        actions: Ints 0 to 4, shape (nworld,).
         nworld: Number of worlds.
 
     Returns:
@@ -39,7 +39,7 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     if chosen.shape != (nworld,):
         raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
     if chosen.dtype.kind not in "iu" or ((chosen < 0) | (chosen >= ACTIONS)).any():
-        raise TaskError(f"actions must be whole numbers from 0 to {ACTIONS - 1}")
+        raise TaskError(f"actions must be ints from 0 to {ACTIONS - 1}")
     angular = ((ACTIONS - 1) / 2 - chosen.astype(np.float64)) * ANGULAR_STEP
     return np.full(nworld, LINEAR), angular
 
@@ -67,7 +67,7 @@ def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]
 
 
 def turn_index(angular: Floats) -> Floats:
-    """Which discrete action turns at this yaw rate, as a real number.
+    """Which discrete action turns at this yaw rate, as a float.
 
     Args:
         angular: Yaw rates [rad/s], shape (n,).

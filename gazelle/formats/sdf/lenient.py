@@ -43,7 +43,7 @@ def real(node: Parameters, text: str, what: str, reading: Reading) -> str:
 
 
 def integer(node: Parameters, text: str, what: str, reading: Reading) -> str:
-    """A whole number, likewise."""
+    """An int, likewise."""
     try:
         values.parse_integer(node, text, what)
     except FormatError:

@@ -88,7 +88,7 @@ class Properties:
         return self.number(name, default, "a")
 
     def whole(self, name: str, default: int, least: int | None = None) -> int:
-        """A whole number; a fraction is cut off, as Stage does."""
+        """An int; a fraction is cut off, as Stage does."""
         given = self.get(name)
         if given is None:
             return default

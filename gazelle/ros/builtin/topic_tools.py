@@ -90,7 +90,7 @@ def drop(arguments: Sequence[str]) -> int:
     try:
         left_out, of = int(dropped), int(every)
     except ValueError:
-        raise RosError("X and Y are whole numbers", hint=usage) from None
+        raise RosError("X and Y are ints", hint=usage) from None
     if not 0 <= left_out <= of or of < 1:
         raise RosError("X is at least 0 and at most Y", hint=usage)
     source, target = _topics([topic, *found.plain[3:]], usage, "_drop")

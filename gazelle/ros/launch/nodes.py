@@ -141,5 +141,5 @@ def _test(element: Element, scope: Scope) -> dict[str, Any]:
         raise element.error("time-limit must be above 0")
     retry = scope.number(element, "retry", 0.0)
     if retry != int(retry) or retry < 0:
-        raise element.error("retry must be a whole number")
+        raise element.error("retry must be an int")
     return {"test_name": name, "time_limit": limit, "retry": int(retry)}

@@ -132,7 +132,7 @@ def _numpy_bytes(value: Any, base: str) -> bytes:
 
 
 def _check_unlike(given: Any, wanted: Any) -> None:
-    """Integers of either sign may become each other, and truth values numbers; the rest not.
+    """Integers of either sign may become each other, and bools numbers; the rest not.
 
     Raises:
         TypeError: The kinds are too far apart.

@@ -167,7 +167,7 @@ def _constant_value(type_: str, text: str) -> bool | int | float | str:
         try:
             return bool(ast.literal_eval(text))
         except (SyntaxError, ValueError) as err:
-            raise ValueError(f"'{text}' is no truth value") from err
+            raise ValueError(f"'{text}' is no bool") from err
     if type_ in FLOATS:
         return float(text)
     value = int(text)

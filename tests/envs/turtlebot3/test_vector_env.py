@@ -172,7 +172,7 @@ def test_what_is_returned_is_the_callers():
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        ({"seed": [1, 2]}, "one whole number"),
+        ({"seed": [1, 2]}, "one int"),
         ({"seed": -3}, "negative"),
         ({"options": {"reset_masks": None}}, "did you mean 'reset_mask'"),
         ({"options": {"reset_mask": np.array([True])}}, "2 booleans"),

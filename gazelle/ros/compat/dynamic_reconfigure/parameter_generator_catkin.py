@@ -25,7 +25,7 @@ _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*")
 
 
 def _typed(name: str, kind: str, what: str, value: Any) -> Any:
-    """A value of a parameter's type; whole numbers are doubles, too."""
+    """A value of a parameter's type; ints are doubles, too."""
     python = _PYTHON.get(kind)
     if python is None:
         raise DynamicReconfigureParameterException(f"'{name}' has the unknown type {kind!r}")

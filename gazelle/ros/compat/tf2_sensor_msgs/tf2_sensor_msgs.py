@@ -22,7 +22,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     """
     turn, place = transform.transform.rotation, transform.transform.translation
     matrix = quaternion_matrix((turn.x, turn.y, turn.z, turn.w))[:3, :3]
-    # Float64 holds every value of a cloud exactly: the widest whole numbers have 32 bits.
+    # Float64 holds every value of a cloud exactly: the widest ints have 32 bits.
     points = np.array(list(read_points(cloud)), dtype=np.float64)
     if len(points):
         points[:, :3] = points[:, :3] @ matrix.T + (place.x, place.y, place.z)
