@@ -169,7 +169,7 @@ def test_no_import_points_up():
 
 
 KNOWN_CIRCLES = (
-    {"gazelle.formats.sdf.draft", "gazelle.formats.sdf.merge"},
+    {"gazelle.formats.sdf.model_frames", "gazelle.formats.sdf.merge"},
     {"gazelle.formats.stage.body", "gazelle.formats.stage.reader"},
     {f"gazelle.engines.native.{name}" for name in ("function", "library", "module")},
     {

@@ -26,7 +26,7 @@ from gazelle.simulation import (
     Tuning,
     TwistInput,
 )
-from gazelle.simulation.blame import warn_of_fault
+from gazelle.simulation.plugin_errors import warn_of_fault
 
 
 class Binding:

@@ -1,4 +1,4 @@
-"""Load files and judge them: every problem with its file and line, and what to do.
+"""Load files and check them: every problem with its file and line, and what to do.
 A file that can be read is also built with the engine and its plugins.
 
   gazelle check my.world my_robot.urdf.xacro

@@ -41,7 +41,7 @@ COMMANDS = {
     for command in (
         Command("demo", "train and evaluate a TurtleBot3 from its files", "start here", "demo"),
         Command("run", "simulate a file", "simulate", "run"),
-        Command("check", "judge files: every problem, with file and line", "simulate", "check"),
+        Command("check", "check files: every problem, with file and line", "simulate", "check"),
         Command("convert", "files from one format to another", "simulate", "convert"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),

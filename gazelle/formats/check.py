@@ -11,7 +11,7 @@ from typing import Literal
 from gazelle.description import Source
 from gazelle.errors import Error
 from gazelle.formats import srdf, xml
-from gazelle.formats.judge import Finding, judge, semantics
+from gazelle.formats.lint import Diagnostic, lint, semantics
 from gazelle.formats.loader import PathLike, find_file, read_path
 from gazelle.formats.reading import Note, Reading
 from gazelle.formats.resolve import Resolver
@@ -70,7 +70,7 @@ def check(
         if is_semantic(file):
             judged = _check_semantics(file, urdf, reading)
         else:
-            judged = [_judged(finding) for finding in judge(read_path(file, reading))]
+            judged = [_problem_of(finding) for finding in lint(read_path(file, reading))]
     except Error as error:
         name = error.file or os.fspath(path)
         problems.append(
@@ -97,7 +97,7 @@ def is_semantic(file: Path) -> bool:
 
 
 def _check_semantics(file: Path, urdf: PathLike | None, reading: Reading) -> list[Problem]:
-    """Read an SRDF, and judge it against its URDF; what that says wrong is another check's."""
+    """Read an SRDF, and check it against its URDF; what that says wrong is another check's."""
     with reading.inside(file):
         root = srdf.read_root(file, reading)
         srdf.read_semantics(root, reading)
@@ -109,10 +109,10 @@ def _check_semantics(file: Path, urdf: PathLike | None, reading: Reading) -> lis
         node = srdf.read_root(robot, other)
         tree = read_tree(node, other)
     name = node.attributes.get("name", "")
-    return [_judged(finding, "error") for finding in semantics.judge(root, name, tree)]
+    return [_problem_of(finding, "error") for finding in semantics.lint(root, name, tree)]
 
 
-def _judged(finding: Finding, severity: Literal["error", "warning"] = "warning") -> Problem:
+def _problem_of(finding: Diagnostic, severity: Literal["error", "warning"] = "warning") -> Problem:
     place = finding.source or Source()
     return Problem(
         severity,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.pid import Gains, Pid
+from gazelle.plugins.pid import Gains, GazeboPid
 from gazelle.simulation import Input, ModelPlugin, Robot, Stopwatch, absolute, namespace_of
 from gazelle.states import restore_all, states_of
 
@@ -44,7 +44,7 @@ class Elevator(ModelPlugin):
         self._phase = np.full(nworld, _IDLE)
         self._floor = np.zeros(nworld)
         self._until = np.zeros(nworld)
-        self._pids = {"lift": Pid(_LIFT, nworld), "door": Pid(_DOOR, nworld)}
+        self._pids = {"lift": GazeboPid(_LIFT, nworld), "door": GazeboPid(_DOOR, nworld)}
         self._watch = Stopwatch(robot.simulation.clock)
         # Gazebo's own topic begins with ~, which stands for the world there.
         topic = parameters.get("topic", "elevator").removeprefix("~/")

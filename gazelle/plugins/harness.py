@@ -20,7 +20,7 @@ from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.sdf import read_sdf
-from gazelle.plugins.pid import Gains, Pid
+from gazelle.plugins.pid import Gains, GazeboPid
 from gazelle.simulation import Input, ModelPlugin, Robot, Stopwatch, absolute, namespace_of
 from gazelle.simulation.values import Number
 from gazelle.states import restore_all, states_of
@@ -65,7 +65,7 @@ class Harness(ModelPlugin):
         self._held = np.zeros(nworld, np.bool_)
         winch = parameters.find("winch")
         self._pids = {
-            name: Pid(Gains.read(None if winch is None else winch.find(name)), nworld)
+            name: GazeboPid(Gains.read(None if winch is None else winch.find(name)), nworld)
             for name in ("pos_pid", "vel_pid")
         }
         try:

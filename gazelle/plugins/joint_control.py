@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.plugins.pid import Gains, Pid
+from gazelle.plugins.pid import Gains, GazeboPid
 from gazelle.simulation import JointHandle, ModelPlugin, Robot, Stopwatch
 from gazelle.states import restore_all, states_of
 
@@ -26,7 +26,7 @@ class _Controller:
     joint: JointHandle
     type: str
     target: float
-    pid: Pid | None
+    pid: GazeboPid | None
 
     def effort(self, interval: float) -> Floats:
         """What it asks for now, shape (nworld,)."""
@@ -102,7 +102,7 @@ def _controllers(robot: Robot, tags: Parameters) -> list[_Controller]:
             joint,
             kind,
             target,
-            None if kind == "force" else Pid(Gains(p, i, d), nworld),
+            None if kind == "force" else GazeboPid(Gains(p, i, d), nworld),
         )
         for name in tags.find_all("joint")
         for joint in _joints(robot, name)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.pid import Gains, Pid
+from gazelle.plugins.pid import Gains, GazeboPid
 from gazelle.simulation import ModelPlugin, Robot, Setting, absolute, namespace_of
 
 # Time in which a motor makes up for most of what it lacks [s].
@@ -40,7 +40,7 @@ class MimicJoint(ModelPlugin):
             raise SimulationError("maxEffort must be positive", source=parameters.source)
         self._nworld = robot.simulation.nworld
         self._physics = robot.simulation.physics
-        self._pid: Pid | None = None
+        self._pid: GazeboPid | None = None
         tag = parameters.find("hasPID")
         # An empty tag says yes.
         self._pushed = tag is not None and (not tag.text or tag.value(bool))
@@ -53,7 +53,7 @@ class MimicJoint(ModelPlugin):
     def _take_gains(self, given: Mapping[str, Any]) -> None:
         """Push by PID from now on."""
         gains = Gains.of_ros_control(given, self._effort)
-        self._pid = Pid(gains, self._nworld)
+        self._pid = GazeboPid(gains, self._nworld)
         self._mimic.set_properties(motor_effort=0.0)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step

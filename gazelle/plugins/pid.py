@@ -69,7 +69,7 @@ class Gains:
         return cls(p, i, d, i_max=highest, i_min=lowest, most=most, least=-most)
 
 
-class Pid:
+class GazeboPid:
     """One controller in every world.
 
     Args:

@@ -9,8 +9,8 @@ from gazelle import description
 from gazelle.description import Model
 from gazelle.errors import SimulationWarning, located
 from gazelle.simulation import registry
-from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
+from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.stepping import make_scheduled, title

@@ -23,7 +23,7 @@ from gazelle.simulation.inputs import number
 
 
 @dataclass(slots=True, eq=False)
-class Wrench:
+class TimedWrench:
     """A wrench on a link, shapes (nworld, 3), zero in worlds that it does not act in.
 
     Attributes:
@@ -65,7 +65,7 @@ class Wrench:
 
 
 @dataclass(slots=True, eq=False)
-class Effort:
+class TimedEffort:
     """An effort on a joint, shape (nworld, axes), zero in worlds that it does not act in."""
 
     target: str
@@ -79,7 +79,7 @@ class _Joint:
     """What acts on a joint besides timed efforts, while there are some."""
 
     lasting: Floats
-    efforts: list[Effort] = field(default_factory=list)
+    efforts: list[TimedEffort] = field(default_factory=list)
 
 
 class Loads:
@@ -93,7 +93,7 @@ class Loads:
     def __init__(self, engine: Engine, clock: Clock) -> None:
         self._engine = engine
         self._clock = clock
-        self._wrenches: list[Wrench] = []
+        self._wrenches: list[TimedWrench] = []
         self._held: dict[tuple[str, str], tuple[Floats, Floats]] = {}
         self._joints: dict[str, _Joint] = {}
         self._due_ns: int | None = None
@@ -121,7 +121,7 @@ class Loads:
             self._engine.link_placement(frame)
         start_ns, end_ns = self._span(start, duration)
         self._wrenches.append(
-            Wrench(
+            TimedWrench(
                 link,
                 start_ns,
                 end_ns,
@@ -159,7 +159,7 @@ class Loads:
         known = self._joints.setdefault(joint, _Joint(lasting))
         start_ns, end_ns = self._span(start, duration)
         rows = self._rows(effort, lasting.shape[1], worlds)
-        known.efforts.append(Effort(joint, start_ns, end_ns, rows))
+        known.efforts.append(TimedEffort(joint, start_ns, end_ns, rows))
         self._schedule()
 
     def set_lasting(self, joint: str, effort: Floats, worlds: Worlds | None = None) -> None:
@@ -246,7 +246,7 @@ class Loads:
 
     def _schedule(self, after: int | None = None) -> None:
         """Find the next beginning or end."""
-        loads: list[Wrench | Effort] = [*self._wrenches]
+        loads: list[TimedWrench | TimedEffort] = [*self._wrenches]
         loads += [e for j in self._joints.values() for e in j.efforts]
         moments = [load.start_ns for load in loads]
         moments += [load.end_ns for load in loads if load.end_ns is not None]
@@ -303,7 +303,8 @@ class Loads:
     def state(self) -> dict[str, Any]:
         """Everything that acts or waits, in plain lists and arrays."""
         wrenches = [
-            {name: getattr(wrench, name) for name in Wrench.__slots__} for wrench in self._wrenches
+            {name: getattr(wrench, name) for name in TimedWrench.__slots__}
+            for wrench in self._wrenches
         ]
         joints = {
             name: {
@@ -317,9 +318,11 @@ class Loads:
 
     def restore(self, state: dict[str, Any]) -> None:
         """Put back what ``state`` gave; what acts is in the engine's state."""
-        self._wrenches = [Wrench(**each) for each in state["wrenches"]]
+        self._wrenches = [TimedWrench(**each) for each in state["wrenches"]]
         self._joints = {
-            name: _Joint(each["lasting"], [Effort(name, *effort) for effort in each["efforts"]])
+            name: _Joint(
+                each["lasting"], [TimedEffort(name, *effort) for effort in each["efforts"]]
+            )
             for name, each in state["joints"].items()
         }
         self._held = {(name, link): (f, t) for name, link, f, t in state["held"]}
@@ -327,9 +330,9 @@ class Loads:
         self._schedule()
 
 
-def _end(load: Wrench | Effort) -> float:
+def _end(load: TimedWrench | TimedEffort) -> float:
     return math.inf if load.end_ns is None else load.end_ns
 
 
-def _is_over(load: Wrench | Effort, now_ns: int) -> bool:
+def _is_over(load: TimedWrench | TimedEffort, now_ns: int) -> bool:
     return now_ns >= _end(load)

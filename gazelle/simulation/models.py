@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Mount:
+class SensorMount:
     """A sensor and what it is on.
 
     Attributes:
@@ -67,20 +67,20 @@ class Mount:
         return f"{self.scope}::{owner}::{self.sensor.name}"
 
 
-def mounts(engine: Engine, model: Model, seed: int) -> Iterator[Mount]:
+def mounts(engine: Engine, model: Model, seed: int) -> Iterator[SensorMount]:
     """All sensors of a model and its nested ones, on links and on joints."""
     for placed in model.walk():
         links = {link.name: link for link in placed.model.links}
         for link in placed.model.links:
             for sensor in link.sensors:
-                yield Mount(engine, sensor, placed.scope, link, None, model.static, seed)
+                yield SensorMount(engine, sensor, placed.scope, link, None, model.static, seed)
         for joint in placed.model.joints:
             for sensor in joint.sensors:
                 child = links.get(joint.child) or Link(joint.child)
-                yield Mount(engine, sensor, placed.scope, child, joint, model.static, seed)
+                yield SensorMount(engine, sensor, placed.scope, child, joint, model.static, seed)
 
 
-def sensor_model(mount: Mount) -> SensorModel | None:
+def sensor_model(mount: SensorMount) -> SensorModel | None:
     """The measurement model of a sensor; None, with a warning, for what is not measured."""
     try:
         return _MODELS.get(mount.sensor.type, _unknown)(mount)
@@ -94,41 +94,41 @@ def sensor_model(mount: Mount) -> SensorModel | None:
     return None
 
 
-def _unknown(_: Mount) -> SensorModel:
+def _unknown(_: SensorMount) -> SensorModel:
     raise EngineError("there is no model of this type")
 
 
-def _lidar(mount: Mount) -> SensorModel:
+def _lidar(mount: SensorMount) -> SensorModel:
     if mount.sensor.lidar is None:
         raise EngineError("it says nothing about its rays")
     return LidarModel(mount.sensor.lidar, *_on_link(mount))
 
 
-def _imu(mount: Mount) -> SensorModel:
+def _imu(mount: SensorMount) -> SensorModel:
     return ImuModel(mount.sensor.imu or Imu(), *_on_link(mount))
 
 
-def _magnetometer(mount: Mount) -> SensorModel:
+def _magnetometer(mount: SensorMount) -> SensorModel:
     return MagnetometerModel(Magnetometer.read(mount.sensor.settings), *_on_link(mount))
 
 
-def _gps(mount: Mount) -> SensorModel:
+def _gps(mount: SensorMount) -> SensorModel:
     return GpsModel(Gps.read(mount.sensor.settings), *_on_link(mount))
 
 
-def _altimeter(mount: Mount) -> SensorModel:
+def _altimeter(mount: SensorMount) -> SensorModel:
     return AltimeterModel(Altimeter.read(mount.sensor.settings), *_on_link(mount))
 
 
-def _air_pressure(mount: Mount) -> SensorModel:
+def _air_pressure(mount: SensorMount) -> SensorModel:
     return AirPressureModel(AirPressure.read(mount.sensor.settings), *_on_link(mount))
 
 
-def _sonar(mount: Mount) -> SensorModel:
+def _sonar(mount: SensorMount) -> SensorModel:
     return SonarModel(Sonar.read(mount.sensor.settings), *_on_link(mount))
 
 
-def _force_torque(mount: Mount) -> SensorModel:
+def _force_torque(mount: SensorMount) -> SensorModel:
     joint, scope = mount.joint, mount.scope
     if joint is None:
         raise EngineError("it is on a link, not on a joint")
@@ -147,7 +147,7 @@ def _force_torque(mount: Mount) -> SensorModel:
     )
 
 
-def _contact(mount: Mount) -> SensorModel:
+def _contact(mount: SensorMount) -> SensorModel:
     """Of the collisions that it names, or of all of its link."""
     contact = mount.sensor.contact
     known = [collision.name for collision in mount.link.collisions]
@@ -165,11 +165,11 @@ def _contact(mount: Mount) -> SensorModel:
     return ContactModel(mount.engine, [f"{mount.link_name}::{name}" for name in watched])
 
 
-def _on_link(mount: Mount) -> tuple[Engine, str, Pose, int, str]:
+def _on_link(mount: SensorMount) -> tuple[Engine, str, Pose, int, str]:
     return mount.engine, mount.link_name, mount.sensor.pose, mount.seed, mount.name
 
 
-_MODELS: dict[str, Callable[[Mount], SensorModel]] = {
+_MODELS: dict[str, Callable[[SensorMount], SensorModel]] = {
     "air_pressure": _air_pressure,
     "altimeter": _altimeter,
     "contact": _contact,

@@ -268,7 +268,7 @@ class Output(StatePart, Generic[T]):
         self._last = None
 
 
-class Table(dict[str, T]):
+class PortTable(dict[str, T]):
     """Ports by name. One that takes the name of another leaves that one ``NAME 2``, ``NAME 3``...
 
     A model may have two plugins of a kind, such as a drive for each pair of wheels.
@@ -309,11 +309,11 @@ class Ports:
     """
 
     def __init__(self, requests: RequestQueue | None = None) -> None:
-        self.inputs: dict[str, Any] = Table(requests)
-        self.outputs: dict[str, Output[Any]] = Table(requests)
-        self.services: dict[str, Service[Any, Any]] = Table(requests)
-        self.settings: dict[str, Setting[Any]] = Table(requests)
-        self.tunings: dict[str, Tuning] = Table(requests)
+        self.inputs: dict[str, Any] = PortTable(requests)
+        self.outputs: dict[str, Output[Any]] = PortTable(requests)
+        self.services: dict[str, Service[Any, Any]] = PortTable(requests)
+        self.settings: dict[str, Setting[Any]] = PortTable(requests)
+        self.tunings: dict[str, Tuning] = PortTable(requests)
 
     def mark(self) -> tuple[Mapping[str, Any], ...]:
         """What there is now, for ``back_to``."""

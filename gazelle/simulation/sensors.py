@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Sensor
 from gazelle.sensors import SensorModel
-from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
 from gazelle.simulation.requests import between_steps
 from gazelle.simulation.sharing import shared

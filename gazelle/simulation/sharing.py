@@ -11,7 +11,7 @@ from gazelle.simulation.requests import RequestQueue
 T = TypeVar("T")
 
 
-class _Shared:
+class _SharedObject:
     """Uses an object between two steps, whatever is read, set or called on it.
 
     ``isinstance`` takes it for the object.
@@ -50,4 +50,4 @@ class _Shared:
 
 def shared(target: T, requests: RequestQueue) -> T:
     """An object as threads see it that do not own the state."""
-    return cast("T", _Shared(target, requests))
+    return cast("T", _SharedObject(target, requests))

@@ -9,10 +9,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.simulation.blame import warn_of_fault
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin import Plugin
+from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.sensors import SensorUnit
 
 T = TypeVar("T")

@@ -25,7 +25,7 @@ class Progress(Protocol):
         """Training is over."""
 
 
-class Silent:
+class NoProgress:
     """Shows nothing."""
 
     def start(self, done: int, total: int) -> None:

@@ -12,11 +12,11 @@ from typing import Any
 import torch
 
 from gazelle.errors import TaskError
+from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
-from gazelle.training.conductor import Conductor, StopOnSignal, StopRequested
 from gazelle.training.importing import load_all
 from gazelle.training.learners import Learner, build_learner
-from gazelle.training.progress import Progress, Silent
+from gazelle.training.progress import NoProgress, Progress
 from gazelle.training.recipes import Recipe, recipe_for
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
@@ -112,7 +112,7 @@ def train(
         imports=modules,
     )
     limit_threads(threads)
-    session = _Session(config, progress or Silent())
+    session = _Session(config, progress or NoProgress())
     try:
         return session.go(Run.create(config, Path(out)))
     finally:
@@ -158,7 +158,7 @@ def resume(
             )
         found = found.changed(recipe=dataclasses.replace(found.config.recipe, steps=steps))
     limit_threads(threads)
-    session = _Session(found.config, progress or Silent())
+    session = _Session(found.config, progress or NoProgress())
     try:
         return session.go(found, checkpoint)
     finally:
@@ -188,16 +188,16 @@ class _Session:
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
         with StopOnSignal(self.progress) as stop:
-            conductor = Conductor(run, self.total, self.episodes, self.progress, stop)
+            callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
-                conductor.set_state(extra, self.learner.num_timesteps)
+                callback.set_state(extra, self.learner.num_timesteps)
             before = self.learner.num_timesteps
-            conductor.attach(self.learner)
+            callback.attach(self.learner)
             self.progress.start(before, self.total)
             start = time.perf_counter()
             try:
-                interrupted = self._learn(conductor, fresh=checkpoint is None)
+                interrupted = self._learn(callback, fresh=checkpoint is None)
             finally:
                 self.progress.close()
                 self.learner.logger.close()
@@ -215,14 +215,14 @@ class _Session:
             summary=self.episodes.summary(),
         )
 
-    def _learn(self, conductor: Conductor, *, fresh: bool) -> bool:
+    def _learn(self, callback: TrainingCallback, *, fresh: bool) -> bool:
         """Run the learner; returns whether it was interrupted."""
         left = self.total - self.learner.num_timesteps
         if not fresh and left <= 0:
             return False
         try:
             self.learner.learn(
-                left, callback=conductor, log_interval=None, reset_num_timesteps=fresh
+                left, callback=callback, log_interval=None, reset_num_timesteps=fresh
             )
         except StopRequested:
             return True
@@ -230,7 +230,7 @@ class _Session:
             self._check_weights(error)
             raise
         self._check_weights(None)
-        conductor.finish()
+        callback.finish()
         self.progress.update(self.learner.num_timesteps, self.episodes.summary())
         return False
 

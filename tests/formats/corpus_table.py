@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 from gazelle import Error
-from gazelle.formats.judge import judge
+from gazelle.formats.lint import lint
 from gazelle.formats.loader import find_file, read_path
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import MODEL_VARIABLES, PACKAGE_VARIABLE, Resolver
@@ -45,7 +45,7 @@ def outcome(path, corpus):
     except Error as error:
         return f"refused: {_plain(error.message, corpus)}", time.process_time() - start
     seconds = time.process_time() - start
-    judge(world)  # never fails, whatever it finds
+    lint(world)  # never fails, whatever it finds
     reasons = collections.Counter(_general(note.message) for note in reading.notes)
     if reading.misses:
         reasons["not found"] = len(reading.misses)

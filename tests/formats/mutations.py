@@ -21,7 +21,7 @@ from xml_samples import INERTIAL, sdf
 from gazelle import Error, formats
 from gazelle.description import Heightmap, Mesh
 from gazelle.description import Image as Walls
-from gazelle.formats.judge import judge
+from gazelle.formats.lint import lint
 from gazelle.formats.terrain import load_boxes, load_heights
 
 SECONDS = 5.0
@@ -156,7 +156,7 @@ EXTENDED = (
 
 
 def description(path):
-    judge(formats.load(path))
+    lint(formats.load(path))
 
 
 def mesh(path):

@@ -20,7 +20,7 @@ from tensorboard.backend.event_processing.event_file_loader import EventFileLoad
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
 from gazelle.training import OffPolicySettings, Recipe, Run, evaluate, resume, train
-from gazelle.training.progress import Silent
+from gazelle.training.progress import NoProgress
 
 SMALL = OffPolicySettings(
     buffer_size=2000, batch_size=32, learning_starts=100, target_update_interval=100
@@ -31,7 +31,7 @@ def off_policy(algo):
     return Recipe(algo=algo, steps=600, num_envs=4, net_arch=(16,), settings=SMALL)
 
 
-class StopAt(Silent):
+class StopAt(NoProgress):
     """Presses Ctrl-C after some steps."""
 
     def __init__(self, steps):

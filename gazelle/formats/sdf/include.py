@@ -12,7 +12,7 @@ from gazelle.formats.model_config import entry_file
 from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
 from gazelle.formats.sdf.actor import as_model
-from gazelle.formats.sdf.draft import Draft, Version, draft_model, name_frames
+from gazelle.formats.sdf.model_frames import ModelFrames, Version, draft_model, name_frames
 from gazelle.formats.sdf.param_passing import TAG, with_params
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.upgrade import upgraded
@@ -99,7 +99,7 @@ def _file_of(found: Path) -> Path | None:
     return file if file.is_file() else None
 
 
-def include_model(node: Parameters, version: Version, reading: Reading) -> Draft | None:
+def include_model(node: Parameters, version: Version, reading: Reading) -> ModelFrames | None:
     """The draft of an included model; None when it is not found."""
     _ = version  # the included file has its own
     included = open_include(node, reading)
@@ -110,7 +110,7 @@ def include_model(node: Parameters, version: Version, reading: Reading) -> Draft
     return draft_included(node, included, reading)
 
 
-def draft_included(node: Parameters, included: Included, reading: Reading) -> Draft:
+def draft_included(node: Parameters, included: Included, reading: Reading) -> ModelFrames:
     """The draft of a model, with the name, pose and so on that the include gives it."""
     with reading.inside(included.file, node):
         if included.model is None:
@@ -130,9 +130,9 @@ def draft_included(node: Parameters, included: Included, reading: Reading) -> Dr
     return draft
 
 
-def draft_read(node: Parameters, model: Model) -> Draft:
+def draft_read(node: Parameters, model: Model) -> ModelFrames:
     """The draft of a model that is already read: its frames under their names."""
-    draft = Draft(node, (1, 11), model.name, model.pose, model=model)
+    draft = ModelFrames(node, (1, 11), model.name, model.pose, model=model)
     name_frames(draft.scope, model)
     draft.scope.canonical = model.canonical_link or (model.links[0].name if model.links else "")
     return draft

@@ -19,7 +19,7 @@ from gazelle.formats.sdf.frames import MODEL, WORLD
 from gazelle.formats.sdf.pose import frame_of
 
 if TYPE_CHECKING:
-    from gazelle.formats.sdf.draft import Draft, Includer, Version
+    from gazelle.formats.sdf.model_frames import Includer, ModelFrames, Version
 
 _OWN = {"allow_auto_disable", "enable_wind", "pose", "self_collide", "static"}
 _IN_WORLDS = {"frame", "include", "joint", "light", "model", "plugin"}
@@ -59,7 +59,7 @@ def is_merge(node: Parameters) -> bool:
 
 
 def _parts(
-    draft: Draft, include: Parameters, outer: Parameters, reading: Reading
+    draft: ModelFrames, include: Parameters, outer: Parameters, reading: Reading
 ) -> Iterator[Parameters]:
     frame = f"_merged__{draft.name}__model__"
     in_world = outer.tag == WORLD
@@ -80,7 +80,7 @@ def _parts(
         yield _Mover(frame, draft, reading).part(child)
 
 
-def _first_of(draft: Draft) -> str:
+def _first_of(draft: ModelFrames) -> str:
     """The model that a frame of the world is attached to: that of the canonical link."""
     return draft.scope.canonical.rpartition("::")[0]
 
@@ -88,7 +88,7 @@ def _first_of(draft: Draft) -> str:
 class _Mover:
     """Writes parts of an included model so that they hold in the model around it."""
 
-    def __init__(self, frame: str, draft: Draft, reading: Reading) -> None:
+    def __init__(self, frame: str, draft: ModelFrames, reading: Reading) -> None:
         self._frame = frame
         self._version = draft.version
         self._folder = None if draft.file is None else draft.file.parent

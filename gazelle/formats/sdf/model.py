@@ -8,10 +8,10 @@ from dataclasses import replace
 from gazelle.description import Frame, Model, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
-from gazelle.formats.sdf.draft import Draft
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.link import read_link
+from gazelle.formats.sdf.model_frames import ModelFrames
 from gazelle.formats.sdf.own import own_transmissions
 from gazelle.formats.sdf.plugin import read_plugin, read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
@@ -19,7 +19,7 @@ from gazelle.formats.sdf.pose import frame_of, read_pose
 _EXTRAS = ("gripper",)
 
 
-def read_model(draft: Draft, outer: Scope, reading: Reading) -> Model:
+def read_model(draft: ModelFrames, outer: Scope, reading: Reading) -> Model:
     """The model, posed in the scope around it."""
     pose = draft.placed
     if draft.relative_to:
@@ -36,7 +36,7 @@ def read_model(draft: Draft, outer: Scope, reading: Reading) -> Model:
     )
 
 
-def _content(draft: Draft, reading: Reading) -> Model:
+def _content(draft: ModelFrames, reading: Reading) -> Model:
     node, scope = draft.node, draft.scope
     static = values.flag(node, "static", default=False) or draft.static is True
     if not (static or scope.canonical or scope.missing or _holds_static(draft)):
@@ -61,7 +61,7 @@ def _content(draft: Draft, reading: Reading) -> Model:
     )
 
 
-def _holds_static(draft: Draft) -> bool:
+def _holds_static(draft: ModelFrames) -> bool:
     """Whether a model inside is static, and so needs no link."""
     return any(
         inner.static

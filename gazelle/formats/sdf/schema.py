@@ -91,7 +91,7 @@ def _child(
 
 
 def tolerated(node: Parameters, reading: Reading) -> Parameters:
-    """An element that the schema does not judge: only poses and the like in it, and models."""
+    """An element that the schema does not check: only poses and the like in it, and models."""
     if node.tag == "plugin":
         return node
     whole = {"model", "light"} if node.tag in _HOLDERS else set()

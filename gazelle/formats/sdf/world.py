@@ -16,15 +16,6 @@ from gazelle.description import (
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf import state
-from gazelle.formats.sdf.draft import (
-    Draft,
-    Version,
-    add_model,
-    draft_frame,
-    draft_joint,
-    draft_model,
-    missing_names,
-)
 from gazelle.formats.sdf.frames import WORLD, Scope
 from gazelle.formats.sdf.include import (
     Included,
@@ -37,6 +28,15 @@ from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.merge import with_merges
 from gazelle.formats.sdf.model import read_frame, read_model
+from gazelle.formats.sdf.model_frames import (
+    ModelFrames,
+    Version,
+    add_model,
+    draft_frame,
+    draft_joint,
+    draft_model,
+    missing_names,
+)
 from gazelle.formats.sdf.own_joint import with_own_joints
 from gazelle.formats.sdf.physics import read_physics
 from gazelle.formats.sdf.plugin import read_plugins
@@ -54,7 +54,7 @@ class _Contents:
     """Models and lights of a world, those of includes too, in file order."""
 
     scope: Scope
-    drafts: list[Draft] = field(default_factory=list)
+    drafts: list[ModelFrames] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
 
 
@@ -108,7 +108,7 @@ def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
     return contents
 
 
-def _keep(contents: _Contents, draft: Draft, reading: Reading) -> None:
+def _keep(contents: _Contents, draft: ModelFrames, reading: Reading) -> None:
     if any(other.name == draft.name for other in contents.drafts):
         reading.fault(
             f"there is already a model named '{draft.name}': this one is left out", draft.node

@@ -21,10 +21,10 @@ from gazelle.description import (
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import made, with_child
-from gazelle.formats.sdf.draft import draft_part, name_frames
 from gazelle.formats.sdf.frames import MODEL, Scope
 from gazelle.formats.sdf.joint import read_joint_physics, read_joints
 from gazelle.formats.sdf.link import read_link
+from gazelle.formats.sdf.model_frames import draft_part, name_frames
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from gazelle.description import Inertial, Mesh, Model, World
 from gazelle.errors import Error
-from gazelle.formats.judge.finding import Finding, links_of, moving_links_of
+from gazelle.formats.lint.diagnostic import Diagnostic, links_of, moving_links_of
 
 # Collision meshes above this many triangles slow every contact and ray.
 _MOST_TRIANGLES = 20_000
@@ -20,7 +20,7 @@ _STEPS_A_PERIOD = 2.0
 _RIGID = 1e9
 
 
-def judge(world: World) -> Iterator[Finding]:
+def lint(world: World) -> Iterator[Diagnostic]:
     """Findings on steps, contacts, meshes, names and support."""
     yield from _step(world)
     yield from _contacts(world)
@@ -29,10 +29,10 @@ def judge(world: World) -> Iterator[Finding]:
     yield from _falling(world)
 
 
-def _step(world: World) -> Iterator[Finding]:
+def _step(world: World) -> Iterator[Diagnostic]:
     physics = world.profile
     if physics.max_step_size > 0.02:
-        yield Finding(
+        yield Diagnostic(
             "coarse-step",
             f"the physics step is {physics.max_step_size:g} s",
             "contacts and joints are no longer stable at steps above about 20 ms",
@@ -41,7 +41,7 @@ def _step(world: World) -> Iterator[Finding]:
         )
 
 
-def _contacts(world: World) -> Iterator[Finding]:
+def _contacts(world: World) -> Iterator[Diagnostic]:
     step = world.profile.max_step_size
     for place in moving_links_of(world):
         mass = _mass(place.top)
@@ -51,7 +51,7 @@ def _contacts(world: World) -> Iterator[Finding]:
                 continue
             period = 2.0 * math.pi * math.sqrt(mass / stiffness)
             if period < _STEPS_A_PERIOD * step:
-                yield Finding(
+                yield Diagnostic(
                     "stiff-contact",
                     f"collision '{place.scope}::{place.link.name}::{collision.name}': kp "
                     f"{stiffness:g} N/m with {mass:.3g} kg swings in {period * 1000:.2g} ms, "
@@ -69,7 +69,7 @@ def _mass(model: Model) -> float:
     )
 
 
-def _meshes(world: World) -> Iterator[Finding]:
+def _meshes(world: World) -> Iterator[Diagnostic]:
     from gazelle.formats.mesh import load_mesh
 
     for place in links_of(world):
@@ -82,7 +82,7 @@ def _meshes(world: World) -> Iterator[Finding]:
             except Error:
                 continue  # reported by the reader of the mesh
             if triangles > _MOST_TRIANGLES:
-                yield Finding(
+                yield Diagnostic(
                     "heavy-mesh",
                     f"collision '{place.scope}::{place.link.name}::{collision.name}' is a mesh of "
                     f"{triangles:,} triangles",
@@ -93,10 +93,10 @@ def _meshes(world: World) -> Iterator[Finding]:
                 )
 
 
-def _names(world: World) -> Iterator[Finding]:
+def _names(world: World) -> Iterator[Diagnostic]:
     for name, count in Counter(model.name for model in world.models).items():
         if count > 1:
-            yield Finding(
+            yield Diagnostic(
                 "duplicate-name",
                 f"{count} models are called '{name}'",
                 "only one of them can be found by that name",
@@ -105,7 +105,7 @@ def _names(world: World) -> Iterator[Finding]:
             )
 
 
-def _falling(world: World) -> Iterator[Finding]:
+def _falling(world: World) -> Iterator[Diagnostic]:
     """Things that nothing can hold: only in worlds that have a ground."""
     grounded = any(model.static and _solid(model) for model in world.models)
     for model in world.models:
@@ -114,7 +114,7 @@ def _falling(world: World) -> Iterator[Finding]:
         links = [link for p in model.walk() for link in p.model.links]
         loose = not (model.static or held or weightless or any(link.kinematic for link in links))
         if grounded and links and loose and not _solid(model):
-            yield Finding(
+            yield Diagnostic(
                 "falls",
                 f"model '{model.name}' has no collision, so it falls through the ground",
                 "gravity pulls it and nothing stops it",

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from gazelle.description import Parameters
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
-from gazelle.formats.judge.finding import Finding
+from gazelle.formats.lint.diagnostic import Diagnostic
 from gazelle.formats.urdf.tree import Tree
 
 _NAMING: Mapping[str, Mapping[str, str]] = {
@@ -32,7 +32,7 @@ _NAMING: Mapping[str, Mapping[str, str]] = {
 _SLACK = 1e-6
 
 
-def judge(root: Parameters, robot: str, tree: Tree) -> Iterator[Finding]:
+def lint(root: Parameters, robot: str, tree: Tree) -> Iterator[Diagnostic]:
     """Findings about an SRDF.
 
     Args:
@@ -42,7 +42,7 @@ def judge(root: Parameters, robot: str, tree: Tree) -> Iterator[Finding]:
     """
     name = root.attributes.get("name", "")
     if name != robot:
-        yield Finding(
+        yield Diagnostic(
             "srdf-robot",
             f"the SRDF is for the robot '{name}', the URDF is of '{robot}'",
             "MoveIt refuses a pair of different names",
@@ -67,10 +67,10 @@ def _at(root: Parameters, path: str) -> Iterator[Parameters]:
         yield from node.find_all(rest) if rest else (node,)
 
 
-def _missing(node: Parameters, attribute: str, kind: str, known: set[str]) -> Iterator[Finding]:
+def _missing(node: Parameters, attribute: str, kind: str, known: set[str]) -> Iterator[Diagnostic]:
     name = node.attributes.get(attribute, "")
     if name and name not in known:
-        yield Finding(
+        yield Diagnostic(
             f"srdf-{kind}",
             f"<{node.tag}> names the {kind} '{name}', which the URDF does not have",
             "MoveIt passes over it",
@@ -79,7 +79,7 @@ def _missing(node: Parameters, attribute: str, kind: str, known: set[str]) -> It
         )
 
 
-def _chain(node: Parameters, tree: Tree) -> Iterator[Finding]:
+def _chain(node: Parameters, tree: Tree) -> Iterator[Diagnostic]:
     """A chain goes down the tree, from its base to its tip."""
     base, tip = (node.attributes.get(key, "") for key in ("base_link", "tip_link"))
     if base not in tree.links or tip not in tree.links:
@@ -89,7 +89,7 @@ def _chain(node: Parameters, tree: Tree) -> Iterator[Finding]:
     while link != base and link in above:
         link = above[link]
     if link != base:
-        yield Finding(
+        yield Diagnostic(
             "srdf-chain",
             f"the chain's tip '{tip}' does not hang on its base '{base}'",
             "the group would be empty",
@@ -98,7 +98,7 @@ def _chain(node: Parameters, tree: Tree) -> Iterator[Finding]:
         )
 
 
-def _limits(node: Parameters, tree: Tree) -> Iterator[Finding]:
+def _limits(node: Parameters, tree: Tree) -> Iterator[Diagnostic]:
     joint = tree.joints.get(node.attributes.get("name", ""))
     if joint is None or joint.axis is None:
         return
@@ -106,7 +106,7 @@ def _limits(node: Parameters, tree: Tree) -> Iterator[Finding]:
     for value in values.parse_reals(node, text, "attribute 'value'", None):
         low, high = joint.axis.lower, joint.axis.upper
         if not low - _SLACK <= value <= high + _SLACK:
-            yield Finding(
+            yield Diagnostic(
                 "srdf-limits",
                 f"the posture puts joint '{joint.name}' at {value:g}, outside of its limits "
                 f"{low:g} to {high:g}",

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import did_you_mean
-from gazelle.formats.judge.finding import Finding
+from gazelle.formats.lint.diagnostic import Diagnostic
 
 # Tags of well-known plugins whose text is the name of a joint, or of several.
 _JOINT_TAGS = frozenset(
@@ -31,7 +31,7 @@ _JOINT_TAGS = frozenset(
 _LINK_TAGS = frozenset({"bodyName", "linkName", "palm_link", "gripper_link"})
 
 
-def judge(world: World) -> Iterator[Finding]:
+def lint(world: World) -> Iterator[Diagnostic]:
     """Findings on every model plugin."""
     for top in world.models:
         for placed in top.walk():
@@ -57,12 +57,12 @@ def _names(top: Model, model: Model) -> tuple[set[str], set[str]]:
 
 def _missing(
     plugin: str, tag: Parameters, kind: str, tags: frozenset[str], known: set[str]
-) -> Iterator[Finding]:
+) -> Iterator[Diagnostic]:
     if tag.tag not in tags or tag.children:
         return
     for name in tag.text.replace(",", " ").split():
         if name not in known and name.rpartition("::")[2] not in known:
-            yield Finding(
+            yield Diagnostic(
                 f"plugin-{kind}",
                 f"plugin '{plugin}': <{tag.tag}> names the {kind} '{name}', which is not there",
                 "the plugin will not work",

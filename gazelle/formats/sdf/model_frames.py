@@ -1,7 +1,7 @@
 """Models before they are read: all frames named, so that poses can be resolved.
 
 A model file names frames before it defines them, and a joint may reach into a nested or
-included model. So a first pass collects the frames (a ``Draft``), a second one reads.
+included model. So a first pass collects the frames (a ``ModelFrames``), a second one reads.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Version = tuple[int, int]
 
 
 @dataclass(slots=True)
-class Draft:
+class ModelFrames:
     """A model whose frames are known.
 
     Attributes:
@@ -53,7 +53,7 @@ class Draft:
     plugins: list[Parameters] = field(default_factory=list)
     file: Path | None = None
     scope: Scope = field(default_factory=lambda: Scope(MODEL))
-    nested: list[Draft] = field(default_factory=list)
+    nested: list[ModelFrames] = field(default_factory=list)
     model: Model | None = None
 
     @property
@@ -64,10 +64,12 @@ class Draft:
         return self.pose * self.scope.pose(self.placement_frame, self.node).inverse()
 
 
-Includer = Callable[[Parameters, Version, Reading], Draft | None]
+Includer = Callable[[Parameters, Version, Reading], ModelFrames | None]
 
 
-def draft_model(node: Parameters, version: Version, reading: Reading, include: Includer) -> Draft:
+def draft_model(
+    node: Parameters, version: Version, reading: Reading, include: Includer
+) -> ModelFrames:
     """The draft of a ``<model>`` and all models in it.
 
     Raises:
@@ -76,7 +78,7 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
     node = with_own_joints(with_merges(node, version, reading, include))
     node = with_own_names(node, MODEL_PARTS, reading)
     pose = node.find("pose")
-    draft = Draft(
+    draft = ModelFrames(
         node,
         version,
         values.attribute(node, "name"),
@@ -104,7 +106,7 @@ def draft_model(node: Parameters, version: Version, reading: Reading, include: I
     return draft
 
 
-def _rename_second(inner: Draft, outer: Draft, reading: Reading) -> None:
+def _rename_second(inner: ModelFrames, outer: ModelFrames, reading: Reading) -> None:
     """Another model of one name: Gazebo loads both."""
     names = {other.name for other in outer.nested}
     if inner.name in names:
@@ -124,7 +126,7 @@ def missing_names(node: Parameters) -> set[str]:
     return {name} if name else {"", values.word(node, "uri").rstrip("/").rpartition("/")[2]}
 
 
-def add_model(scope: Scope, draft: Draft) -> None:
+def add_model(scope: Scope, draft: ModelFrames) -> None:
     """Name a model in the scope around it."""
     scope.add(draft.name, Entry(draft.node, draft.placed, draft.relative_to, scope=draft.scope))
 
@@ -200,7 +202,7 @@ _DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {
 }
 
 
-def _canonical(draft: Draft, reading: Reading) -> str:
+def _canonical(draft: ModelFrames, reading: Reading) -> str:
     named = draft.node.attributes.get("canonical_link", "")
     if named and (draft.scope.has(named) or draft.scope.lacks(named)):
         return named

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from gazelle.description import Joint, JointAxis, JointPhysics, Model, World
 from gazelle.errors import did_you_mean
-from gazelle.formats.judge.finding import Finding
+from gazelle.formats.lint.diagnostic import Diagnostic
 
 
-def judge(world: World) -> Iterator[Finding]:
+def lint(world: World) -> Iterator[Diagnostic]:
     """Findings on every joint of a model that moves."""
     for top in world.models:
         for placed in top.walk():
@@ -25,11 +25,11 @@ def judge(world: World) -> Iterator[Finding]:
                 yield _in_static(placed.scope, placed.model)
 
 
-def _links(name: str, joint: Joint, model: Model) -> Iterator[Finding]:
+def _links(name: str, joint: Joint, model: Model) -> Iterator[Diagnostic]:
     known = _link_names(model)
     for role, link in (("parent", joint.parent), ("child", joint.child)):
         if link != "world" and link not in known:
-            yield Finding(
+            yield Diagnostic(
                 "joint-link",
                 f"joint '{name}' has the {role} link '{link}', which is not there",
                 "the model cannot be simulated",
@@ -46,7 +46,7 @@ def _link_names(model: Model, prefix: str = "") -> set[str]:
     return names
 
 
-def _ode_terms(name: str, joint: Joint) -> Iterator[Finding]:
+def _ode_terms(name: str, joint: Joint) -> Iterator[Diagnostic]:
     """What only ODE's solver needs; a file that depends on it moves otherwise here."""
     given, usual = joint.physics, JointPhysics()
     terms = [
@@ -55,7 +55,7 @@ def _ode_terms(name: str, joint: Joint) -> Iterator[Finding]:
         if getattr(given, term) != getattr(usual, term)
     ]
     if terms:
-        yield Finding(
+        yield Diagnostic(
             "ode-terms",
             f"joint '{name}' has ODE's {', '.join(terms)}, which has no effect here",
             "they make ODE's joints give way, or keep its motors from jumping at a stop",
@@ -64,10 +64,10 @@ def _ode_terms(name: str, joint: Joint) -> Iterator[Finding]:
         )
 
 
-def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
+def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Diagnostic]:
     bounded = math.isfinite(axis.lower) or math.isfinite(axis.upper)
     if axis.lower > axis.upper:
-        yield Finding(
+        yield Diagnostic(
             "limits-crossed",
             f"joint '{name}': its lower limit {axis.lower:g} is above its upper {axis.upper:g}",
             "the joint is pushed from both sides at once",
@@ -75,7 +75,7 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
             joint.source,
         )
     if joint.type == "prismatic" and not bounded:
-        yield Finding(
+        yield Diagnostic(
             "no-limits",
             f"prismatic joint '{name}' has no limits",
             "under its weight the link slides away for ever",
@@ -84,7 +84,7 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
         )
     for term, value in (("damping", axis.damping), ("friction", axis.friction)):
         if value < 0.0:
-            yield Finding(
+            yield Diagnostic(
                 "negative-damping",
                 f"joint '{name}' has a {term} of {value:g}",
                 "below zero it drives the joint, or does nothing, instead of braking it",
@@ -92,7 +92,7 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
                 joint.source,
             )
     if axis.effort == 0.0:
-        yield Finding(
+        yield Diagnostic(
             "no-effort",
             f"joint '{name}' has an effort limit of 0",
             "a controller cannot move it",
@@ -100,7 +100,7 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
             joint.source,
         )
     if axis.velocity == 0.0:
-        yield Finding(
+        yield Diagnostic(
             "no-velocity",
             f"joint '{name}' has a velocity limit of 0",
             "a planner or controller that keeps to it cannot move the joint",
@@ -109,10 +109,10 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Finding]:
         )
 
 
-def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[Finding]:
+def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[Diagnostic]:
     known = {other.name for other in model.joints}
     if axis.mimic is not None and axis.mimic.joint not in known:
-        yield Finding(
+        yield Diagnostic(
             "mimic-leader",
             f"joint '{name}' mimics '{axis.mimic.joint}', which is not there",
             "it will not move",
@@ -121,8 +121,8 @@ def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[F
         )
 
 
-def _in_static(scope: str, model: Model) -> Finding:
-    return Finding(
+def _in_static(scope: str, model: Model) -> Diagnostic:
+    return Diagnostic(
         "static-joints",
         f"model '{scope}' is static, so its {len(model.joints)} joints do not move",
         "a static model is one piece of the world",

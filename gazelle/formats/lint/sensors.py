@@ -20,7 +20,7 @@ from gazelle.description import (
     World,
 )
 from gazelle.errors import Error
-from gazelle.formats.judge.finding import Finding, links_of
+from gazelle.formats.lint.diagnostic import Diagnostic, links_of
 
 _MOST_RAYS = 100_000
 
@@ -28,7 +28,7 @@ _MOST_RAYS = 100_000
 _LOOKS = 12
 
 
-def judge(world: World) -> Iterator[Finding]:
+def lint(world: World) -> Iterator[Diagnostic]:
     """Findings on every sensor."""
     for place in links_of(world):
         for sensor in place.link.sensors:
@@ -39,9 +39,9 @@ def judge(world: World) -> Iterator[Finding]:
             yield from _cameras(name, sensor)
 
 
-def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Finding]:
+def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Diagnostic]:
     if lidar.range_max <= lidar.range_min:
-        yield Finding(
+        yield Diagnostic(
             "lidar-range",
             f"lidar '{name}': its largest range {lidar.range_max:g} m is not above its "
             f"smallest {lidar.range_min:g} m",
@@ -51,7 +51,7 @@ def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Finding]:
         )
     rays = lidar.horizontal.samples * max(lidar.vertical.samples, 1)
     if rays > _MOST_RAYS:
-        yield Finding(
+        yield Diagnostic(
             "lidar-rays",
             f"lidar '{name}' casts {rays:,} rays a measurement",
             "each costs time; real scanners of this size are rare",
@@ -59,7 +59,7 @@ def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Finding]:
             sensor.source,
         )
     if sensor.update_rate == 0.0:
-        yield Finding(
+        yield Diagnostic(
             "lidar-rate",
             f"lidar '{name}' has no <update_rate>, so it measures at every physics step",
             "real ones measure 5 to 40 times a second; this costs a hundred times as much",
@@ -68,12 +68,12 @@ def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Finding]:
         )
 
 
-def _inside(name: str, sensor: Sensor, lidar: Lidar, link: Link) -> Iterator[Finding]:
+def _inside(name: str, sensor: Sensor, lidar: Lidar, link: Link) -> Iterator[Diagnostic]:
     """Rays start at the smallest range: what is wholly nearer is not seen."""
     for collision in link.collisions:
         reach = _reach_from(sensor, collision)
         if reach is not None and reach > lidar.range_min:
-            yield Finding(
+            yield Diagnostic(
                 "lidar-inside",
                 f"lidar '{name}' is inside the collision '{collision.name}' of its own link, "
                 f"which reaches {reach:.3g} m from it; its smallest range is {lidar.range_min:g} m",
@@ -128,10 +128,10 @@ def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     return farthest if math.isfinite(farthest) else None
 
 
-def _cameras(name: str, sensor: Sensor) -> Iterator[Finding]:
+def _cameras(name: str, sensor: Sensor) -> Iterator[Diagnostic]:
     for camera in sensor.cameras:
         if camera.far <= camera.near:
-            yield Finding(
+            yield Diagnostic(
                 "camera-clip",
                 f"camera '{name}': its far clip {camera.far:g} m is not beyond its near clip "
                 f"{camera.near:g} m",
@@ -140,7 +140,7 @@ def _cameras(name: str, sensor: Sensor) -> Iterator[Finding]:
                 sensor.source,
             )
         if not 0.0 < camera.horizontal_fov < math.pi and sensor.type != "wideanglecamera":
-            yield Finding(
+            yield Diagnostic(
                 "camera-fov",
                 f"camera '{name}': a field of view of {camera.horizontal_fov:g} rad is none of a "
                 "pinhole camera",

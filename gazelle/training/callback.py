@@ -116,7 +116,7 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
         self._file.close()
 
 
-class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
+class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
     """Called by the learner between two rollouts.
 
     Args:
@@ -151,7 +151,7 @@ class Conductor(BaseCallback):  # type: ignore[misc]  # untyped base
         learner.set_logger(Logger(str(folder), [table, TensorBoardOutputFormat(str(folder))]))
 
     def get_state(self) -> dict[str, Any]:
-        """What a checkpoint must remember of the conductor."""
+        """What a checkpoint must remember of the callback."""
         return {
             "episodes": self.episodes.get_state(),
             "logged_at": self.logged_at,

@@ -1,4 +1,4 @@
-"""What a judge says about a file."""
+"""What the linter says about a file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gazelle.description import Link, Model, Source, World
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Diagnostic:
     """One judgement on a description that can be read.
 
     Attributes:

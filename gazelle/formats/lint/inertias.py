@@ -19,7 +19,7 @@ from gazelle.description import (
     Sphere,
     World,
 )
-from gazelle.formats.judge.finding import Finding, moving_links_of
+from gazelle.formats.lint.diagnostic import Diagnostic, moving_links_of
 from gazelle.formats.solids import solid_of
 from gazelle.formats.sound import TRIANGLE, TRIANGLE_ROUNDING
 
@@ -32,13 +32,13 @@ _MASS_RATIO = 1e4
 _SIMPLE = (Box, Capsule, Cylinder, Ellipsoid, Sphere)
 
 
-def judge(world: World) -> Iterator[Finding]:
+def lint(world: World) -> Iterator[Diagnostic]:
     """Findings on every link that moves."""
     for place in moving_links_of(world):
         name = f"{place.scope}::{place.link.name}"
         inertial = place.link.inertial
         if inertial is None:
-            yield Finding(
+            yield Diagnostic(
                 "no-inertial",
                 f"link '{name}' moves and has no <inertial>; it gets 1 kg and 1 kg m²",
                 "a small part with an inertia of 1 kg m² turns as if it were a metre wide",
@@ -69,10 +69,10 @@ def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | 
     return principal_moments(Inertia.from_matrix(solid.scaled(mass / solid.volume).inertia))
 
 
-def _triangle(name: str, inertial: Inertial) -> Iterator[Finding]:
+def _triangle(name: str, inertial: Inertial) -> Iterator[Diagnostic]:
     low, middle, high = principal_moments(inertial.inertia)
     if low + middle < high * (1.0 - TRIANGLE_ROUNDING):
-        yield Finding(
+        yield Diagnostic(
             TRIANGLE,
             f"link '{name}': the principal moments {low:.3g}, {middle:.3g} and {high:.3g} kg m² "
             "are those of no body: the sum of two must not be below the third",
@@ -82,7 +82,7 @@ def _triangle(name: str, inertial: Inertial) -> Iterator[Finding]:
         )
 
 
-def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[Finding]:
+def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
     """Only links of one simple collision can be compared with a solid."""
     if len(link.collisions) != 1:
         return
@@ -97,7 +97,7 @@ def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[
         return
     worst = max(ratios, key=lambda ratio: abs(math.log(max(ratio, 1e-300))))
     times = f"{_plain(worst)} times" if worst > 1.0 else f"1/{_plain(1.0 / max(worst, 1e-300))} of"
-    yield Finding(
+    yield Diagnostic(
         "inertia-off",
         f"link '{name}': its inertia is {times} that of a solid of its shape and mass "
         f"({inertial.mass:g} kg; expected about {expected[0]:.3g}, {expected[1]:.3g}, "
@@ -113,7 +113,7 @@ def _plain(factor: float) -> str:
     return f"{float(f'{factor:.3g}'):,.10g}" if factor < 1e9 else f"{factor:.3g}"
 
 
-def _mass_ratios(world: World) -> Iterator[Finding]:
+def _mass_ratios(world: World) -> Iterator[Diagnostic]:
     for model in world.models:
         if model.static:
             continue
@@ -123,7 +123,7 @@ def _mass_ratios(world: World) -> Iterator[Finding]:
                 pair = [masses.get(joint.parent), masses.get(joint.child)]
                 known = [mass for mass in pair if mass is not None and mass > 0.0]
                 if len(known) == 2 and max(known) / min(known) > _MASS_RATIO:
-                    yield Finding(
+                    yield Diagnostic(
                         "mass-ratio",
                         f"joint '{placed.scope}::{joint.name}' joins {known[0]:g} kg to "
                         f"{known[1]:g} kg",

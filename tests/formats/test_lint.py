@@ -30,13 +30,13 @@ from gazelle.description import (
     Surface,
     World,
 )
-from gazelle.formats.judge import judge
+from gazelle.formats.lint import lint
 
 HERE = Source("robot.sdf", 7, "here")
 
 
 def rules(world):
-    return [finding.rule for finding in judge(world)]
+    return [finding.rule for finding in lint(world)]
 
 
 def world_of(link, *joints, links=(), step=0.001, **options):
@@ -71,7 +71,7 @@ def test_bad_masses_and_unsupported_bodies_are_found(link, rule):
 
 
 def test_a_finding_has_place_reason_and_advice():
-    finding = judge(world_of(solid(Sphere(0.1), 1.0, 4.0, 4.0, 4.0)))[0]
+    finding = lint(world_of(solid(Sphere(0.1), 1.0, 4.0, 4.0, 4.0)))[0]
     assert finding.source == HERE
     assert "1,000 times" in finding.message
     assert finding.why
@@ -171,7 +171,7 @@ def test_sensors_that_can_see_nothing_are_found():
 def test_plugins_that_name_missing_joints_are_found():
     plugin = scenes.drive_plugin(leftJoint="wheel_left_jnt")
     model = dataclasses.replace(scenes.burger(), plugins=(plugin,))
-    found = [f for f in judge(World(models=(model,))) if f.rule == "plugin-joint"]
+    found = [f for f in lint(World(models=(model,))) if f.rule == "plugin-joint"]
     assert len(found) == 1
     assert found[0].hint == "did you mean 'wheel_left_joint'?"
 

@@ -1,0 +1,24 @@
+"""Look through a description as an experienced engineer would, beyond what a reader must refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from gazelle.description import World
+from gazelle.formats.lint import inertias, joints, plugins, sensors, worlds
+from gazelle.formats.lint.diagnostic import Diagnostic
+
+_RULES: tuple[Callable[[World], Iterable[Diagnostic]], ...] = (
+    inertias.lint,
+    joints.lint,
+    sensors.lint,
+    plugins.lint,
+    worlds.lint,
+)
+
+__all__ = ["Diagnostic", "lint"]
+
+
+def lint(world: World) -> list[Diagnostic]:
+    """Everything about a world that deserves a second look, room by room."""
+    return [finding for rule in _RULES for finding in rule(world)]
