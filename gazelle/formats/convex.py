@@ -72,12 +72,14 @@ class Pieces:
         gap: How far from the mesh a surface of the pieces may be [m]; inwards of a closed
             body, and up to a centimetre behind sheets, does not count.
         promised: What the gap is, unless the mesh is too rough for that [m].
+        closed: Whether the mesh has an inside.
     """
 
     solids: tuple[MeshData, ...]
     whole: bool
     gap: float
     promised: float
+    closed: bool
 
 
 def convex_pieces(mesh: MeshData, *, static: bool = False) -> list[MeshData]:
@@ -113,18 +115,20 @@ def _made(key: str, mesh: MeshData, *, static: bool) -> Pieces:
         if len(mesh.faces) > _LARGE or _SPENT["seconds"] > _PATIENCE:
             _LOG.info("cutting a mesh of %d triangles into convex pieces", len(mesh.faces))
         start = time.perf_counter()
-        stored = _cut(clean(mesh.vertices, mesh.faces), static=static)
+        surface = clean(mesh.vertices, mesh.faces)
+        closed = surface.is_closed() and surface.volume > 0.0
+        stored = (*_cut(surface, static=static), closed)
         spent = time.perf_counter() - start
         _SPENT["seconds"] += spent
         if spent > SLOW:
-            piece_cache.store(key, *stored)
-    solids, whole, gap = stored
+            piece_cache.store(key, stored)
+    solids, whole, gap, closed = stored
     for vertices, faces in solids:
         vertices.setflags(write=False)
         faces.setflags(write=False)
     size = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     promised = PROMISED if static else _promised(size)
-    return Pieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised)
+    return Pieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised, closed)
 
 
 def _promised(size: float) -> float:

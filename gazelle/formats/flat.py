@@ -1,274 +1,368 @@
 """The triangles of a surface joined to nearly flat, nearly convex polygons.
 
-Edges between triangles are taken out one after another, as long as what is left around them
-stays convex: Hertel, Mehlhorn, "Fast triangulation of simple polygons", Fundamentals of
-Computation Theory (1983). Here the polygons lie in space. Each has the plane of its largest
-triangle, from which its corners may be off by a tolerance, and notches of that depth are filled.
+Edges between triangles are taken out as long as what is left around them stays convex: Hertel,
+Mehlhorn, "Fast triangulation of simple polygons", Fundamentals of Computation Theory (1983). Here
+the polygons lie in space. Each has the plane of one of its triangles. Across it all vertices of
+all of its triangles lie within a tolerance, and notches of that depth are filled.
+
+Edges are taken out in rounds: of those left each polygon has a best, and one that is the best
+of both of its polygons is tried. No two of a round touch the same polygon, so that a round is a
+few operations on arrays (Luby, "A simple parallel algorithm for the maximal independent set
+problem", SIAM Journal on Computing 15, 1986).
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Indices
-from gazelle.formats.hull import planar_hull
+from gazelle.array_types import Bools, Floats, Indices
+from gazelle.formats.outlines import Planar, filled, hull_rows
 from gazelle.formats.surface import Surface, twins_of
 
+_CELL = 8.0
+"""Of the cells of which polygons are parts at first, in tolerances."""
 _COSINE = 0.8
 """Of the angle that two polygons that are joined may make."""
-
-Point = tuple[float, float, float]
-Flat = tuple[float, float]
+_SWEEPS = 3
+"""Times that polygons without a partner look for one in a round."""
+_STRAIGHT = 1e-9
+"""Depth over length of a notch that is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
-class Polygon:
-    """A polygon on a surface.
+class Rims:
+    """The polygons on a surface.
 
     Attributes:
-        rim: Its corners as vertices of the surface, counter-clockwise from outside; those in
-            notches that are filled are left out.
-        normal: Of its plane.
-        face: One of its triangles.
+        vertices: The corners of one after the other as vertices of the surface, counter-clockwise
+            from outside; those in notches that are filled are left out, shape (n,).
+        sizes: Corners of each, shape (k,).
+        normals: Of their planes, shape (k, 3).
+        faces: One triangle of each, shape (k,).
+        owners: The polygon of each triangle of the surface, shape (m,).
     """
 
-    rim: list[int]
-    normal: Point
-    face: int
+    vertices: Indices
+    sizes: Indices
+    normals: Floats
+    faces: Indices
+    owners: Indices
+
+    @property
+    def rows(self) -> Indices:
+        """Which polygon each corner belongs to, shape (n,)."""
+        return np.repeat(np.arange(len(self.sizes)), self.sizes)
 
 
 class Polygons:
     """The polygons of a surface, at first its triangles.
 
-    Half-edge 3 f + i of triangle f runs from its corner i to the next. The lists are by
-    half-edge or by triangle; a polygon goes by one of its triangles.
+    Half-edge 3 f + i of triangle f runs from its corner i to the next. A polygon goes by the
+    triangle whose plane it has.
+
+    Attributes:
+        surface: Whose triangles they are.
+        count: How many there are.
     """
 
     def __init__(self, surface: Surface) -> None:
         self.surface = surface
-        count = len(surface.faces)
-        self._points: list[Point] = list(map(tuple, surface.vertices.tolist()))
-        self._tail: list[int] = surface.faces.ravel().tolist()
-        rows = np.arange(3 * count).reshape(-1, 3)
-        self._next: list[int] = np.roll(rows, -1, axis=1).ravel().tolist()
-        self._before: list[int] = np.roll(rows, 1, axis=1).ravel().tolist()
-        twins = twins_of(surface)
-        self._twin: list[int] = twins.tolist()
-        self._gone = bytearray(3 * count)
-        self._owner = list(range(count))
-        self._normal: list[Point] = list(map(tuple, surface.normals.tolist()))
-        self._area: list[float] = surface.areas.tolist()
-        self._start = list(range(0, 3 * count, 3))
-        self._sides = [3] * count
-        self._notched = bytearray(count)
-        self.count = count
-        self._edges, self._flat = _candidates(surface, twins)
+        self.count = len(surface.faces)
+        rows = np.arange(3 * self.count).reshape(-1, 3)
+        self._tail = surface.faces.ravel()
+        self._next = np.roll(rows, -1, axis=1).ravel()
+        self._before = np.roll(rows, 1, axis=1).ravel()
+        self._twin = twins_of(surface)
+        self._gone = np.zeros(3 * self.count, bool)
+        self._label = np.arange(self.count)
+        self._start = 3 * np.arange(self.count)
+        self._area = surface.areas.copy()
+        self._notched = np.zeros(self.count, bool)
+        self._low = np.zeros(self.count)
+        self._high = np.zeros(self.count)
+        self._edges, self._flat = _candidates(surface, self._twin)
 
     def join(self, tolerance: float, *, notches: bool) -> None:
-        """Take out edges, the flattest and longest first.
+        """Take out edges until none is left that may be.
 
         Args:
-            tolerance: How far corners may be off their polygon's plane [m].
+            tolerance: How far the vertices of a polygon may be apart across its plane [m].
             notches: Whether notches of that depth are filled.
         """
-        near = self._flat <= tolerance
-        for edge in self._edges[near].tolist():
-            if not self._gone[edge]:
-                self._take_out(edge, tolerance, tolerance if notches else 0.0)
-        kept = np.frombuffer(self._gone, np.uint8)[self._edges] == 0
+        depth = tolerance if notches else 0.0
+        edges = self._edges[self._flat <= tolerance]
+        everywhere = cells = np.zeros(len(self._label), np.intp)
+        if notches:  # polygons that end where others do fit together without notches
+            places = self.surface.vertices[self.surface.faces[:, 0]] / (_CELL * tolerance)
+            cells = np.unique(np.floor(places), axis=0, return_inverse=True)[1].ravel()
+        longest, level = self._kinds(edges)  # so do halves of quadrangles, and strips of those
+        self._join_within(edges[longest], everywhere, tolerance, depth)
+        self._join_within(edges[level], cells, tolerance, depth)
+        self._join_within(edges, cells, tolerance, depth)
+        if notches:
+            self._join_within(edges, everywhere, tolerance, depth)
+        kept = ~self._gone[self._edges]
         self._edges, self._flat = self._edges[kept], self._flat[kept]
 
-    def polygons(self) -> list[Polygon]:
-        """What there is now."""
-        found = []
-        for face in range(len(self._owner)):
-            if self._owner[face] != face:
-                continue
-            rim = [self._tail[edge] for edge in self._ring(face)]
-            if self._notched[face]:
-                rim = [rim[i] for i in planar_hull(self._level(rim, self._normal[face]))]
-            found.append(Polygon(rim, self._normal[face], face))
-        return found
+    def _join_within(self, edges: Indices, cells: Indices, tolerance: float, depth: float) -> None:
+        """Take out edges between polygons of the same cell, in rounds.
 
-    def owner(self, face: int) -> int:
-        """The triangle that stands for the polygon that a triangle is part of."""
-        owner = self._owner
-        while owner[face] != face:
-            owner[face] = owner[owner[face]]
-            face = owner[face]
-        return face
-
-    def _take_out(self, edge: int, tolerance: float, depth: float) -> None:
-        """Join the polygons on both sides of an edge, if they may be."""
-        nxt, before, twin = self._next, self._before, self._twin
-        one, two = self.owner(edge // 3), self.owner(twin[edge] // 3)
-        if one == two:
-            return
-        first = last = edge  # of all edges in a row between the two
-        while twin[before[first]] == nxt[twin[first]] and before[first] != edge:
-            first = before[first]
-        while twin[nxt[last]] == before[twin[last]] and nxt[last] != first:
-            last = nxt[last]
-        enter, leave = before[first], nxt[twin[first]]
-        enter_back, leave_back = before[twin[last]], nxt[last]
-        if enter == last or leave == twin[last]:
-            return  # one goes all around the other
-        small, large = (one, two) if self._area[one] < self._area[two] else (two, one)
-        normal = self._normal[large]
-        if not self._is_near(small, large, tolerance):
-            return
-        notch = max(self._notch(enter, leave, normal), self._notch(enter_back, leave_back, normal))
-        if notch > depth:
-            return
-        uneven = notch > 0.0 or self._notched[one] or self._notched[two]
-        if uneven and not self._fills(
-            [*self._path(leave_back, first), *self._path(leave, twin[last])], normal, depth
-        ):
-            return
-        self._remove(first, last)
-        nxt[enter], before[leave] = leave, enter
-        nxt[enter_back], before[leave_back] = leave_back, enter_back
-        self._owner[small] = large
-        self._area[large] += self._area[small]
-        self._start[large] = leave
-        self._notched[large] = bool(uneven)
-        self.count -= 1
-
-    def _remove(self, first: int, last: int) -> None:
-        edge = first
-        while True:
-            self._gone[edge] = self._gone[self._twin[edge]] = 1
-            if edge == last:
-                return
-            edge = self._next[edge]
-
-    def _ring(self, face: int) -> list[int]:
-        start = self._start[face]
-        return [start, *self._path(self._next[start], start)]
-
-    def _path(self, edge: int, end: int) -> list[int]:
-        """Half-edges from one on, without the last."""
-        found = []
-        while edge != end:
-            found.append(edge)
-            edge = self._next[edge]
-        return found
-
-    def _is_near(self, small: int, large: int, tolerance: float) -> bool:
-        """Whether a polygon's corners are near to the plane of another, that looks the same way."""
-        points, tail, nxt = self._points, self._tail, self._next
-        x, y, z = self._normal[large]
-        u, v, w = self._normal[small]
-        if x * u + y * v + z * w < _COSINE:
-            return False
-        a, b, c = points[tail[3 * large]]
-        level = a * x + b * y + c * z
-        edge = start = self._start[small]
-        while True:
-            a, b, c = points[tail[edge]]
-            if abs(a * x + b * y + c * z - level) > tolerance:
-                return False
-            edge = nxt[edge]
-            if edge == start:
-                return True
-
-    def _notch(self, enter: int, leave: int, normal: Point) -> float:
-        """How deep a corner lies below the straight line past it [m]; 0 for one that stands out."""
-        points, tail, nxt = self._points, self._tail, self._next
-        ax, ay, az = points[tail[enter]]
-        bx, by, bz = points[tail[leave]]
-        cx, cy, cz = points[tail[nxt[leave]]]
-        ux, uy, uz = bx - ax, by - ay, bz - az
-        vx, vy, vz = cx - bx, cy - by, cz - bz
-        nx, ny, nz = normal
-        turn = nx * (uy * vz - uz * vy) + ny * (uz * vx - ux * vz) + nz * (ux * vy - uy * vx)
-        if turn >= 0.0:
-            return 0.0
-        across = math.sqrt((ux + vx) ** 2 + (uy + vy) ** 2 + (uz + vz) ** 2)
-        if across <= 0.0:
-            return math.inf
-        depth = -turn / across
-        straight = ux * vx + uy * vy + uz * vz > 0.0
-        return 0.0 if straight and depth < 1e-9 * across else depth
-
-    def _fills(self, edges: list[int], normal: Point, depth: float) -> bool:
-        """Whether no corner of a polygon lies deeper in its hull than this.
-
-        In plain numbers: for a dozen corners they are five times as fast as NumPy.
+        What may not be taken out waits until one of its polygons has grown.
         """
-        (ax, ay, az), (bx, by, bz) = _across(normal)
-        points, tail = self._points, self._tail
-        flat = []
-        for edge in edges:
-            x, y, z = points[tail[edge]]
-            flat.append((x * ax + y * ay + z * az, x * bx + y * by + z * bz))
-        hull = _hull(sorted(flat))
-        if len(hull) < 3:
-            return False
-        corners = set(hull)
-        deep = [point for point in flat if point not in corners]
-        return all(_is_within(x, y, hull, depth) for x, y in deep)
+        waiting = edges[:0]
+        while True:
+            pairs = self._pairs(edges, cells)
+            notch = self._notches(pairs)
+            may = (notch <= depth) & self._alike(pairs)
+            if not may.any():
+                break
+            waiting = np.concatenate([waiting, pairs.first[~may]])
+            pairs, notch = pairs.only(may), notch[may]
+            rows = self._ranked(pairs)
+            rows = rows[_apart(pairs.small[rows], pairs.large[rows], len(self._label))]
+            grown = self._take_out(pairs.only(rows), notch[rows] > 0.0, tolerance, depth)
+            changed = np.zeros(len(self._label), bool)
+            changed[grown] = True
+            one, two = self._label[waiting // 3], self._label[self._twin[waiting] // 3]
+            woken = changed[one] | changed[two]
+            edges = np.concatenate([np.delete(pairs.first, rows), waiting[woken]])
+            waiting = waiting[~woken]
 
-    def _level(self, vertices: list[int], normal: Point) -> Floats:
-        """Vertices in the plane of a normal, shape (n, 2)."""
-        flat: Floats = np.array([self._points[v] for v in vertices]) @ plane(np.array(normal)).T
-        return flat
+    def rims(self) -> Rims:
+        """What there is now; a polygon may have no more than two corners left."""
+        faces = np.flatnonzero(self._label == np.arange(len(self._label)))
+        number = np.empty(len(self._label), np.intp)
+        number[faces] = np.arange(len(faces))
+        edges, rows = self._rings(faces)
+        vertices = self._tail[edges]
+        uneven = self._notched[faces][rows]
+        kept = np.ones(len(vertices), bool)
+        if uneven.any():
+            kept[uneven] = hull_rows(self._planar(vertices[uneven], rows[uneven], faces))
+        sizes = np.bincount(rows[kept], minlength=len(faces))
+        normals = self.surface.normals[faces]
+        return Rims(vertices[kept], sizes, normals, faces, number[self._label])
+
+    def _pairs(self, edges: Indices, cells: Indices) -> _Pairs:
+        """The pairs of polygons on both sides of edges; one for each row of edges between them."""
+        nxt, before, twin, label = self._next, self._before, self._twin, self._label
+        one, two = label[edges // 3], label[twin[edges] // 3]
+        apart = (one != two) & ~self._gone[edges] & (cells[one] == cells[two])
+        edges, one, two = edges[apart], one[apart], two[apart]
+        edges = np.where(one < two, edges, twin[edges])
+        first = edges.copy()
+        rows = np.arange(len(edges))
+        while len(rows):
+            back = before[first[rows]]
+            on = (twin[back] == nxt[twin[first[rows]]]) & (back != edges[rows])
+            rows, back = rows[on], back[on]
+            first[rows] = back
+        seen = np.zeros(len(nxt), bool)
+        seen[first] = True
+        first = np.flatnonzero(seen)
+        last = first.copy()
+        rows = np.arange(len(first))
+        while len(rows):
+            after = nxt[last[rows]]
+            on = (twin[after] == before[twin[last[rows]]]) & (after != first[rows])
+            rows, after = rows[on], after[on]
+            last[rows] = after
+        one, two = label[first // 3], label[twin[first] // 3]
+        swapped = self._area[one] < self._area[two]
+        small, large = np.where(swapped, one, two), np.where(swapped, two, one)
+        leave, enter_back = nxt[twin[first]], before[twin[last]]
+        return _Pairs(small, large, first, last, before[first], leave, enter_back, nxt[last])
+
+    def _alike(self, pairs: _Pairs) -> Bools:
+        """Whether the polygons look the same way, and none goes all around the other."""
+        normals = self.surface.normals
+        along = np.einsum("ij,ij->i", normals[pairs.small], normals[pairs.large])
+        around = (pairs.enter == pairs.last) | (pairs.leave == self._twin[pairs.last])
+        return np.asarray((along >= _COSINE) & ~around)
+
+    def _kinds(self, edges: Indices) -> tuple[Bools, Bools]:
+        """Which edges are the longest of both triangles, and which run one way in their planes."""
+        along = self.surface.vertices[self.surface.faces]
+        along = np.roll(along, -1, axis=1) - along
+        lengths = np.einsum("ijk,ijk->ij", along, along)
+        longest = lengths.ravel() >= (1.0 - _STRAIGHT) * np.repeat(lengths.max(axis=1), 3)
+        u, v = across(self.surface.normals[edges // 3])
+        ways = along.reshape(-1, 3)[edges]
+        level = np.abs(np.einsum("ij,ij->i", ways, u)) < np.abs(np.einsum("ij,ij->i", ways, v))
+        return longest[edges] & longest[self._twin[edges]], level
+
+    def _ranked(self, pairs: _Pairs) -> Indices:
+        """Rows of pairs, those first that are small and join along much of their rims."""
+        ends = self.surface.vertices[self._tail[np.stack([pairs.first, pairs.leave_back])]]
+        seam = np.einsum("ij,ij->i", ends[1] - ends[0], ends[1] - ends[0])
+        area = self._area[pairs.small] + self._area[pairs.large]
+        # Where all are alike, as in a grid, few would be the best of both of their polygons.
+        noise = np.random.default_rng(0).uniform(0.99, 1.01, len(seam))
+        return np.argsort(noise * area / np.maximum(seam, 1e-300), kind="stable")
+
+    def _take_out(self, pairs: _Pairs, uneven: Bools, tolerance: float, depth: float) -> Indices:
+        """Join pairs of polygons that may be; no polygon is there twice. Those that grew."""
+        low, high = self._heights(pairs)
+        near = high - low <= tolerance
+        pairs, uneven, low, high = pairs.only(near), uneven[near], low[near], high[near]
+        uneven |= self._notched[pairs.small] | self._notched[pairs.large]
+        if uneven.any():
+            fits = ~uneven
+            fits[uneven] = self._fills(pairs.only(uneven), depth)
+            pairs, uneven, low, high = pairs.only(fits), uneven[fits], low[fits], high[fits]
+        self._low[pairs.large], self._high[pairs.large] = low, high
+        removed, _ = self._walk(pairs.first, self._next[pairs.last])
+        self._gone[removed] = self._gone[self._twin[removed]] = True
+        self._next[pairs.enter], self._before[pairs.leave] = pairs.leave, pairs.enter
+        self._next[pairs.enter_back] = pairs.leave_back
+        self._before[pairs.leave_back] = pairs.enter_back
+        parent = np.arange(len(self._label))
+        parent[pairs.small] = pairs.large
+        self._label = parent[self._label]
+        self._area[pairs.large] += self._area[pairs.small]
+        self._start[pairs.large] = pairs.leave
+        self._notched[pairs.large] = uneven
+        self.count -= len(pairs.small)
+        return pairs.large
+
+    def _heights(self, pairs: _Pairs) -> tuple[Floats, Floats]:
+        """Between which heights over the larger ones' planes the vertices of both are [m]."""
+        partner = np.full(len(self._label), -1)
+        partner[pairs.small] = pairs.large
+        other = partner[self._label]
+        rows = np.flatnonzero(other >= 0)
+        other = other[rows]
+        corners = self.surface.vertices[self.surface.faces[rows]]
+        base = self.surface.vertices[self.surface.faces[other, 0]]
+        heights = np.einsum("ijk,ik->ij", corners - base[:, None], self.surface.normals[other])
+        low, high = self._low.copy(), self._high.copy()
+        np.minimum.at(low, other, heights.min(axis=1))
+        np.maximum.at(high, other, heights.max(axis=1))
+        return low[pairs.large], high[pairs.large]
+
+    def _notches(self, pairs: _Pairs) -> Floats:
+        """How deep the corners at the ends of seams lie below straight lines past them [m]."""
+        normals = self.surface.normals[pairs.large]
+        return np.maximum(
+            self._notch(pairs.enter, pairs.leave, normals),
+            self._notch(pairs.enter_back, pairs.leave_back, normals),
+        )
+
+    def _notch(self, enter: Indices, leave: Indices, normals: Floats) -> Floats:
+        """How deep each corner lies below the straight line past it [m]; 0 if it stands out."""
+        points, tail = self.surface.vertices, self._tail
+        u = points[tail[leave]] - points[tail[enter]]
+        v = points[tail[self._next[leave]]] - points[tail[leave]]
+        (x, y, z), (a, b, c), (d, e, f) = normals.T, u.T, v.T
+        turn = x * (b * f - c * e) + y * (c * d - a * f) + z * (a * e - b * d)
+        across = np.sqrt((a + d) ** 2 + (b + e) ** 2 + (c + f) ** 2)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            depth = np.where(across > 0.0, -turn / across, np.inf)
+        straight = (np.einsum("ij,ij->i", u, v) > 0.0) & (depth < _STRAIGHT * across)
+        return np.where((turn >= 0.0) | straight, 0.0, depth)
+
+    def _fills(self, pairs: _Pairs, depth: float) -> Bools:
+        """Whether no corner of joined polygons lies deeper in its hull than this."""
+        there, there_rows = self._walk(pairs.leave_back, pairs.first)
+        back, back_rows = self._walk(pairs.leave, self._twin[pairs.last])
+        edges, rows = np.concatenate([there, back]), np.concatenate([there_rows, back_rows])
+        order = np.argsort(rows, kind="stable")
+        edges, rows = edges[order], rows[order]
+        return filled(self._planar(self._tail[edges], rows, pairs.large), depth)
+
+    def _planar(self, vertices: Indices, rows: Indices, faces: Indices) -> Planar:
+        """Corners in the planes of their polygons, which go by these faces."""
+        points = self.surface.vertices[vertices]
+        flat = [np.einsum("ij,ij->i", points, u[rows]) for u in across(self.surface.normals[faces])]
+        return Planar(np.stack(flat, axis=1), rows, len(faces))
+
+    def _rings(self, faces: Indices) -> tuple[Indices, Indices]:
+        """The half-edges around polygons, one polygon after the other, and whose each is."""
+        start = self._start[faces]
+        edges, rows = self._walk(self._next[start], start)
+        edges, rows = np.concatenate([start, edges]), np.concatenate([np.arange(len(faces)), rows])
+        order = np.argsort(rows, kind="stable")
+        return edges[order], rows[order]
+
+    def _walk(self, edges: Indices, ends: Indices) -> tuple[Indices, Indices]:
+        """Half-edges from some on, without the last, and by which walk each was found."""
+        found, walks = [edges[:0]], [edges[:0]]
+        rows = np.flatnonzero(edges != ends)
+        here = edges[rows]
+        while len(rows):
+            found.append(here)
+            walks.append(rows)
+            here = self._next[here]
+            on = here != ends[rows]
+            rows, here = rows[on], here[on]
+        return np.concatenate(found), np.concatenate(walks)
 
 
-def plane(normal: Floats) -> Floats:
-    """Two unit vectors across the normal, shape (2, 3), right-handed with it."""
-    x, y, z = normal.tolist()
-    return np.array(_across((x, y, z)))
+@dataclass(frozen=True, slots=True)
+class _Pairs:
+    """Two polygons each that may be joined, and the half-edges of one around the seam.
+
+    Attributes:
+        small: The polygon of less area, shape (n,).
+        large: The other, whose plane they keep.
+        first: Half-edge of the seam.
+        last: Half-edge of the seam.
+        enter: Before the first.
+        leave: After the twin of the first.
+        enter_back: Before the twin of the last.
+        leave_back: After the last.
+    """
+
+    small: Indices
+    large: Indices
+    first: Indices
+    last: Indices
+    enter: Indices
+    leave: Indices
+    enter_back: Indices
+    leave_back: Indices
+
+    def only(self, rows: NDArray[Any]) -> _Pairs:
+        """Some of them."""
+        return _Pairs(*(getattr(self, each.name)[rows] for each in fields(self)))
 
 
-def _across(normal: Point) -> tuple[Point, Point]:
-    x, y, z = normal
-    if abs(x) <= abs(y) and abs(x) <= abs(z):
-        u, v, w = 0.0, -z, y
-    elif abs(y) <= abs(z):
-        u, v, w = z, 0.0, -x
-    else:
-        u, v, w = -y, x, 0.0
-    size = math.sqrt(u * u + v * v + w * w)
-    u, v, w = u / size, v / size, w / size
-    return (u, v, w), (y * w - z * v, z * u - x * w, x * v - y * u)
+def _apart(one: Indices, two: Indices, count: int) -> Indices:
+    """Rows of ranked pairs of which no two share a polygon, the first of each polygon first."""
+    found = []
+    rows = np.arange(len(one))
+    best = np.empty(count, np.intp)
+    taken = np.zeros(count, bool)
+    for _ in range(_SWEEPS):
+        ends = np.stack([two[rows], one[rows]], axis=1).ravel()
+        best[ends[::-1]] = np.repeat(rows, 2)[::-1]  # the first of each is written last
+        chosen = rows[(best[one[rows]] == rows) & (best[two[rows]] == rows)]
+        found.append(chosen)
+        taken[one[chosen]] = taken[two[chosen]] = True
+        rows = rows[~(taken[one[rows]] | taken[two[rows]])]
+        if not len(rows):
+            break
+    return np.concatenate(found)
 
 
-def _hull(points: list[Flat]) -> list[Flat]:
-    """The corners of the hull of sorted points, counter-clockwise."""
-    chains = []
-    for order in (points, points[::-1]):
-        chain: list[Flat] = []
-        for point in order:
-            x, y = point
-            while len(chain) >= 2:
-                (a, b), (c, d) = chain[-2], chain[-1]
-                if (c - a) * (y - b) - (d - b) * (x - a) > 0.0:
-                    break
-                chain.pop()
-            chain.append(point)
-        chains.append(chain)
-    return chains[0][:-1] + chains[1][:-1]
-
-
-def _is_within(x: float, y: float, hull: list[Flat], depth: float) -> bool:
-    """Whether a point in a hull is near to one of its sides."""
-    a, b = hull[-1]
-    for c, d in hull:
-        u, v = c - a, d - b
-        if u * (y - b) - v * (x - a) <= depth * math.sqrt(u * u + v * v):
-            return True
-        a, b = c, d
-    return False
+def across(normals: Floats) -> tuple[Floats, Floats]:
+    """Two unit vectors across each normal, shapes (n, 3), right-handed with it."""
+    least = np.abs(normals).argmin(axis=1)
+    axes = np.eye(3)[least]
+    first = np.cross(axes, normals)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second: Floats = np.cross(normals, first)
+    return first, second
 
 
 def _candidates(surface: Surface, twins: Indices) -> tuple[Indices, Floats]:
     """Half-edges between two triangles, one of each pair, and how far those are from flat [m].
 
-    The flattest and longest come first; what is flat but for rounding counts as flat.
+    What is flat but for rounding counts as flat.
     """
     edges = np.flatnonzero(twins > np.arange(len(twins)))
     one, two = edges // 3, twins[edges] // 3
@@ -288,6 +382,4 @@ def _candidates(surface: Surface, twins: Indices) -> tuple[Indices, Floats]:
     flat[np.einsum("ij,ij->i", surface.normals[one], surface.normals[two]) < _COSINE] = np.inf
     rounding = 1e-6 * surface.size
     flat[flat <= rounding] = 0.0
-    length = np.linalg.norm(ends[twins[edges]] - base, axis=1)
-    order = np.lexsort((-length, np.ceil(np.log2(np.maximum(flat, rounding) / rounding))))
-    return edges[order], flat[order]
+    return edges, flat

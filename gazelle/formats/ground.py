@@ -43,13 +43,15 @@ def ground_of(mesh: MeshData) -> Ground | None:
     """The heights of a mesh; None if it has few triangles, or is not ground."""
     if len(mesh.faces) < FEWEST:
         return None
+    if not _one_sided(mesh):
+        return None
     surface = clean(mesh.vertices, mesh.faces)
     low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
     span = high - low
     up = surface.normals[:, 2]
     area = float((surface.areas * np.abs(up)).sum())
-    one_sided = bool((up > 0.0).all() or (up < 0.0).all())
-    if not one_sided or abs(area - span[0] * span[1]) > _COVERED * area:
+    level = bool((up > 0.0).all() or (up < 0.0).all())
+    if not level or abs(area - span[0] * span[1]) > _COVERED * area:
         return None
     columns, rows = _nodes(surface, span)
     x, y = np.meshgrid(np.linspace(low[0], high[0], columns), np.linspace(low[1], high[1], rows))
@@ -71,6 +73,14 @@ def ground_of(mesh: MeshData) -> Ground | None:
     gaps = [float(np.abs(each - places[:, 2]).max()) for each in _between(heights, at)]
     corner, end = (float(low[0]), float(low[1])), (float(high[0]), float(high[1]))
     return Ground(heights, corner, end, (gaps[0], gaps[1]))
+
+
+def _one_sided(mesh: MeshData) -> bool:
+    """Whether no two triangles clearly look up and down: a quick look at what needs no more."""
+    (ax, ay), (bx, by), (cx, cy) = (mesh.vertices[mesh.faces[:, i], :2].T for i in range(3))
+    up = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    least = 1e-6 * float(np.abs(up).max())
+    return not bool((up > least).any() and (up < -least).any())
 
 
 def _nodes(surface: Surface, span: Floats) -> tuple[int, int]:

@@ -6,18 +6,20 @@ half of what is there at most; behind a sheet by a skin.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.formats.flat import Polygon, Polygons
+from gazelle.formats.flat import Polygons, Rims
 from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import Surface
 
-FINE = 5e-3
+FINE = 7e-3
 """How far solids may be off a surface before there are as many as it takes [m]."""
 MOST_PATCHES = 20_000
 """Solids from which on they are coarser than that."""
@@ -26,7 +28,9 @@ _FEW = 4000
 """Solids up to which they follow the surface exactly."""
 _ROUNDING = 1e-6
 """What counts as flat, as a share of the size."""
-_FIRST = (5e-4, 2e-3, 5e-3)
+_MANY = 40_000
+"""Polygons from which on only the last tolerance is tried."""
+_FIRST = (5e-4, 2e-3)
 """Tolerances that are tried first [m]."""
 _SKIN = (1e-3, 1e-2)
 """Least and greatest thickness of what is open behind [m]."""
@@ -72,50 +76,64 @@ def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
         closed: Whether each triangle belongs to the surface of a closed body, shape (m,).
     """
     surface, gap = joined.surface, _ROUNDING * joined.surface.size
-    for tolerance, most in _tolerances(surface.size):
+    for tolerance, most in _tolerances(surface.size, joined.count):
         if joined.count > most:
-            joined.join(tolerance, notches=most > _FEW)
-            gap += tolerance
-    polygons = joined.polygons()
-    depths = _depths(joined, polygons, closed)
-    solids = [
-        prism(surface.vertices[polygon.rim], depth * np.array(polygon.normal))
-        for polygon, depth in zip(polygons, depths.tolist(), strict=True)
-        if len(polygon.rim) >= 3  # a sliver has no hull
-    ]
+            joined.join(tolerance, notches=True)
+            gap = math.hypot(tolerance, tolerance)  # across the plane, and in a notch
+    rims = joined.rims()
+    depths = _depths(surface, rims, closed)
+    corners = np.split(surface.vertices[rims.vertices], np.cumsum(rims.sizes)[:-1])
+    wide = _widths(surface, rims) > _ROUNDING * surface.size  # what is not has no hull
+    thickness = depths[:, None] * rims.normals
+    solids = [prism(corners[row], thickness[row]) for row in np.flatnonzero(wide).tolist()]
     return Patches(solids, gap)
 
 
-def _tolerances(size: float) -> Iterator[tuple[float, int]]:
+def _tolerances(size: float, count: int) -> Iterator[tuple[float, int]]:
     """How far polygons may be off, and how many are needed for that to be allowed."""
-    yield from ((tolerance, _FEW) for tolerance in _FIRST if tolerance < 0.01 * size)
+    first = (*_FIRST, FINE) if count <= _MANY else (FINE,)
+    yield from ((tolerance, _FEW) for tolerance in first if tolerance < 0.01 * size)
     yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))
 
 
-def _depths(joined: Polygons, polygons: list[Polygon], closed: NDArray[np.bool_]) -> Floats:
-    """How thick each solid is [m]."""
-    surface = joined.surface
-    number = {polygon.face: row for row, polygon in enumerate(polygons)}
+def _widths(surface: Surface, rims: Rims) -> Floats:
+    """About how wide each polygon is at its middle [m], shape (k,); 0 if it has no three corners."""
+    widths = np.zeros(len(rims.sizes))
+    real = np.flatnonzero(rims.sizes)
+    starts = (np.cumsum(rims.sizes) - rims.sizes)[real]
+    points = surface.vertices[rims.vertices]
+    away = points - np.repeat(points[starts], rims.sizes[real], axis=0)
+    doubled = np.add.reduceat(np.cross(away, np.roll(away, -1, axis=0)), starts)
+    longest = np.sqrt(np.maximum.reduceat(np.einsum("ij,ij->i", away, away), starts))
+    area = np.einsum("ij,ij->i", doubled, rims.normals[real]) / 2.0
+    widths[real] = np.where(rims.sizes[real] >= 3, area / np.maximum(longest, 1e-300), 0.0)
+    return widths
+
+
+def _depths(surface: Surface, rims: Rims, closed: NDArray[np.bool_]) -> Floats:
+    """How thick each solid is [m], shape (k,)."""
     faces = np.arange(0, len(surface.faces), 1 + len(surface.faces) // _MOST_RAYS)
-    owners = [np.array([number[joined.owner(face)] for face in faces.tolist()])]
-    origins = [surface.vertices[surface.faces[faces]].mean(axis=1)]
-    rims = np.concatenate([polygon.rim for polygon in polygons])
-    sizes = np.array([len(polygon.rim) for polygon in polygons])
-    of_rim = np.repeat(np.arange(len(polygons)), sizes)
-    middles = np.stack(
-        [np.bincount(of_rim, surface.vertices[rims, axis]) / sizes for axis in range(3)], axis=1
+    of_rim, count = rims.rows, len(rims.sizes)
+    middles = (
+        np.stack(
+            [
+                np.bincount(of_rim, surface.vertices[rims.vertices, axis], count)
+                for axis in range(3)
+            ],
+            axis=1,
+        )
+        / np.maximum(rims.sizes, 1)[:, None]
     )
-    some = np.arange(0, len(rims), 1 + len(rims) // _MOST_RAYS)
-    owners.append(of_rim[some])
-    corners = surface.vertices[rims[some]]
-    origins.append(corners + _INSET * (middles[owners[1]] - corners))
-    rows = np.concatenate(owners)
-    inwards = -np.array([polygon.normal for polygon in polygons])[rows]
-    distance, leaves = first_hits(surface, np.concatenate(origins), inwards)
+    some = np.arange(0, len(of_rim), 1 + len(of_rim) // _MOST_RAYS)
+    corners = surface.vertices[rims.vertices[some]]
+    inset = corners + _INSET * (middles[of_rim[some]] - corners)
+    origins = np.concatenate([surface.vertices[surface.faces[faces]].mean(axis=1), inset])
+    rows = np.concatenate([rims.owners[faces], of_rim[some]])
+    distance, leaves = first_hits(surface, origins, -rims.normals[rows])
     skin = float(np.clip(0.01 * surface.size, *_SKIN))
-    body = closed[[polygon.face for polygon in polygons]][rows] & leaves
+    body = closed[rims.faces][rows] & leaves
     room = np.minimum(distance / 2.0, np.where(body, _DEEPEST, skin))
-    depths = np.full(len(polygons), _DEEPEST)
+    depths = np.full(count, _DEEPEST)
     np.minimum.at(depths, rows, room)
     thickness: Floats = np.maximum(depths, min(_THINNEST, skin))
     return thickness
@@ -126,7 +144,12 @@ def prism(rim: Floats, thickness: Floats) -> Solid:
 
     The thickness is a vector that points out of the polygon [m].
     """
-    count = len(rim)
+    return np.concatenate([rim, rim - thickness]), _prism_faces(len(rim))
+
+
+@lru_cache(maxsize=256)
+def _prism_faces(count: int) -> NDArray[np.int32]:
+    """Triangles of a prism over so many corners, those of the other end after them."""
     here = np.arange(count, dtype=np.int32)
     after = np.roll(here, -1)
     fan = np.stack([np.zeros(count - 2, np.int32), here[1:-1], here[2:]], axis=1)
@@ -137,4 +160,5 @@ def prism(rim: Floats, thickness: Floats) -> Solid:
         ]
     )
     faces = np.concatenate([fan, fan[:, ::-1] + count, sides]).astype(np.int32)
-    return np.concatenate([rim, rim - thickness]), faces
+    faces.setflags(write=False)
+    return faces

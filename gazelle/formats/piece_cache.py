@@ -11,10 +11,10 @@ import numpy as np
 
 from gazelle.formats.patches import Solid
 
-Stored = tuple[list[Solid], bool, float]
-"""Pieces, whether the one is the whole mesh, and how far they are off it [m]."""
+Stored = tuple[list[Solid], bool, float, bool]
+"""Pieces, whether the one is the whole mesh, how far they are off it [m], whether it is closed."""
 
-VERSION = 2
+VERSION = 3
 """Of the rules that cut meshes up: files of another are not used."""
 
 
@@ -36,11 +36,11 @@ def load(digest: str) -> Stored | None:
             vertices = np.asarray(data["vertices"], np.float64).reshape(-1, 3)
             faces = np.asarray(data["faces"], np.int32).reshape(-1, 3)
             ends = np.asarray(data["ends"], np.int64).reshape(-1, 2)
-            whole, gap = bool(data["whole"]), float(data["gap"])
+            whole, gap, closed = bool(data["whole"]), float(data["gap"]), bool(data["closed"])
     except Exception:  # noqa: BLE001  # a damaged file may raise anything; it is made anew
         return None
     solids = _split(vertices, faces, ends)
-    return None if solids is None else (solids, whole, gap)
+    return None if solids is None else (solids, whole, gap, closed)
 
 
 def _split(
@@ -59,8 +59,9 @@ def _split(
     return solids if np.isfinite(vertices).all() else None
 
 
-def store(digest: str, solids: list[Solid], whole: bool, gap: float) -> None:  # noqa: FBT001  # as ``Stored``
+def store(digest: str, pieces: Stored) -> None:
     """Keep the pieces of a mesh; nothing happens where the folder cannot be written."""
+    solids, whole, gap, closed = pieces
     if not solids:
         return
     counts = [(len(points), len(triangles)) for points, triangles in solids]
@@ -69,13 +70,14 @@ def store(digest: str, solids: list[Solid], whole: bool, gap: float) -> None:  #
         handle, name = tempfile.mkstemp(dir=folder(), suffix=".tmp")
         try:
             with os.fdopen(handle, "wb") as file:
-                np.savez_compressed(
+                np.savez(
                     file,
                     vertices=np.concatenate([points for points, _ in solids]),
                     faces=np.concatenate([triangles for _, triangles in solids]),
                     ends=np.cumsum(counts, axis=0),
                     whole=whole,
                     gap=gap,
+                    closed=closed,
                 )
             Path(name).replace(_file(digest))
         except BaseException:

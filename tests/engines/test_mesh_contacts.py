@@ -173,3 +173,26 @@ def closest(mesh, point):
     distances = np.linalg.norm(places - point, axis=1)
     row = int(distances.argmin())
     return places[row], float(distances[row]), row
+
+
+@pytest.mark.parametrize("width", [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4])
+def test_slivers_of_a_mesh_do_no_harm(tmp_path, width):
+    """Triangles as thin as rounding, as exporters leave them along edges, have no hull."""
+    wall = house()
+    chance = np.random.default_rng(2)
+    slivers = []
+    for _ in range(30):
+        start = chance.uniform((0.0, 0.0, 0.5), (6.0, 1.0, 2.5))
+        end = start + np.eye(3)[1] * chance.uniform(1.0, 3.0)
+        middle = start + 0.7 * (end - start) + np.array([0.0, 0.0, width])
+        slivers.append(trimesh.Trimesh([start, end, middle], [[0, 1, 2]], process=False))
+    mesh = trimesh.util.concatenate([wall, *slivers])
+    text = trimesh.exchange.obj.export_obj(mesh, digits=12)  # STL has single precision
+    (tmp_path / "house.obj").write_text(text)
+    shape = Mesh("house.obj", tmp_path / "house.obj")
+    walls = scenes.solid("walls", shape, static=True)
+    ball = scenes.ball(pose=Pose(3.0, 2.0, 0.2))
+    engine = make_engine("mujoco", scenes.world(walls, ball))
+    for _ in range(600):
+        engine.step()
+    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=0.01)

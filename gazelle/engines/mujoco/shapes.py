@@ -9,7 +9,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -34,6 +34,9 @@ from gazelle.description import (
 )
 from gazelle.errors import EngineWarning, located
 from gazelle.formats.ground import Ground
+
+if TYPE_CHECKING:
+    from gazelle.formats.convex import Pieces
 
 CONTACT_GROUP = 2
 """Of what collides and is not seen by rays, since a mesh stands for it."""
@@ -93,10 +96,25 @@ class ShapeBuilder:
         pieces = decompose(load_mesh(shape), static=static)
         if pieces.gap > pieces.promised:
             _warn_of_gap(shape, pieces.gap, source)
-        return [
-            self.mesh_geom((_key_of(shape), static, number), piece.vertices, piece.faces, pose)
-            for number, piece in enumerate(pieces.solids)
-        ]
+        return self._piece_geoms((_key_of(shape), static), pieces, pose)
+
+    def _piece_geoms(self, key: Any, pieces: Pieces, pose: Pose) -> list[dict[str, Any]]:
+        """A geom of each piece, with its middle as origin: far from it MuJoCo's hull rounds."""
+        if not pieces.solids:
+            return []
+        kind = None if pieces.whole else _SHELL
+        sizes = [len(piece.vertices) for piece in pieces.solids]
+        starts = np.cumsum([0, *sizes[:-1]])
+        points = np.concatenate([piece.vertices for piece in pieces.solids])
+        middles = np.add.reduceat(points, starts) / np.array(sizes)[:, None]
+        local = np.split(points - np.repeat(middles, sizes, axis=0), starts[1:])
+        matrix = pose.matrix()
+        places = (middles @ matrix[:3, :3].T + matrix[:3, 3]).tolist()
+        geoms = []
+        for number, piece in enumerate(pieces.solids):
+            geom = self.mesh_geom((key, number), local[number], piece.faces, pose, kind)
+            geoms.append({**geom, "pos": places[number]})
+        return geoms
 
     def _ground(self, shape: Mesh) -> Ground | None:
         """The heights of a mesh that is ground, if they are near enough or it is too large."""
@@ -153,17 +171,14 @@ class ShapeBuilder:
             return None
         from gazelle.formats.convex import decompose
         from gazelle.formats.mesh import load_mesh
-        from gazelle.formats.surface import clean
 
-        data = load_mesh(shape)
-        ground = self._ground(shape) if static else None
-        if ground is None and decompose(data, static=static).whole:
-            return None
-        surface = clean(data.vertices, data.faces)
-        if not len(surface.faces):
-            return None
-        closed = surface.is_closed() and surface.volume > 0.0
-        geom = self._sheet_geom((_key_of(shape), "seen"), surface.vertices, surface.faces, pose)
+        data, closed = load_mesh(shape), False
+        if not static or self._ground(shape) is None:
+            pieces = decompose(data, static=static)
+            if pieces.whole or not pieces.solids:
+                return None
+            closed = pieces.closed
+        geom = self._sheet_geom((_key_of(shape), "seen"), data.vertices, data.faces, pose)
         untouched = {"contype": 0, "conaffinity": 0}
         return {"group": CLOSED_GROUP if closed else OPEN_GROUP, **untouched, **geom}
 

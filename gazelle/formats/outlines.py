@@ -1,0 +1,100 @@
+"""Many polygons in the plane at once: what of them is not convex, and how deep that is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.array_types import Bools, Floats, Indices
+
+_AT_ONCE = 2_000_000
+_ROUNDING = 1e-9
+"""Share of the squared length at which a turn counts as none."""
+_FULL = 1e-6
+"""What all turns of a convex polygon together may differ from one full turn by [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Planar:
+    """Polygons, each in a plane of its own, corners counter-clockwise.
+
+    Attributes:
+        points: Corners of one after the other [m], shape (n, 2).
+        rows: Whose each is, rising, shape (n,).
+        count: How many polygons there may be.
+    """
+
+    points: Floats
+    rows: Indices
+    count: int
+
+
+def hull_rows(polygons: Planar) -> Bools:
+    """Which corners those of the hulls are, shape (n,).
+
+    A corner that does not stand out of its polygon is none of the hull: such are left out until
+    there is none. That gives hulls where rims do not cross themselves.
+    """
+    kept = np.ones(len(polygons.points), bool)
+    left = np.arange(len(kept))
+    while len(left):
+        points, rows = polygons.points[left], polygons.rows[left]
+        before, after = _neighbours(rows)
+        u, v = points - points[before], points[after] - points
+        turn = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        least = _ROUNDING * (np.einsum("ij,ij->i", u, u) + np.einsum("ij,ij->i", v, v))
+        inside = turn <= least
+        if not inside.any():
+            break
+        kept[left[inside]] = False
+        changed = np.zeros(polygons.count, bool)
+        changed[rows[inside]] = True
+        left = left[changed[rows] & ~inside]
+    return kept
+
+
+def filled(polygons: Planar, depth: float) -> Bools:
+    """Whether all corners that are none of the hull are no deeper in it than this, shape (k,)."""
+    kept = hull_rows(polygons)
+    fits = _turns_once(polygons, kept)
+    points, rows = polygons.points[kept], polygons.rows[kept]
+    _, after = _neighbours(rows)
+    sides = np.bincount(rows, minlength=polygons.count)
+    starts = np.cumsum(sides) - sides
+    asked = np.flatnonzero(~kept & fits[polygons.rows])
+    for part in np.array_split(asked, 1 + int(sides[polygons.rows[asked]].sum()) // _AT_ONCE):
+        owner = polygons.rows[part]
+        size = sides[owner]
+        corner = np.repeat(np.arange(len(part)), size)
+        first = np.cumsum(size) - size
+        side = starts[owner][corner] + np.arange(len(corner)) - first[corner]
+        along = points[after[side]] - points[side]
+        away = polygons.points[part][corner] - points[side]
+        height = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
+        height /= np.hypot(along[:, 0], along[:, 1])
+        nearest = np.minimum.reduceat(height, first) if len(part) else height
+        fits[owner[nearest > depth]] = False
+    return fits
+
+
+def _turns_once(polygons: Planar, kept: Bools) -> Bools:
+    """Whether what is kept of each polygon goes around once and has three corners, shape (k,)."""
+    points, rows = polygons.points[kept], polygons.rows[kept]
+    before, after = _neighbours(rows)
+    u, v = points - points[before], points[after] - points
+    turn = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    angles = np.arctan2(turn, np.einsum("ij,ij->i", u, v))
+    whole = np.bincount(rows, angles, minlength=polygons.count)
+    enough = np.bincount(rows, minlength=polygons.count) >= 3
+    return np.asarray(enough & (np.abs(whole - 2.0 * np.pi) < _FULL))
+
+
+def _neighbours(rows: Indices) -> tuple[Indices, Indices]:
+    """The corners before and after each in its polygon, shapes (n,)."""
+    here = np.arange(len(rows))
+    starts = np.flatnonzero(np.r_[True, rows[1:] != rows[:-1]][: len(rows)])
+    ends = np.r_[starts[1:], len(rows)] - 1 if len(rows) else starts
+    before, after = here - 1, here + 1
+    before[starts], after[ends] = ends, starts
+    return before, after
