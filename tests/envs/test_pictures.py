@@ -9,7 +9,7 @@ from gazelle.description import Box, Link, Model, Plane, Pose, Visual, World
 from gazelle.envs.pictures import ground_points, mark_square
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
-from gazelle.simulation.seeing import Eye
+from gazelle.simulation.scene_renderer import SceneRenderer
 
 
 @given(st.floats(-3, 3), st.floats(-3, 3), st.floats(1, 9))
@@ -49,7 +49,7 @@ def test_what_stands_before_the_square_or_on_it_hides_it():
     box = still("box", Box((0.5, 0.5, 0.02)), Pose(0.0, 0.25, 0.01))
     ground = still("ground", Plane(), Pose())
     with Simulation(World(models=(ground, wall, box))) as simulation:
-        eye = Eye()
+        eye = SceneRenderer()
         picture = eye.see(simulation, view, 0)
         ranges = eye.measure(simulation, view, 0)
     places, _ = ground_points(view)
