@@ -1,0 +1,13 @@
+cdef class Bodies:
+    cdef public Py_ssize_t nbody, nworld
+    cdef public double dt, widest
+    cdef public bint euler, sweep
+    cdef public double[:, ::1] rows, goal, command, velocity
+    cdef public double[:, ::1] kinds, drives, pieces, corners, looks
+    cdef public double[:, ::1] statics, lanes
+    cdef public double[::1] grid
+    cdef public int[::1] start, items, follow, cell
+    cdef public int[:, ::1] head
+    cdef public signed char[::1] state
+    cdef public unsigned char[::1] stalled
+    cdef public double[::1] free

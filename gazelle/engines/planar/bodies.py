@@ -1,0 +1,49 @@
+"""The tables of a fleet, as kernels see them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cython
+
+
+@cython.cclass
+class Bodies:
+    """Bodies of all worlds, and what stands still around them.
+
+    A table of bodies has a row for each body of each world, world by world. Columns are those
+    of ``columns``.
+
+    Attributes:
+        nbody: Bodies in a world.
+        nworld: Number of worlds.
+        dt: Of a step [s].
+        widest: Radius of the largest body about its origin [m].
+        euler: Whether a step goes straight and then turns, as in Stage, not along an arc.
+        sweep: Whether what is in the way is looked for on the way too.
+        rows: Where bodies are, shape (nworld * nbody, BODY).
+        goal: Where they would be after this step; as ``rows``.
+        command: Wanted velocities, shape (nworld * nbody, 3).
+        velocity: Velocities of the drives; as ``command``.
+        kinds: What bodies are, shape (nbody, KIND_OF_BODY).
+        drives: What moves them, shape (nbody, DRIVE), or (1, DRIVE) if that is the same for all.
+        pieces: Convex pieces, shape (n, PIECE).
+        corners: Of the pieces, shape (n, 2).
+        looks: Primitives that rays meet, shape (n, PRIMITIVE).
+        statics: What stands still, shape (n, PRIMITIVE).
+        lanes: The same, one column each, where there are few; else none.
+        grid: See ``grid_cells``.
+        start: First item of each cell.
+        items: Statics in the cells.
+        head: First body in each cell of each world, shape (nworld, cells).
+        follow: The next body in the same cell, shape (nworld * nbody,).
+        cell: The cell of each body, shape (nworld * nbody,).
+        state: What becomes of a body in a step, shape (nworld * nbody,).
+        stalled: Whether the last move was not made, shape (nworld * nbody,).
+        free: How far nothing in a world can go without meeting anything [m]; negative where that
+            is not known, shape (nworld,).
+    """
+
+    def __init__(self, **tables: Any) -> None:
+        for name, table in tables.items():
+            setattr(self, name, table)
