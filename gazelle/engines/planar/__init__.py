@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet

@@ -1,4 +1,7 @@
 cimport cython
+from cpython.pythread cimport (
+    PyThread_acquire_lock, PyThread_allocate_lock, PyThread_free_lock, PyThread_release_lock,
+    PyThread_type_lock)
 from gazelle.engines.planar.beams cimport Beams, Candidates
 from gazelle.engines.planar.bodies cimport Bodies
 from gazelle.engines.planar.front_faces cimport FrontFaces
@@ -23,7 +26,7 @@ cdef class FanScanner:
     cdef public bint signed
     cdef public int way
     cdef public long long seed, tick
-    cdef void *lock
+    cdef PyThread_type_lock lock
 
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long now) noexcept nogil
     cdef void work(

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import cython
 import numpy as np
-from cython.cimports.cpython.pythread import (
-    PyThread_acquire_lock, PyThread_allocate_lock, PyThread_free_lock, PyThread_release_lock,
-)  # fmt: skip
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.scan_columns import LANE_BEST, LANE_NAME, MOST_LANES
+from cython.cimports.gazelle.engines.planar.scan_columns import (
+    ASTRAY, CROWDED, LANE_BEST, LANE_NAME, MOST_LANES, SINGLY,
+)  # fmt: skip
 from cython.cimports.gazelle.engines.planar.front_faces import FrontFaces
 from cython.cimports.gazelle.engines.planar.hashed_noise import normal, stream
 from cython.cimports.gazelle.engines.planar.lanes import Lanes
@@ -23,10 +22,6 @@ from gazelle.array_types import Floats
 
 MANY = cython.declare(cython.int, 256)  # statics in view from which hidden ones are looked for
 PLACES = cython.declare(cython.longlong, 1 << 40)  # of numbers for angles, after those of ranges
-ALL = cython.declare(cython.int, 0)  # all in view is drawn
-CROWDED = cython.declare(cython.int, 1)  # beams are followed where many statics are in view
-SINGLY = cython.declare(cython.int, 2)  # beams of many sensors are followed side by side
-ASTRAY = cython.declare(cython.int, 3)  # beams go a little beside where they should
 
 
 class FanScanner:
@@ -48,7 +43,7 @@ class FanScanner:
             not wanted.
         missing: Range of beams that meet nothing [m].
         signed: Whether what is met from inside has the range minus infinity.
-        way: 0 to 3, as above.
+        way: See ``scan_columns.ALL`` and what follows.
         spread: Standard deviation of the angles of beams that go astray [rad], one a mount.
         step: Angle between two beams [rad].
         constant: Standard deviation of normal noise on ranges [m].
@@ -58,11 +53,11 @@ class FanScanner:
     """
 
     def __cinit__(self) -> None:
-        self.lock = PyThread_allocate_lock()
+        self.lock = PyThread_allocate_lock()  # noqa: F821
 
     def __dealloc__(self) -> None:
         if self.lock != cython.NULL:
-            PyThread_free_lock(self.lock)
+            PyThread_free_lock(self.lock)  # noqa: F821
 
     def __init__(
         self,
@@ -97,15 +92,17 @@ class FanScanner:
 
     def update(self, first: int, last: int, now: int) -> None:
         """Scan in the worlds first to last; any number of threads may, each in its own worlds."""
-        if PyThread_acquire_lock(self.lock, 0):
-            sensors = self.mounts.shape[0]
+        sensors = self.mounts.shape[0]
+        if not cython.compiled:
             self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
-            PyThread_release_lock(self.lock)
+        elif PyThread_acquire_lock(self.lock, 0):  # noqa: F821  # of the .pxd
+            self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
+            PyThread_release_lock(self.lock)  # noqa: F821
         elif self.next is not None:
             self.next.update(first, last, now)
         else:
-            PyThread_acquire_lock(self.lock, 1)
-            PyThread_release_lock(self.lock)
+            PyThread_acquire_lock(self.lock, 1)  # noqa: F821
+            PyThread_release_lock(self.lock)  # noqa: F821
             self.update(first, last, now)
 
     def work(self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -12,19 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.native import Call, Function
+from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_noise
+from gazelle.engines.planar.beams import Beams
+from gazelle.engines.planar.bodies import Bodies
+from gazelle.engines.planar.clear_space import ClearSpace
+from gazelle.engines.planar.fan_scanner import FanScanner
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.kernels_front import MANY, scan_crowded
-from gazelle.engines.planar.kernels_march import LANES, SIDE_BY_SIDE
-from gazelle.engines.planar.kernels_scan import scan
-from gazelle.engines.planar.kernels_walk import FEW_BEAMS, scan_singly
+from gazelle.engines.planar.lanes import Lanes
+from gazelle.engines.planar.scan_columns import ALL, CROWDED, SINGLY
+from gazelle.engines.planar.small_scene import front_faces_of
+from gazelle.engines.planar.taped_scans import TapedScan, row_of
+from gazelle.engines.planar.viewpoint import Viewpoint
 from gazelle.errors import EngineError
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
-_BLOCK = 64  # primitives that are prepared at once; more than make a grid worth it
-_CROWD = 128  # bodies that are sorted at once
+_SIDE_BY_SIDE = 32  # beams of a bundle
+_FEW_BEAMS = 8  # of a fan whose beams are followed one by one
+_MANY = 256  # statics in view from which it pays to find out which ones are hidden
 _SHARE = 4000  # beams that are worth a thread
 
 
@@ -102,19 +107,6 @@ class RangeNoise:
             raise EngineError(f"noise on ranges must be finite and not negative: {self}")
 
 
-@dataclass(frozen=True, slots=True)
-class _Scratch:
-    """What a thread writes on while it scans."""
-
-    beams: Floats
-    view: Floats
-    stamp: NDArray[np.int64]
-    begins: Floats
-    walls: Floats = field(default_factory=lambda: np.zeros((9, _BLOCK)))
-    others: Floats = field(default_factory=lambda: np.zeros((18, _CROWD)))
-    going: Floats = field(default_factory=lambda: np.zeros(LANES))
-
-
 class Scanner:
     """The same fan on some bodies of a fleet.
 
@@ -125,6 +117,8 @@ class Scanner:
         named: Whether to remember what each beam met.
         noise: On the ranges; None for none.
         seed: Of the noise.
+        missing: Range of a beam that meets nothing [m]; the fan's reach if None.
+        signed: Whether what a beam meets from inside has the range minus infinity.
 
     Attributes:
         ranges: Of the last scan [m], shape (nworld, mounts, count).
@@ -145,6 +139,8 @@ class Scanner:
         named: bool = False,
         noise: RangeNoise | None = None,
         seed: int = 0,
+        missing: float | None = None,
+        signed: bool = False,
     ) -> None:
         _check(fan, fleet, mounts)
         self.fleet, self.fan = fleet, fan
@@ -154,33 +150,50 @@ class Scanner:
         ).reshape(-1, c.SENSOR)
         self._carriers = np.array([mount.body for mount in mounts], np.int64)
         self.owners = self._owners_in(np.arange(fleet.nworld))
-        begin = 1.0 / fan.begin if fan.begin > 0.0 else math.inf
-        self._fan = np.array([fan.start, 1.0 / fan.step, fan.reach, begin, _ANGLES])
-        beams = np.zeros((4, fan.count))
-        beams[0], beams[1] = np.cos(fan.angles), np.sin(fan.angles)
-        self._outline = _outline(fan)
-        statics = len(fleet.scene.table.rows)
-        self._scratch = [
-            _Scratch(
-                beams.copy(),
-                np.zeros_like(self._outline),
-                np.zeros(statics + 1, np.int64),
-                np.zeros(-(-fan.count // SIDE_BY_SIDE)),
-            )
-            for _ in range(fleet.crew.size)
-        ]
-        self._look = _look_of(fan, fleet)
-        self._tails: dict[int, tuple[Any, ...]] = {}
+        self._outline, self._middles = _outline(fan), _middles_of(fan)
         least = 2 * max(1, _SHARE // fan.count)
         self._alone = fleet.crew.size == 1 or len(self.owners) < least
-        self._middles = _middles_of(fan)
-        if self._look is not scan:
-            self._clearing = fleet.scene.clearing(solid=fan.begin == 0.0)
         total = fleet.nworld * len(mounts)
-        self._sensors = np.zeros((total, c.SENSOR))
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
         self._flat = self.ranges.reshape(-1, fan.count)
         self.names = np.zeros((total if named else 0, fan.count))
+        self._share = _SHARE
+        self._missing, self._signed = fan.reach if missing is None else missing, signed
+        self._native = self._native_of(self._way())
+
+    def _way(self) -> int:
+        """How to scan fastest here."""
+        scene = self.fleet.scene
+        if scene.cells > 1 and self.fan.count <= _FEW_BEAMS:
+            return SINGLY
+        return CROWDED if scene.cells > 1 and len(scene.items) > _MANY else ALL
+
+    def _native_of(self, way: int, *, solid: bool = True) -> FanScanner:
+        """One native scanner for each thread, linked."""
+        fleet, fan = self.fleet, self.fan
+        there = None
+        if way != ALL:
+            clear = fleet.scene.clearing(solid=solid and fan.begin == 0.0)
+            there = ClearSpace(clear.fine, clear.start, clear.items, clear.clear)
+        tables, made = tables_of(fleet), None
+        for _ in range(fleet.crew.size):
+            beams = Beams(fan.angles, fan.step, fan.reach, fan.begin, _ANGLES)
+            front = None if way != ALL or len(self.names) else front_faces_of(fleet)
+            own = FanScanner(
+                beams,
+                Viewpoint(tables, beams, self._outline),
+                None if there is None else Lanes(there, tables, fan.begin),
+                front,
+                self._mounts,
+                self._middles,
+            )
+            own.next, own.way, own.step = made, way, fan.step
+            own.owners, own.ranges, own.names = self.owners, self._flat, self.names
+            own.missing, own.signed, own.seed = self._missing, self._signed, self.seed
+            if self.noise is not None:
+                own.constant, own.share = self.noise.constant, self.noise.share
+            made = own
+        return own
 
     @cached_property
     def mounts(self) -> list[Mount]:
@@ -205,40 +218,35 @@ class Scanner:
         if worlds is not None:
             owners, count = self._owners_in(worlds), len(worlds)
         if self._alone and worlds is None:
-            self._work(0, len(owners), 0)
+            self._native.scan(owners, 0, len(owners), self.tick, 0)
         else:
-            least = max(1, _SHARE // self.fan.count)
-            other = None if worlds is None else owners
+            least, native, tick = max(1, self._share // self.fan.count), self._native, self.tick
             self.fleet.crew.share(
-                lambda a, b, part: self._work(a, b, part, other), len(owners), least
+                lambda a, b, part: native.scan(owners, a, b, tick, part), len(owners), least
             )
         self.tick += 1
         return self.ranges if worlds is None else self.ranges[:count]
+
+    # -- tapes -------------------------------------------------------------------------
 
     def call(self) -> Call | None:
         """What scans everywhere where one thread does all; None if that is not all there is."""
         if not self._alone or self.noise is not None:
             return None
-        return self._look, (0, len(self.owners), *self._tail_of(0))
+        return self._taped.call()
 
-    def _tail_of(self, part: int) -> tuple[Any, ...]:
-        """The tail for the sensors there are, kept."""
-        if part not in self._tails:
-            self._tails[part] = self._tail(part, self.owners)
-        return self._tails[part]
+    def surroundings(self) -> tuple[Any, ...]:
+        """What ``kernels_scan.scan`` works on of the fleet, but for the largest radius."""
+        return self._taped.surroundings()
 
-    def _work(
-        self, first: int, last: int, part: int, owners: NDArray[np.int64] | None = None
-    ) -> None:
-        """Scan with the sensors first to last, by one thread; of other ``owners`` than all."""
-        tail = self._tail_of(part) if owners is None else self._tail(part, owners)
-        self._look(first, last, *tail)
-        if self.noise is not None:
-            own = self.owners if owners is None else owners
-            constant, share = self.noise.constant, self.noise.share
-            kernels_noise.blur(
-                first, last, own, self._flat, self._fan, constant, share, self.seed, self.tick
-            )
+    def arguments(self, part: int) -> tuple[Any, ...]:
+        """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
+        return self._taped.arguments(part)
+
+    @cached_property
+    def _taped(self) -> TapedScan:
+        row = row_of(self.fan, _ANGLES)
+        return TapedScan(self, row, self._outline, self._middles, self._mounts)
 
     # -- what was met ------------------------------------------------------------------
 
@@ -272,38 +280,25 @@ class Scanner:
         rows = worlds[:, None] * self.fleet.nbody + self._carriers
         return np.ascontiguousarray(rows.ravel(), np.int64)
 
-    def _tail(self, part: int, owners: NDArray[np.int64]) -> tuple[Any, ...]:
-        """What the kernel works on for one thread, after the range; the same in all scans."""
-        own = self.arguments(part)
-        extra = () if self._look is scan else self._ahead(part)
-        return (
-            own[0], owners, *own[2:5], self.fleet.widest, *self.surroundings(), *own[5:], *extra,
-            self._flat, self.names,
-        )  # fmt: skip
 
-    def surroundings(self) -> tuple[Any, ...]:
-        """What ``kernels_scan.scan`` works on of the fleet, but for the largest radius."""
-        fleet, scene = self.fleet, self.fleet.scene
-        return (
-            scene.grid, scene.table.rows, scene.start, scene.items, scene.lanes, fleet.kinds, fleet.looks,
-            fleet.rows, fleet.head, fleet.follow,
-        )  # fmt: skip
-
-    def _ahead(self, part: int) -> tuple[Any, ...]:
-        """Where statics are, for kernels in which beams go through clear space."""
-        there, own = self._clearing, self._scratch[part]
-        return (
-            there.fine, there.start, there.items, there.clear, own.going, own.begins,
-            self._middles,
-        )  # fmt: skip
-
-    def arguments(self, part: int) -> tuple[Any, ...]:
-        """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
-        own = self._scratch[part]
-        return (
-            self._sensors, self.owners, self._mounts, self._fan, self._outline,
-            own.beams, own.view, own.stamp, own.walls, own.others,
-        )  # fmt: skip
+def tables_of(fleet: Fleet) -> Bodies:
+    """The tables of a fleet, as native scanners see them; what is in them may change."""
+    scene = fleet.scene
+    return Bodies(
+        nbody=fleet.nbody,
+        nworld=fleet.nworld,
+        widest=fleet.widest,
+        rows=fleet.rows,
+        kinds=fleet.kinds,
+        looks=fleet.looks,
+        statics=scene.table.rows,
+        lanes=scene.lanes,
+        grid=scene.grid,
+        start=scene.start,
+        items=scene.items,
+        head=fleet.head,
+        follow=fleet.follow,
+    )
 
 
 def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:
@@ -316,18 +311,10 @@ def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:
             raise EngineError(f"there is no body {mount.body}; there are {fleet.nbody}")
 
 
-def _look_of(fan: Fan, fleet: Fleet) -> Function:
-    """The kernel that scans fastest; others need not be compiled."""
-    scene = fleet.scene
-    if scene.cells > 1 and fan.count <= FEW_BEAMS:
-        return scan_singly
-    return scan_crowded if scene.cells > 1 and len(scene.items) > MANY else scan
-
-
 def _middles_of(fan: Fan) -> Floats:
     """Directions of the middles of bundles of beams, shape (2, n)."""
-    first = np.arange(0, fan.count, SIDE_BY_SIDE)
-    angles = fan.start + fan.step * (first + 0.5 * (SIDE_BY_SIDE - 1))
+    first = np.arange(0, fan.count, _SIDE_BY_SIDE)
+    angles = fan.start + fan.step * (first + 0.5 * (_SIDE_BY_SIDE - 1))
     return np.stack((np.cos(angles), np.sin(angles)))
 
 

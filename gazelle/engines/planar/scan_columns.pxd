@@ -61,3 +61,8 @@ cdef enum:
     F_Y1 = 2560
     F_INVERSE = 2816
     F_TURNS = 3072
+
+    ALL = 0
+    CROWDED = 1
+    SINGLY = 2
+    ASTRAY = 3

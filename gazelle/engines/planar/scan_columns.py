@@ -84,3 +84,10 @@ F_X1: Final = 9 * ROOM
 F_Y1: Final = 10 * ROOM
 F_INVERSE: Final = 11 * ROOM
 F_TURNS: Final = 12 * ROOM
+
+# How to scan: all in view is drawn; beams are followed where many statics are in view; beams of
+# many sensors are followed side by side; beams go a little beside where they should.
+ALL: Final = 0
+CROWDED: Final = 1
+SINGLY: Final = 2
+ASTRAY: Final = 3
