@@ -9,7 +9,6 @@ whose output passes BigCrush.
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import operator
 from typing import Any
@@ -19,12 +18,12 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64
 from gazelle.errors import SimulationError
+from gazelle.native.white_noise import draw_normal, draw_uniform
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)
-_BY_30, _BY_27, _BY_31, _BY_11 = (np.uint64(bits) for bits in (30, 27, 31, 11))
-_TWO_TO_MINUS_53 = 2.0**-53
+_BY_30, _BY_27, _BY_31 = (np.uint64(bits) for bits in (30, 27, 31))
 
 
 class Stream:
@@ -63,26 +62,30 @@ class Stream:
 
     def uniform(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
         """Uniform numbers in [0, 1), shape (n, size), n the number of worlds asked for."""
-        chosen = slice(None) if worlds is None else worlds
-        start = self._counters[chosen]
-        # key + (start + i) GOLDEN, with what does not change from draw to draw kept.
-        origin = self._keys[chosen] + start * _GOLDEN
-        bits = _mix(origin[:, None] + _ladder(size))
-        self._counters[chosen] = start + np.uint64(size)
-        bits >>= _BY_11
-        drawn = bits.astype(np.float64)
-        drawn *= _TWO_TO_MINUS_53
+        keys, counters = self._of(worlds)
+        drawn = np.empty((len(keys), size))
+        draw_uniform(keys, counters, drawn)
+        if worlds is not None:
+            self._counters[worlds] = counters
         return drawn
 
     def normal(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
-        """Standard normal numbers, shape (n, size), by Box and Muller's transform (1958)."""
-        pairs = (size + 1) // 2
-        uniform = self.uniform(2 * pairs, worlds)
-        radius = np.sqrt(-2.0 * np.log1p(-uniform[:, :pairs]))
-        angle = 2.0 * np.pi * uniform[:, pairs:]
-        np.multiply(radius, np.cos(angle), out=uniform[:, :pairs])
-        np.multiply(radius, np.sin(angle), out=uniform[:, pairs:])
-        return uniform[:, :size]
+        """Standard normal numbers, shape (n, size), by Box and Muller's transform (1958).
+
+        They are as that says to 1e-13, and the same bits on any processor.
+        """
+        keys, counters = self._of(worlds)
+        drawn = np.empty((len(keys), size))
+        draw_normal(keys, counters, size, drawn, np.empty(size + 1), np.empty(size // 2 + 1))
+        if worlds is not None:
+            self._counters[worlds] = counters
+        return drawn
+
+    def _of(self, worlds: NDArray[np.intp] | None) -> tuple[UInts64, UInts64]:
+        """Keys and counters of worlds; of all, the counters themselves."""
+        if worlds is None:
+            return self._keys, self._counters
+        return self._keys[worlds], self._counters[worlds]
 
     def integers(
         self, high: int, size: int, worlds: NDArray[np.intp] | None = None
@@ -109,14 +112,6 @@ def _keys_of(seed: int, name: str, nworld: int) -> UInts64:
     digest = hashlib.blake2b(f"{seed_of(seed)}:{name}".encode(), digest_size=8).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
     return _mix(_mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest)))
-
-
-@functools.lru_cache(maxsize=16)
-def _ladder(size: int) -> UInts64:
-    """The first multiples of the golden constant, modulo 2^64; read-only."""
-    steps = np.arange(1, size + 1, dtype=np.uint64) * _GOLDEN
-    steps.flags.writeable = False
-    return steps
 
 
 def _mix(z: UInts64) -> UInts64:

@@ -41,9 +41,10 @@ class AstrayScanner(Scanner):
         seed: int = 0,
     ) -> None:
         super().__init__(fleet, fan, mounts, named=named, seed=seed)
-        made: FanScanner | None = self._native_of(ASTRAY, solid=False)  # beams may be over solids
-        self._native, self._share = made, _SHARE
+        self._native = self._native_of(ASTRAY, solid=False)  # beams may be over solids
+        self._share = _SHARE
         self._spread = np.ascontiguousarray(spread, np.float64)
+        made: FanScanner | None = self._native
         while made is not None:
             made.spread, made = self._spread, made.next
 

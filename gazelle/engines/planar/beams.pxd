@@ -31,6 +31,7 @@ cdef class Beams:
     cdef void draw_disc(self, double x, double y, double radius, double inverse) noexcept nogil
     cdef (Py_ssize_t, Py_ssize_t) between(self, double first, double span, int turn) noexcept nogil
     cdef bint hidden(self, Py_ssize_t lo, Py_ssize_t hi, double inverse) noexcept nogil
+    @cython.locals(nearer=cython.bint)
     cdef bint too_near(self) noexcept nogil
     cdef double farthest(self) noexcept nogil
     cdef void report(

@@ -7,12 +7,23 @@ angles that a primitive covers are tested. Distances are exact; angles only choo
 certainly missed.
 """
 
+# ruff: noqa: FBT001, FURB136  # arguments in order; loops that become vectors
+
 from __future__ import annotations
 
 import cython
 import numpy as np
 from cython.cimports.gazelle.engines.planar.scan_columns import (
-    C_FIRST, C_INVERSE, C_NAME, C_RADIUS, C_SPAN, C_X0, C_X1, C_Y0, C_Y1, ROOM,
+    C_FIRST,
+    C_INVERSE,
+    C_NAME,
+    C_RADIUS,
+    C_SPAN,
+    C_X0,
+    C_X1,
+    C_Y0,
+    C_Y1,
+    ROOM,
 )  # fmt: skip
 from cython.cimports.libc.math import ceil, fabs, floor, sqrt
 
@@ -33,7 +44,8 @@ def angle_of(y: float, x: float) -> float:
     a = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))))
     a = 0.5 * PI - a if ay > ax else a
     a = PI - a if x < 0.0 else a
-    return -a if y < 0.0 else a
+    angle: float = -a if y < 0.0 else a
+    return angle
 
 
 class Beams:
@@ -174,17 +186,24 @@ class Beams:
         most = 0.0
         for k in range(self.count):
             most = max(most, self.best[k])
-        return most > self.near
+        nearer: bool = most > self.near
+        return nearer
 
     def farthest(self) -> float:
         """How far the beam is that has got farthest [m]."""
         least = INF
         for k in range(self.count):
             least = min(least, self.best[k])
-        return 1.0 / least
+        far: float = 1.0 / least
+        return far
 
     def report(
-        self, m: int, missing: float, signed: bool, ranges: Floats, names: Floats  # noqa: FBT001
+        self,
+        m: int,
+        missing: float,
+        signed: bool,
+        ranges: Floats,
+        names: Floats,
     ) -> None:
         """Write down what the beams of sensor m met.
 
@@ -225,7 +244,12 @@ class Candidates:
         A segment is solid on its left: who sees it from there sees it from inside.
         """
         for i in range(n):
-            x0, y0, x1, y1 = self.table[C_X0 + i], self.table[C_Y0 + i], self.table[C_X1 + i], self.table[C_Y1 + i]
+            x0, y0, x1, y1 = (
+                self.table[C_X0 + i],
+                self.table[C_Y0 + i],
+                self.table[C_X1 + i],
+                self.table[C_Y1 + i],
+            )
             radius, name = self.table[C_RADIUS + i], self.table[C_NAME + i]
             circle, line = x0 * x0 + y0 * y0 - radius * radius, x0 * y1 - x1 * y0
             cross = circle if radius > 0.0 else line
@@ -237,7 +261,12 @@ class Candidates:
         """Find the angles that the first n cover, less what they may be wrong by."""
         start, slack = beams.start + beams.slack, 2.0 * beams.slack
         for i in range(n):
-            x0, y0, x1, y1 = self.table[C_X0 + i], self.table[C_Y0 + i], self.table[C_X1 + i], self.table[C_Y1 + i]
+            x0, y0, x1, y1 = (
+                self.table[C_X0 + i],
+                self.table[C_Y0 + i],
+                self.table[C_X1 + i],
+                self.table[C_Y1 + i],
+            )
             radius = self.table[C_RADIUS + i]
             outside = x0 * x0 + y0 * y0 - radius * radius
             half = angle_of(radius, sqrt(outside if outside > 1e-300 else 1e-300))
@@ -254,13 +283,26 @@ class Candidates:
 
     def draw_one(self, i: int, lo: int, hi: int, beams: Beams) -> None:
         """Draw the i-th, solved, into beams lo to hi."""
-        radius, inverse, name = self.table[C_RADIUS + i], self.table[C_INVERSE + i], self.table[C_NAME + i]
+        radius, inverse, name = (
+            self.table[C_RADIUS + i],
+            self.table[C_INVERSE + i],
+            self.table[C_NAME + i],
+        )
         if radius > 0.0:
             square = radius * radius
-            beams.draw_circle(lo, hi, self.table[C_X0 + i], self.table[C_Y0 + i], square, inverse, name)
+            beams.draw_circle(
+                lo, hi, self.table[C_X0 + i], self.table[C_Y0 + i], square, inverse, name
+            )
         else:
             beams.draw_segment(
-                lo, hi, self.table[C_X0 + i], self.table[C_Y0 + i], self.table[C_X1 + i], self.table[C_Y1 + i], inverse, name
+                lo,
+                hi,
+                self.table[C_X0 + i],
+                self.table[C_Y0 + i],
+                self.table[C_X1 + i],
+                self.table[C_Y1 + i],
+                inverse,
+                name,
             )
 
     def draw(self, n: int, beams: Beams) -> None:

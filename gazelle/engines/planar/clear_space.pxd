@@ -7,6 +7,7 @@ cdef class ClearSpace:
     cdef readonly int[::1] start, items
     cdef readonly signed char[::1] clear
 
+    @cython.locals(inside=cython.bint)
     cdef bint is_clear(self, double height) noexcept nogil
 
 

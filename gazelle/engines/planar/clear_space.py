@@ -31,16 +31,15 @@ class ClearSpace:
             negative where a cell is solid to its edges. Shape (5 * cells,).
     """
 
-    def __init__(
-        self, fine: Floats, start: Ints32, items: Ints32, clear: NDArray[np.int8]
-    ) -> None:
+    def __init__(self, fine: Floats, start: Ints32, items: Ints32, clear: NDArray[np.int8]) -> None:
         self.fine, self.start, self.items, self.clear = fine, start, items, clear
 
     def is_clear(self, height: float) -> bool:
         """Whether what is solid is so at a height; if not, beams must not go through it."""
         if self.fine[SOLID_NAME] == 0.0:
             return True
-        return height >= self.fine[SOLID_LOW] and height <= self.fine[SOLID_HIGH]
+        inside: bool = height >= self.fine[SOLID_LOW] and height <= self.fine[SOLID_HIGH]
+        return inside
 
 
 def measure_clear(

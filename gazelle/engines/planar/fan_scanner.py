@@ -1,19 +1,25 @@
 # cython: infer_types=True, annotation_typing=False
 """Scan with the same fan on some bodies of all worlds, in the way that is fastest there."""
 
+# ruff: noqa: F821  # locks are names of the .pxd
+
 from __future__ import annotations
+
+from typing import Any
 
 import cython
 import numpy as np
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
-from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.scan_columns import (
-    ASTRAY, CROWDED, LANE_BEST, LANE_NAME, MOST_LANES, SINGLY,
-)  # fmt: skip
-from cython.cimports.gazelle.engines.planar.front_faces import FrontFaces
 from cython.cimports.gazelle.engines.planar.hashed_noise import normal, stream
-from cython.cimports.gazelle.engines.planar.lanes import Lanes
 from cython.cimports.gazelle.engines.planar.near_bodies import meet_bodies
+from cython.cimports.gazelle.engines.planar.scan_columns import (
+    ASTRAY,
+    CROWDED,
+    LANE_BEST,
+    LANE_NAME,
+    MOST_LANES,
+    SINGLY,
+)  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
 from cython.cimports.libc.math import cos, sin
 from numpy.typing import NDArray
@@ -53,28 +59,32 @@ class FanScanner:
     """
 
     def __cinit__(self) -> None:
-        self.lock = PyThread_allocate_lock()  # noqa: F821
+        self.lock = PyThread_allocate_lock()  # type: ignore[name-defined]
 
     def __dealloc__(self) -> None:
         if self.lock != cython.NULL:
-            PyThread_free_lock(self.lock)  # noqa: F821
+            PyThread_free_lock(self.lock)  # type: ignore[name-defined]
 
     def __init__(
         self,
         beams: Beams,
         at: Viewpoint,
-        lanes: Lanes,
-        front: FrontFaces,
+        lanes: Any,
+        front: Any,
         mounts: Floats,
         middles: Floats,
     ) -> None:
         self.beams, self.at, self.bodies, self.lanes = beams, at, at.bodies, lanes
         self.front, self.mounts, self.middles = front, mounts, middles
+        self.next: Any = None
+        self.way, self.step, self.missing, self.signed = 0, 1.0, beams.reach, False
+        self.constant, self.share, self.seed, self.tick = 0.0, 0.0, 0, 0
+        self.spread = np.zeros(len(mounts))
+        self.owners = np.zeros(0, np.int64)
+        self.ranges = self.names = np.zeros((0, beams.count))
         self.found, self.begins = Candidates(), np.zeros(middles.shape[1])
 
-    def scan(
-        self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int
-    ) -> None:
+    def scan(self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int) -> None:
         """Scan with the sensors first to last, without the interpreter's lock.
 
         Args:
@@ -85,7 +95,10 @@ class FanScanner:
             part: Number of the thread; each has its own.
         """
         rows = cython.declare(cython.longlong[::1], owners)
-        begin, end = cython.declare(cython.Py_ssize_t, first), cython.declare(cython.Py_ssize_t, last)
+        begin, end = (
+            cython.declare(cython.Py_ssize_t, first),
+            cython.declare(cython.Py_ssize_t, last),
+        )
         when, which = cython.declare(cython.longlong, tick), cython.declare(cython.Py_ssize_t, part)
         with cython.nogil:
             self.work(rows, begin, end, when, which)
@@ -95,14 +108,14 @@ class FanScanner:
         sensors = self.mounts.shape[0]
         if not cython.compiled:
             self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
-        elif PyThread_acquire_lock(self.lock, 0):  # noqa: F821  # of the .pxd
+        elif PyThread_acquire_lock(self.lock, 0):  # type: ignore[name-defined]
             self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
-            PyThread_release_lock(self.lock)  # noqa: F821
+            PyThread_release_lock(self.lock)  # type: ignore[name-defined]
         elif self.next is not None:
             self.next.update(first, last, now)
         else:
-            PyThread_acquire_lock(self.lock, 1)  # noqa: F821
-            PyThread_release_lock(self.lock)  # noqa: F821
+            PyThread_acquire_lock(self.lock, 1)  # type: ignore[name-defined]
+            PyThread_release_lock(self.lock)  # type: ignore[name-defined]
             self.update(first, last, now)
 
     def work(self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int) -> None:
@@ -185,9 +198,7 @@ class FanScanner:
                     self.scan_one(m)
             begin = end
 
-    def scan_astray(
-        self, owners: NDArray[np.int64], first: int, last: int, tick: int
-    ) -> None:
+    def scan_astray(self, owners: NDArray[np.int64], first: int, last: int, tick: int) -> None:
         """Scan with normal noise on the angle of every beam."""
         total = self.beams.count
         for m in range(first, last):

@@ -5,6 +5,8 @@ It gives the ranges that ``Viewpoint.draw`` gives, but for rounding where a beam
 Where a sensor or the begin of a beam may be inside something, it says so, and nothing is sure.
 """
 
+# arguments in order; loops that become vectors
+
 from __future__ import annotations
 
 import cython
@@ -12,8 +14,27 @@ import numpy as np
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
 from cython.cimports.gazelle.engines.planar.columns import COS, FAMILY, RADIUS, SIN, X, Y, Z
 from cython.cimports.gazelle.engines.planar.scan_columns import (
-    C_FIRST, C_INVERSE, C_SPAN, C_X0, C_X1, C_Y0, C_Y1, F_AX, F_AY, F_BX, F_BY, F_HIGH, F_INVERSE,
-    F_LOW, F_OPEN, F_TURNS, F_X0, F_X1, F_Y0, F_Y1, ROOM,
+    C_FIRST,
+    C_INVERSE,
+    C_SPAN,
+    C_X0,
+    C_X1,
+    C_Y0,
+    C_Y1,
+    F_AX,
+    F_AY,
+    F_BX,
+    F_BY,
+    F_HIGH,
+    F_INVERSE,
+    F_LOW,
+    F_OPEN,
+    F_TURNS,
+    F_X0,
+    F_X1,
+    F_Y0,
+    F_Y1,
+    ROOM,
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
 from numpy.typing import NDArray
@@ -140,22 +161,42 @@ class FrontFaces:
             if n % 2 == 1:
                 k = self.order[n - 1]
                 beams.draw_front(
-                    0, beams.count, self.table[F_X0 + k], self.table[F_Y0 + k], self.table[F_X1 + k], self.table[F_Y1 + k], self.table[F_INVERSE + k]
+                    0,
+                    beams.count,
+                    self.table[F_X0 + k],
+                    self.table[F_Y0 + k],
+                    self.table[F_X1 + k],
+                    self.table[F_Y1 + k],
+                    self.table[F_INVERSE + k],
                 )
             return
         for i in range(n):
             k = self.order[i]
-            self.found.table[C_X0 + i], self.found.table[C_Y0 + i] = self.table[F_X0 + k], self.table[F_Y0 + k]
-            self.found.table[C_X1 + i], self.found.table[C_Y1 + i] = self.table[F_X1 + k], self.table[F_Y1 + k]
+            self.found.table[C_X0 + i], self.found.table[C_Y0 + i] = (
+                self.table[F_X0 + k],
+                self.table[F_Y0 + k],
+            )
+            self.found.table[C_X1 + i], self.found.table[C_Y1 + i] = (
+                self.table[F_X1 + k],
+                self.table[F_Y1 + k],
+            )
             self.found.table[C_INVERSE + i] = self.table[F_INVERSE + k]
         self.found.cover(n, beams)
         for i in range(n):
             k = self.order[i]
             for turn in range(2):
-                lo, hi = beams.between(self.found.table[C_FIRST + i], self.found.table[C_SPAN + i], -turn)
+                lo, hi = beams.between(
+                    self.found.table[C_FIRST + i], self.found.table[C_SPAN + i], -turn
+                )
                 if lo < hi:
                     beams.draw_front(
-                        lo, hi, self.table[F_X0 + k], self.table[F_Y0 + k], self.table[F_X1 + k], self.table[F_Y1 + k], self.table[F_INVERSE + k]
+                        lo,
+                        hi,
+                        self.table[F_X0 + k],
+                        self.table[F_Y0 + k],
+                        self.table[F_X1 + k],
+                        self.table[F_Y1 + k],
+                        self.table[F_INVERSE + k],
                     )
 
     def look(self, at: Viewpoint, beams: Beams) -> bool:
@@ -177,9 +218,7 @@ class FrontFaces:
                 return False
             beams.draw_disc(x0, y0, radius, 1.0 / outside)
         x, y = -c * at.x - s * at.y, s * at.x - c * at.y
-        n = self.find_faces(
-            n, 0, self.statics, beams.reach, at.z, x, y, c, -s
-        )
+        n = self.find_faces(n, 0, self.statics, beams.reach, at.z, x, y, c, -s)
         if self.inside != 0.0:
             return False
         self.draw(n, beams)

@@ -35,10 +35,12 @@ def stream(seed: int, body: int, tick: int) -> int:
 
 def uniform(start: int, place: int) -> float:
     """A number in (0, 1]."""
-    return cython.cast(cython.double, (mixed(start ^ place) >> 11) + 1) * LAST_53
+    drawn: float = cython.cast(cython.double, (mixed(start ^ place) >> 11) + 1) * LAST_53
+    return drawn
 
 
 def normal(start: int, place: int) -> float:
     """A standard normal number, by Box and Muller's transform; it takes two places."""
     radius = sqrt(-2.0 * log(uniform(start, place)))
-    return radius * cos(2.0 * PI * uniform(start, place + 1))
+    wave: float = radius * cos(2.0 * PI * uniform(start, place + 1))
+    return wave

@@ -5,6 +5,8 @@ A lane is a beam on its way. Strides end a little beyond the edges of cells, so 
 stand still; primitives are listed in cells by a margin that is larger.
 """
 
+# ruff: noqa: FBT001  # arguments in order; loops that become vectors
+
 from __future__ import annotations
 
 import cython
@@ -13,13 +15,55 @@ from cython.cimports.gazelle.engines.planar.beams import Beams
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.engines.planar.clear_space import ClearSpace
 from cython.cimports.gazelle.engines.planar.columns import (
-    CIRCLE, COS, FIRST_LOOK, GLOW, HIGH, KIND, LAST_LOOK, LOW, NAMES, SIN, X, X0, X1, Y, Y0, Y1, Z,
+    CIRCLE,
+    COS,
+    FIRST_LOOK,
+    GLOW,
+    HIGH,
+    KIND,
+    LAST_LOOK,
+    LOW,
+    NAMES,
+    SIN,
+    X0,
+    X1,
+    Y0,
+    Y1,
+    X,
+    Y,
+    Z,
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.scan_columns import (
-    COLUMNS, CORNER_U, CORNER_V, LANE_AT, LANE_AT_U, LANE_AT_V, LANE_BASE, LANE_BEST, LANE_DU,
-    LANE_DV, LANE_DX, LANE_DY, LANE_END, LANE_FREE, LANE_HEIGHT, LANE_NAME, LANE_OUT, LANE_OVER_U,
-    LANE_OVER_V, LANE_U, LANE_V, LANE_X, LANE_Y, MOST_LANES, ROWS, SIDE_U, SIDE_V, SOLID_NAME,
-    TURN_COS, TURN_SIN,
+    COLUMNS,
+    CORNER_U,
+    CORNER_V,
+    LANE_AT,
+    LANE_AT_U,
+    LANE_AT_V,
+    LANE_BASE,
+    LANE_BEST,
+    LANE_DU,
+    LANE_DV,
+    LANE_DX,
+    LANE_DY,
+    LANE_END,
+    LANE_FREE,
+    LANE_HEIGHT,
+    LANE_NAME,
+    LANE_OUT,
+    LANE_OVER_U,
+    LANE_OVER_V,
+    LANE_U,
+    LANE_V,
+    LANE_X,
+    LANE_Y,
+    MOST_LANES,
+    ROWS,
+    SIDE_U,
+    SIDE_V,
+    SOLID_NAME,
+    TURN_COS,
+    TURN_SIN,
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
 from cython.cimports.libc.math import cos as cosine
@@ -100,7 +144,8 @@ class Lanes:
             (to_u - self.table[LANE_U + i]) * self.table[LANE_OVER_U + i],
             (to_v - self.table[LANE_V + i]) * self.table[LANE_OVER_V + i],
         )
-        return max(self.table[LANE_AT + i], edge) + NUDGE
+        after: float = max(self.table[LANE_AT + i], edge) + NUDGE
+        return after
 
     def look_around(self, count: int) -> None:
         """Find where lanes are, and how much is clear there."""
@@ -125,9 +170,7 @@ class Lanes:
             self.look_around(count)
             for i in range(count):
                 free, at = self.table[LANE_FREE + i], self.table[LANE_AT + i]
-                after = self.beyond(
-                    i, self.table[LANE_AT_U + i], self.table[LANE_AT_V + i], free
-                )
+                after = self.beyond(i, self.table[LANE_AT_U + i], self.table[LANE_AT_V + i], free)
                 go = (free > 0.0) & (at < self.table[LANE_END + i])
                 self.table[LANE_AT + i] = after if go else at
                 moving += go
@@ -307,7 +350,7 @@ class Lanes:
             base += count
 
     def report(
-        self, first: int, count: int, m: int, reach: float, missing: float, signed: bool,  # noqa: FBT001
+        self, first: int, count: int, m: int, reach: float, missing: float, signed: bool,
         ranges: Floats, names: Floats,
     ) -> None:  # fmt: skip
         """Write down what the lanes of sensor m met, see ``Beams.report``."""

@@ -1,15 +1,27 @@
 # cython: infer_types=True, annotation_typing=False
 """Lanes that meet bodies: what there is near a body is looked up once for all its sensors."""
 
+# ruff: noqa: PLR1716, PLW3301  # arguments in order; loops that become vectors
+
 from __future__ import annotations
 
 import cython
 from cython.cimports.gazelle.engines.planar.beams import Candidates
 from cython.cimports.gazelle.engines.planar.columns import FAMILY, RADIUS, X, Y
-from cython.cimports.gazelle.engines.planar.scan_columns import (
-    C_FIRST, C_NAME, C_RADIUS, C_SPAN, C_X0, C_Y0, LANE_BEST, LANE_DX, LANE_DY, LANE_X, LANE_Y,
-)  # fmt: skip
 from cython.cimports.gazelle.engines.planar.lanes import Lanes
+from cython.cimports.gazelle.engines.planar.scan_columns import (
+    C_FIRST,
+    C_NAME,
+    C_RADIUS,
+    C_SPAN,
+    C_X0,
+    C_Y0,
+    LANE_BEST,
+    LANE_DX,
+    LANE_DY,
+    LANE_X,
+    LANE_Y,
+)  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import place_in
 
 INF = cython.declare(cython.double, float("inf"))
@@ -22,16 +34,17 @@ def take_nearest(found: Candidates, count: int) -> int:
     pick = 0
     for c in range(1, count):
         here = cython.cast(cython.Py_ssize_t, found.table[C_SPAN + c])
-        if found.table[C_FIRST + here] < found.table[C_FIRST + cython.cast(cython.Py_ssize_t, found.table[C_SPAN + pick])]:
+        if (
+            found.table[C_FIRST + here]
+            < found.table[C_FIRST + cython.cast(cython.Py_ssize_t, found.table[C_SPAN + pick])]
+        ):
             pick = c
-    j = cython.cast(cython.Py_ssize_t, found.table[C_SPAN + pick])
+    j: int = cython.cast(cython.Py_ssize_t, found.table[C_SPAN + pick])
     found.table[C_SPAN + pick] = found.table[C_SPAN + count - 1]
     return j
 
 
-def meet_some(
-    lanes: Lanes, first: int, last: int, found: Candidates, n: int, base: int
-) -> None:
+def meet_some(lanes: Lanes, first: int, last: int, found: Candidates, n: int, base: int) -> None:
     """Let lanes first to last meet the first n bodies found, each as a disc at first.
 
     Args:
@@ -46,7 +59,11 @@ def meet_some(
         x, y = lanes.table[LANE_X + i], lanes.table[LANE_Y + i]
         dx, dy = lanes.table[LANE_DX + i], lanes.table[LANE_DY + i]
         for j in range(n):
-            ox, oy, radius = found.table[C_X0 + j] - x, found.table[C_Y0 + j] - y, found.table[C_RADIUS + j]
+            ox, oy, radius = (
+                found.table[C_X0 + j] - x,
+                found.table[C_Y0 + j] - y,
+                found.table[C_RADIUS + j],
+            )
             along, aside = dx * ox + dy * oy, dx * oy - dy * ox
             passed = (aside * aside <= radius * radius) & (along >= -radius)
             found.table[C_FIRST + j] = along - radius if passed else INF

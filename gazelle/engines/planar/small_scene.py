@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
@@ -37,8 +38,9 @@ def _rows_of(fleet: Fleet, body: int) -> Floats:
     return rows
 
 
-def _is_disc(rows: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    return (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
+def _is_disc(rows: Floats) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
+    return found
 
 
 def _sides(rows: Floats) -> Floats:

@@ -5,19 +5,16 @@ Nothing is done a beam and cell, so the cost grows with what is in view, not wit
 beams times the way they go, nor with the number of bodies in the world.
 """
 
+# ruff: noqa: FBT001, PLW3301  # arguments in order; loops that become vectors
+
 from __future__ import annotations
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.engines.planar import columns as col
+from cython.cimports.gazelle.engines.planar import scan_columns as scan
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.columns import (
-    CIRCLE, COS, FAMILY, FIRST_LOOK, GLOW, HIGH, KIND, LAST_LOOK, LOW, L_GLOW, L_HIGH, L_LOW,
-    L_RADIUS, NAMES, OPEN, RADIUS, SIN, S_COS, S_SIN, S_X, S_Y, S_Z, X, X0, X1, Y, Y0, Y1, Z,
-)  # fmt: skip
-from cython.cimports.gazelle.engines.planar.scan_columns import (
-    C_COS, C_FIRST, C_INVERSE, C_NAME, C_RADIUS, C_SIN, C_SPAN, C_X0, C_X1, C_Y0, C_Y1,
-)  # fmt: skip
 from cython.cimports.libc.math import floor, sqrt
 
 from gazelle.array_types import Floats
@@ -32,7 +29,8 @@ CROWD = cython.declare(cython.int, 128)  # bodies that are sorted at once
 def place_in(value: float, corner: float, side: float, count: float) -> int:
     """Column or row of a coordinate in a grid."""
     f = floor((value - corner) / side)
-    return cython.cast(cython.Py_ssize_t, min(max(f, 0.0), count - 1.0))
+    cell: int = cython.cast(cython.Py_ssize_t, min(max(f, 0.0), count - 1.0))
+    return cell
 
 
 class Viewpoint:
@@ -66,14 +64,14 @@ class Viewpoint:
     def aim(self, mounts: Floats, m: int, owner: int) -> None:
         """Go to where sensor m is: the mounts are on the bodies ``owner``, by turns."""
         j = m % mounts.shape[0]
-        c, s = self.bodies.rows[owner, COS], self.bodies.rows[owner, SIN]
-        self.x = self.bodies.rows[owner, X] + c * mounts[j, S_X] - s * mounts[j, S_Y]
-        self.y = self.bodies.rows[owner, Y] + s * mounts[j, S_X] + c * mounts[j, S_Y]
-        self.cos = c * mounts[j, S_COS] - s * mounts[j, S_SIN]
-        self.sin = s * mounts[j, S_COS] + c * mounts[j, S_SIN]
-        self.z = self.bodies.rows[owner, Z] + mounts[j, S_Z]
+        c, s = self.bodies.rows[owner, col.COS], self.bodies.rows[owner, col.SIN]
+        self.x = self.bodies.rows[owner, col.X] + c * mounts[j, col.S_X] - s * mounts[j, col.S_Y]
+        self.y = self.bodies.rows[owner, col.Y] + s * mounts[j, col.S_X] + c * mounts[j, col.S_Y]
+        self.cos = c * mounts[j, col.S_COS] - s * mounts[j, col.S_SIN]
+        self.sin = s * mounts[j, col.S_COS] + c * mounts[j, col.S_SIN]
+        self.z = self.bodies.rows[owner, col.Z] + mounts[j, col.S_Z]
         self.owner, self.world = owner, owner // self.bodies.nbody
-        self.family = self.bodies.kinds[owner - self.world * self.bodies.nbody, FAMILY]
+        self.family = self.bodies.kinds[owner - self.world * self.bodies.nbody, col.FAMILY]
 
     # -- cells in view -----------------------------------------------------------------
 
@@ -108,8 +106,12 @@ class Viewpoint:
         low, high = INF, -INF
         for k in range(self.view.shape[0]):
             low, high = min(low, self.view[k, 1]), max(high, self.view[k, 1])
-        bottom = place_in(low - widest, self.bodies.grid[1], self.bodies.grid[2], self.bodies.grid[4])
-        return bottom, place_in(high + widest, self.bodies.grid[1], self.bodies.grid[2], self.bodies.grid[4])
+        bottom = place_in(
+            low - widest, self.bodies.grid[1], self.bodies.grid[2], self.bodies.grid[4]
+        )
+        return bottom, place_in(
+            high + widest, self.bodies.grid[1], self.bodies.grid[2], self.bodies.grid[4]
+        )
 
     def cells_of(self, widest: float, r: int) -> tuple[int, int]:
         """First and last cell of row r that the view, widened by a radius, passes."""
@@ -123,7 +125,9 @@ class Viewpoint:
         if right < left:
             return base, base - 1
         first = place_in(left - widest, self.bodies.grid[0], side, self.bodies.grid[3])
-        return base + first, base + place_in(right + widest, self.bodies.grid[0], side, self.bodies.grid[3])
+        return base + first, base + place_in(
+            right + widest, self.bodies.grid[0], side, self.bodies.grid[3]
+        )
 
     def is_crowded(self, most: int) -> bool:
         """Whether more than so many statics are listed in cells in view."""
@@ -136,7 +140,7 @@ class Viewpoint:
 
     # -- drawing -----------------------------------------------------------------------
 
-    def draw(self, drawn: bool) -> None:  # noqa: FBT001
+    def draw(self, drawn: bool) -> None:
         """All that is in view, but for the owner's family; statics may be ``drawn`` already."""
         self.stamp[self.bodies.statics.shape[0]] += 1
         x = -self.cos * self.x - self.sin * self.y
@@ -151,11 +155,13 @@ class Viewpoint:
         for r in range(bottom, top + 1):
             left, right = self.cells_of(self.bodies.widest, r)
             if few == 0 and not drawn:
-                n = self.find_statics(n, self.bodies.start[left], self.bodies.start[right + 1], x, y)
+                n = self.find_statics(
+                    n, self.bodies.start[left], self.bodies.start[right + 1], x, y
+                )
             for cell in range(left, right + 1):
                 b = cython.cast(cython.Py_ssize_t, self.bodies.head[self.world, cell])
                 while b >= 0:
-                    if self.bodies.kinds[b - base, FAMILY] != self.family:
+                    if self.bodies.kinds[b - base, col.FAMILY] != self.family:
                         q = self.find_body(q, b - base, b)
                         if q == CROWD:
                             self.draw_others(q)
@@ -175,18 +181,18 @@ class Viewpoint:
         """
         reach = self.beams.reach
         if (
-            self.bodies.statics[s, GLOW] < 0.0
-            or self.z < self.bodies.statics[s, LOW]
-            or self.z > self.bodies.statics[s, HIGH]
+            self.bodies.statics[s, col.GLOW] < 0.0
+            or self.z < self.bodies.statics[s, col.LOW]
+            or self.z > self.bodies.statics[s, col.HIGH]
         ):
             return n
         cos, sin = self.cos, -self.sin
-        ax, ay = self.bodies.statics[s, X0], self.bodies.statics[s, Y0]
-        bx, by = self.bodies.statics[s, X1], self.bodies.statics[s, Y1]
+        ax, ay = self.bodies.statics[s, col.X0], self.bodies.statics[s, col.Y0]
+        bx, by = self.bodies.statics[s, col.X1], self.bodies.statics[s, col.Y1]
         x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
         x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
         radius = 0.0
-        if (cython.cast(cython.int, self.bodies.statics[s, KIND]) & CIRCLE) != 0:
+        if (cython.cast(cython.int, self.bodies.statics[s, col.KIND]) & col.CIRCLE) != 0:
             radius = bx
         if radius > 0.0:
             x1, y1, far = x0, y0, reach + radius
@@ -196,8 +202,13 @@ class Viewpoint:
             cross, ex, ey = x0 * y1 - x1 * y0, x1 - x0, y1 - y0
             if cross * cross > reach * reach * (ex * ex + ey * ey):
                 return n
-        self.walls.table[C_X0 + n], self.walls.table[C_Y0 + n], self.walls.table[C_X1 + n], self.walls.table[C_Y1 + n] = x0, y0, x1, y1
-        self.walls.table[C_RADIUS + n], self.walls.table[C_NAME + n] = radius, s + 1.0
+        (
+            self.walls.table[scan.C_X0 + n],
+            self.walls.table[scan.C_Y0 + n],
+            self.walls.table[scan.C_X1 + n],
+            self.walls.table[scan.C_Y1 + n],
+        ) = x0, y0, x1, y1
+        self.walls.table[scan.C_RADIUS + n], self.walls.table[scan.C_NAME + n] = radius, s + 1.0
         return n + 1
 
     def find_lanes(self, x: float, y: float) -> None:
@@ -208,24 +219,29 @@ class Viewpoint:
         height, cos, sin = self.z, self.cos, -self.sin
         for i in range(self.bodies.lanes.shape[1]):
             ax, ay, bx, by = (
-                self.bodies.lanes[X0, i], self.bodies.lanes[Y0, i], self.bodies.lanes[X1, i], self.bodies.lanes[Y1, i],
+                self.bodies.lanes[col.X0, i], self.bodies.lanes[col.Y0, i], self.bodies.lanes[col.X1, i], self.bodies.lanes[col.Y1, i],
             )  # fmt: skip
             x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
             x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-            radius, name = self.bodies.lanes[L_RADIUS, i], i + 1.0
+            radius, name = self.bodies.lanes[col.L_RADIUS, i], i + 1.0
             circle, line = x0 * x0 + y0 * y0 - radius * radius, x0 * y1 - x1 * y0
             cross = circle if radius > 0.0 else line
             seen = (
-                (self.bodies.lanes[L_GLOW, i] >= 0.0)
-                & (height >= self.bodies.lanes[L_LOW, i])
-                & (height <= self.bodies.lanes[L_HIGH, i])
+                (self.bodies.lanes[col.L_GLOW, i] >= 0.0)
+                & (height >= self.bodies.lanes[col.L_LOW, i])
+                & (height <= self.bodies.lanes[col.L_HIGH, i])
                 & (cross != 0.0)
             )
             disc = (radius > 0.0) | (cross < 0.0)
-            self.walls.table[C_X0 + i], self.walls.table[C_Y0 + i], self.walls.table[C_X1 + i], self.walls.table[C_Y1 + i] = x0, y0, x1, y1
-            self.walls.table[C_RADIUS + i] = radius
-            self.walls.table[C_NAME + i] = name if disc else -name
-            self.walls.table[C_INVERSE + i] = 1.0 / cross if seen else 0.0
+            (
+                self.walls.table[scan.C_X0 + i],
+                self.walls.table[scan.C_Y0 + i],
+                self.walls.table[scan.C_X1 + i],
+                self.walls.table[scan.C_Y1 + i],
+            ) = x0, y0, x1, y1
+            self.walls.table[scan.C_RADIUS + i] = radius
+            self.walls.table[scan.C_NAME + i] = name if disc else -name
+            self.walls.table[scan.C_INVERSE + i] = 1.0 / cross if seen else 0.0
 
     def find_statics(self, n: int, first: int, last: int, x: float, y: float) -> int:
         """Write down statics of some cells; draw them when there are many.
@@ -248,16 +264,23 @@ class Viewpoint:
 
     def find_body(self, n: int, k: int, b: int) -> int:
         """Write down body b, of kind k, as the n-th if it can be seen; returns how many."""
-        ox, oy = self.bodies.rows[b, X] - self.x, self.bodies.rows[b, Y] - self.y
-        radius = self.bodies.kinds[k, RADIUS]
+        ox, oy = self.bodies.rows[b, col.X] - self.x, self.bodies.rows[b, col.Y] - self.y
+        radius = self.bodies.kinds[k, col.RADIUS]
         far = self.beams.reach + radius
         if ox * ox + oy * oy > far * far:
             return n
         c, s = self.cos, self.sin
-        self.others.table[C_X0 + n], self.others.table[C_Y0 + n] = c * ox + s * oy, c * oy - s * ox
-        self.others.table[C_COS + n] = c * self.bodies.rows[b, COS] + s * self.bodies.rows[b, SIN]
-        self.others.table[C_SIN + n] = c * self.bodies.rows[b, SIN] - s * self.bodies.rows[b, COS]
-        self.others.table[C_RADIUS + n], self.others.table[C_NAME + n] = radius, b
+        self.others.table[scan.C_X0 + n], self.others.table[scan.C_Y0 + n] = (
+            c * ox + s * oy,
+            c * oy - s * ox,
+        )
+        self.others.table[scan.C_COS + n] = (
+            c * self.bodies.rows[b, col.COS] + s * self.bodies.rows[b, col.SIN]
+        )
+        self.others.table[scan.C_SIN + n] = (
+            c * self.bodies.rows[b, col.SIN] - s * self.bodies.rows[b, col.COS]
+        )
+        self.others.table[scan.C_RADIUS + n], self.others.table[scan.C_NAME + n] = radius, b
         return n + 1
 
     def sort_others(self, n: int) -> None:
@@ -269,24 +292,30 @@ class Viewpoint:
             self.rings[ring] = 0.0
         share = RINGS / self.beams.reach
         for i in range(n):
-            x, y = self.others.table[C_X0 + i], self.others.table[C_Y0 + i]
-            self.others.table[C_SPAN + i] = min(sqrt(x * x + y * y) * share, RINGS - 1.0)
+            x, y = self.others.table[scan.C_X0 + i], self.others.table[scan.C_Y0 + i]
+            self.others.table[scan.C_SPAN + i] = min(sqrt(x * x + y * y) * share, RINGS - 1.0)
         for i in range(n):
-            self.rings[cython.cast(cython.Py_ssize_t, self.others.table[C_SPAN + i])] += 1.0
+            self.rings[cython.cast(cython.Py_ssize_t, self.others.table[scan.C_SPAN + i])] += 1.0
         before = 0.0
         for ring in range(RINGS):
             here = self.rings[ring]
             self.rings[ring] = before
             before += here
         for i in range(n):
-            place = cython.cast(cython.Py_ssize_t, self.others.table[C_SPAN + i])
+            place = cython.cast(cython.Py_ssize_t, self.others.table[scan.C_SPAN + i])
             at = cython.cast(cython.Py_ssize_t, self.rings[place])
             self.rings[place] += 1.0
-            self.sorted.table[C_X0 + at], self.sorted.table[C_Y0 + at], self.sorted.table[C_X1 + at], self.sorted.table[C_Y1 + at] = (
-                self.others.table[C_X0 + i], self.others.table[C_Y0 + i], self.others.table[C_X0 + i], self.others.table[C_Y0 + i],
+            self.sorted.table[scan.C_X0 + at], self.sorted.table[scan.C_Y0 + at], self.sorted.table[scan.C_X1 + at], self.sorted.table[scan.C_Y1 + at] = (
+                self.others.table[scan.C_X0 + i], self.others.table[scan.C_Y0 + i], self.others.table[scan.C_X0 + i], self.others.table[scan.C_Y0 + i],
             )  # fmt: skip
-            self.sorted.table[C_COS + at], self.sorted.table[C_SIN + at] = self.others.table[C_COS + i], self.others.table[C_SIN + i]
-            self.sorted.table[C_RADIUS + at], self.sorted.table[C_NAME + at] = self.others.table[C_RADIUS + i], self.others.table[C_NAME + i]
+            self.sorted.table[scan.C_COS + at], self.sorted.table[scan.C_SIN + at] = (
+                self.others.table[scan.C_COS + i],
+                self.others.table[scan.C_SIN + i],
+            )
+            self.sorted.table[scan.C_RADIUS + at], self.sorted.table[scan.C_NAME + at] = (
+                self.others.table[scan.C_RADIUS + i],
+                self.others.table[scan.C_NAME + i],
+            )
 
     def draw_others(self, n: int) -> None:
         """Draw the first n bodies found."""
@@ -296,49 +325,51 @@ class Viewpoint:
         if many:
             self.sorted.cover(n, self.beams)
         for i in range(n):
-            b = cython.cast(cython.Py_ssize_t, self.sorted.table[C_NAME + i])
+            b = cython.cast(cython.Py_ssize_t, self.sorted.table[scan.C_NAME + i])
             k = b - self.world * self.bodies.nbody
-            x, y = self.sorted.table[C_X0 + i], self.sorted.table[C_Y0 + i]
-            nearest = sqrt(x * x + y * y) - self.sorted.table[C_RADIUS + i]
+            x, y = self.sorted.table[scan.C_X0 + i], self.sorted.table[scan.C_Y0 + i]
+            nearest = sqrt(x * x + y * y) - self.sorted.table[scan.C_RADIUS + i]
             away = nearest > 0.0 and nearest * self.beams.near >= 1.0
-            height = self.z - self.bodies.rows[b, Z]
-            name = NAMES * (b + 1.0)
+            height = self.z - self.bodies.rows[b, col.Z]
+            name = col.NAMES * (b + 1.0)
             if not many:
                 self.draw_looks(0, count, k, height, i, away, name)
                 continue
             for turn in range(2):
-                lo, hi = self.beams.between(self.sorted.table[C_FIRST + i], self.sorted.table[C_SPAN + i], -turn)
+                lo, hi = self.beams.between(
+                    self.sorted.table[scan.C_FIRST + i], self.sorted.table[scan.C_SPAN + i], -turn
+                )
                 if lo >= hi or (away and self.beams.hidden(lo, hi, 1.0 / nearest)):
                     continue
                 self.draw_looks(lo, hi, k, height, i, away, name)
 
     def draw_looks(
-        self, lo: int, hi: int, k: int, height: float, i: int, away: bool, name: float,  # noqa: FBT001
+        self, lo: int, hi: int, k: int, height: float, i: int, away: bool, name: float,
     ) -> None:  # fmt: skip
         """Primitives of the i-th body, of kind k, into beams lo to hi.
 
         Of closed outlines that beams begin ``away`` from only the front is drawn.
         """
-        x, y = self.sorted.table[C_X0 + i], self.sorted.table[C_Y0 + i]
-        cos, sin = self.sorted.table[C_COS + i], self.sorted.table[C_SIN + i]
-        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, FIRST_LOOK])
-        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, LAST_LOOK])
+        x, y = self.sorted.table[scan.C_X0 + i], self.sorted.table[scan.C_Y0 + i]
+        cos, sin = self.sorted.table[scan.C_COS + i], self.sorted.table[scan.C_SIN + i]
+        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.FIRST_LOOK])
+        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.LAST_LOOK])
         for p in range(first, last):
             if (
-                self.bodies.looks[p, GLOW] < 0.0
-                or height < self.bodies.looks[p, LOW]
-                or height > self.bodies.looks[p, HIGH]
+                self.bodies.looks[p, col.GLOW] < 0.0
+                or height < self.bodies.looks[p, col.LOW]
+                or height > self.bodies.looks[p, col.HIGH]
             ):
                 continue
-            ax, ay = self.bodies.looks[p, X0], self.bodies.looks[p, Y0]
-            bx, by = self.bodies.looks[p, X1], self.bodies.looks[p, Y1]
+            ax, ay = self.bodies.looks[p, col.X0], self.bodies.looks[p, col.Y0]
+            bx, by = self.bodies.looks[p, col.X1], self.bodies.looks[p, col.Y1]
             x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
             x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-            kind = cython.cast(cython.int, self.bodies.looks[p, KIND])
-            circle = (kind & CIRCLE) != 0
+            kind = cython.cast(cython.int, self.bodies.looks[p, col.KIND])
+            circle = (kind & col.CIRCLE) != 0
             cross = x0 * x0 + y0 * y0 - bx * bx if circle else x0 * y1 - x1 * y0
             back = cross > 0.0 and not circle
-            if cross == 0.0 or (back and away and (kind & OPEN) == 0):
+            if cross == 0.0 or (back and away and (kind & col.OPEN) == 0):
                 continue
             inverse = 1.0 / cross
             if circle:
