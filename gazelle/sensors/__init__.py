@@ -1,5 +1,11 @@
 """What sensors measure, with their noise, for all worlds at once."""
 
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
 from gazelle.sensors.altitude import (
     AirPressure,
     AirPressureModel,

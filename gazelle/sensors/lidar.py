@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Lidar, Pose, Scan
 from gazelle.engines import Engine
+from gazelle.sensors.lidar_ranges import RangeLaw
 from gazelle.sensors.noise import NoiseModel
 
 
@@ -67,6 +68,13 @@ class LidarModel:
         self.directions = local @ rotation.T
         self.origins = np.asarray(pose.position) + lidar.range_min * self.directions
         self._noise = NoiseModel(lidar.noise, seed, name, engine.nworld, len(self.directions))
+        self._law = RangeLaw(
+            len(self.directions),
+            lidar.range_min,
+            lidar.range_max,
+            lidar.quantum,
+            *self._noise.rounding,
+        )
 
     @property
     def samples(self) -> int:
@@ -80,18 +88,30 @@ class LidarModel:
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        hits = self._engine.cast_rays(self.link, self.origins, self.directions, worlds)
-        lidar = self.lidar
-        distance = hits.distance + lidar.range_min
-        measured = self._noise.apply(distance, interval, worlds)
+        ranges, begin = self._engine.cast_ranges(self.link, self.origins, self.directions, worlds)
+        offset, noise = self.lidar.range_min - begin, self._noise
+        if noise.drifts:
+            return self._drifting(ranges + offset, interval, worlds)
+        stddev, keys, counters = noise.white
+        bias = noise.bias
+        measured = np.empty(ranges.shape)
+        if worlds is None:
+            self._law.measure(ranges, offset, stddev, bias, keys, counters, measured)
+            return measured
+        own = counters[worlds]
+        biased = bias[worlds] if len(bias) else bias
+        self._law.measure(ranges, offset, stddev[worlds], biased, keys[worlds], own, measured)
+        counters[worlds] = own
+        return measured
+
+    def _drifting(self, true: Floats, interval: float, worlds: Worlds | None) -> Floats:
+        """A measurement of true ranges with noise whose bias changes with time."""
+        lidar, measured = self.lidar, self._noise.apply(true, interval, worlds)
         if lidar.quantum > 0.0:
-            measured = measured / lidar.quantum
-            np.rint(measured, out=measured)
-            measured *= lidar.quantum
-        measured = np.maximum(measured, lidar.range_min)
-        np.minimum(measured, lidar.range_max, out=measured)
-        measured[distance >= lidar.range_max] = np.inf
-        measured[hits.from_inside] = -np.inf
+            measured = np.rint(measured / lidar.quantum) * lidar.quantum
+        measured = np.clip(measured, lidar.range_min, lidar.range_max)
+        measured[true >= lidar.range_max] = np.inf
+        measured[true == -np.inf] = -np.inf
         return measured
 
     def scan(self, ranges: Floats, stamp: int) -> LaserScan:

@@ -38,6 +38,7 @@ class NoiseModel:
         self._active = noise.type != "none"
         self._stddev = np.full((nworld, 1), noise.stddev if self._active else 0.0)
         self._spread = bool(self._stddev.any())
+        self._biased = self._active and (noise.bias_mean != 0.0 or noise.bias_stddev != 0.0)
         self._draw_bias(None)
 
     @property
@@ -64,6 +65,27 @@ class NoiseModel:
             Standard deviations, shape (nworld, 1), and the keys and counters of the stream.
         """
         return self._stddev, self._stream.keys, self._stream.counters
+
+    @property
+    def drifts(self) -> bool:
+        """Whether it has a bias that changes with time."""
+        noise = self._noise
+        changes = noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0
+        return self._active and changes
+
+    @property
+    def bias(self) -> Floats:
+        """The constant bias of each channel, shape (nworld, channels), or no rows if there is none."""
+        return self._bias if self._biased else self._bias[:0]
+
+    @property
+    def rounding(self) -> tuple[float, float]:
+        """Mean of the noise, and what noisy values are rounded to; 0 for not."""
+        if not self._active:
+            return 0.0, 0.0
+        noise = self._noise
+        rounded = noise.type == "gaussian_quantized" and noise.precision > 0.0
+        return noise.mean, noise.precision if rounded else 0.0
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
         """Use the random numbers of another seed, from their start; a reset draws new biases."""

@@ -330,6 +330,13 @@ class StateAccess(ABC):
             return behind(self._batch, start, along, worlds, own)
         return nearest(self._batch, start, along, worlds, body)[0]
 
+    def cast_ranges(
+        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
+    ) -> tuple[Floats, float]:
+        """Follow rays of a range finder; see the protocol."""
+        hits = self.cast_rays(link, origins, directions, worlds)
+        return np.where(hits.from_inside, -np.inf, hits.distance), 0.0
+
     def _refresh(self) -> None:
         """Compute the placement and motion of links that are not roots."""
         if self._stale:

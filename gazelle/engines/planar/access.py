@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -22,6 +23,32 @@ from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, yaw_
 T = TypeVar("T")
 
 
+_MOST = 256  # arrays of rays that are known by where they are
+
+
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    """A caster as long as nothing turns what its rays hang on.
+
+    Attributes:
+        caster: What casts them.
+        columns: Of the joints between its model and its link.
+        angles: Of those joints when it was made, shape (nworld, n).
+        of: Origins of its rays; kept, as it is known by where they are in memory.
+        along: Their directions, likewise.
+    """
+
+    caster: Caster
+    columns: NDArray[np.intp]
+    angles: Floats
+    of: Floats
+    along: Floats
+
+    def holds(self, angles: Floats) -> bool:
+        """Whether the joints are where they were."""
+        return not len(self.columns) or np.array_equal(self.angles, angles[:, self.columns])
+
+
 class PlanarAccess(ABC):
     """The part of ``gazelle.engines.engine.Engine`` that reads and writes states."""
 
@@ -30,7 +57,8 @@ class PlanarAccess(ABC):
     _angles: Floats
     _rates: Floats
     _targets: Floats
-    _casters: dict[tuple[str, bytes, bytes], tuple[Caster, Floats]]
+    _casters: dict[tuple[str, bytes, bytes], _Kept]
+    _recent: dict[tuple[str, int, int], _Kept]
 
     @abstractmethod
     def make_kinematic(self, model: str) -> None:
@@ -210,19 +238,37 @@ class PlanarAccess(ABC):
         distance, inside = self.caster(link, origins, directions).cast(worlds)
         return Hits(distance, inside)
 
+    def cast_ranges(
+        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
+    ) -> tuple[Floats, float]:
+        """Follow the level rays of a range finder; see the protocol."""
+        key = (link, id(origins), id(directions))
+        kept = self._recent.get(key)
+        if kept is None or not kept.holds(self._angles):
+            kept = self._keep(link, origins, directions)
+            self._recent = {**self._recent, key: kept} if len(self._recent) < _MOST else {key: kept}
+        return kept.caster.ranges(worlds), kept.caster.begin
+
     def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
         """What casts the rays of ``cast_rays``: the same one as long as nothing turns its link.
 
         Raises:
             EngineError: The rays are not level, or their link not the same in all worlds.
         """
+        return self._keep(link, origins, directions).caster
+
+    def _keep(self, link: str, origins: Floats, directions: Floats) -> _Kept:
+        """A caster that is kept, or one that is from now on."""
         key = (link, origins.tobytes(), directions.tobytes())
-        found = self._casters.get(key)
-        angles = self._own(self._owner(link), None)[0]
-        if found is None or not np.array_equal(found[1], angles[0]):
-            found = self._new_caster(link, origins, directions), angles[0].copy()
-            self._casters[key] = found
-        return found[0]
+        kept = self._casters.get(key)
+        if kept is not None and kept.holds(self._angles):
+            return kept if kept.of is origins else replace(kept, of=origins, along=directions)
+        caster = self._new_caster(link, origins, directions)
+        model = self._owner(link)
+        columns = self._layout.columns[model] + self._model(model).skeleton.columns_of(link)
+        angles = self._angles[:, columns].copy() if len(columns) else self._angles[:0]
+        kept = self._casters[key] = _Kept(caster, columns, angles, origins, directions)
+        return kept
 
     def _new_caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
         model = self._owner(link)

@@ -69,7 +69,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._targets = np.full(shape, math.nan)
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
-        self._casters = {}
+        self._casters, self._recent = {}, {}
 
     @property
     def nworld(self) -> int:

@@ -25,11 +25,18 @@ class Caster:
         scanner: Casts them.
         begin: Distance of where they begin from where the scanner measures [m].
         order: Which beam is which ray, shape (rays,).
+        signed: Casts them too; what is missing is infinite, and minus infinite from inside.
     """
 
     scanner: Scanner
     begin: float
     order: NDArray[np.intp]
+    signed: Scanner
+
+    def ranges(self, worlds: Worlds | None) -> Floats:
+        """Distance from where the scanner measures [m], shape (n, rays); see ``signed``."""
+        found = self.signed.scan(worlds)
+        return found.reshape(len(found), -1)
 
     def cast(self, worlds: Worlds | None) -> tuple[Floats, NDArray[np.bool_]]:
         """Distance of what each ray meets [m], infinite for nothing, and whether from inside."""
@@ -74,7 +81,9 @@ def caster_of(fleet: Fleet, body: int, origins: Floats, directions: Floats, reac
             Mount(body, float(x), float(y), float(angle), z)
             for (x, y), angle in zip(origins[:, :2], angles, strict=True)
         ]
-    return Caster(Scanner(fleet, fan, mounts, named=True), begin, np.arange(len(angles)))
+    named = Scanner(fleet, fan, mounts, named=True)
+    signed = Scanner(fleet, fan, mounts, missing=math.inf, signed=True)
+    return Caster(named, begin, np.arange(len(angles)), signed)
 
 
 def _centre_of(origins: Floats, directions: Floats) -> tuple[Floats | None, float | None]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Joint, Link, Model, Pose
@@ -94,6 +95,18 @@ class Skeleton:
         if bone.hinge is not None:
             here = _compose(here, _moved(bone.hinge, angles))
         return here if bone.parent is None else _compose(self.place(bone.parent, angles), here)
+
+    def columns_of(self, name: str) -> NDArray[np.intp]:
+        """Columns of the hinges that a link hangs on, shape (n,); none if it is fixed."""
+        found: list[int] = []
+        above: str | None = name
+        while above is not None:
+            bone = self.bones[above]
+            if bone.hinge is not None:
+                first = bone.hinge.column
+                found += range(first, first + len(bone.hinge.joint.axes))
+            above = bone.parent
+        return np.array(sorted(found), np.intp)
 
     def motion(self, name: str, angles: Floats, rates: Floats) -> Place:
         """How a link moves in the model's frame: linear (n, 3) and angular (n, 3)."""
