@@ -22,7 +22,7 @@ from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.lanes import Lanes
 from gazelle.engines.planar.scan_columns import ALL, CROWDED, SINGLY
 from gazelle.engines.planar.small_scene import front_faces_of
-from gazelle.engines.planar.taped_scans import TapedScan, row_of
+from gazelle.engines.planar.taped_scans import TapedScan
 from gazelle.engines.planar.viewpoint import Viewpoint
 from gazelle.errors import EngineError
 
@@ -245,8 +245,11 @@ class Scanner:
 
     @cached_property
     def _taped(self) -> TapedScan:
-        row = row_of(self.fan, _ANGLES)
-        return TapedScan(self, row, self._outline, self._middles, self._mounts)
+        fan, results = self.fan, (self.owners, self._flat, self.names)
+        begin = 1.0 / fan.begin if fan.begin > 0.0 else math.inf
+        row = np.array([fan.start, 1.0 / fan.step, fan.reach, begin, _ANGLES])
+        own = (self._outline, self._middles, self._mounts)
+        return TapedScan(self.fleet, fan.angles, results, row, *own)
 
     # -- what was met ------------------------------------------------------------------
 

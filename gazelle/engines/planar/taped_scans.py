@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,11 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.engines.native import Call, Function
 from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kernels_front import MANY, scan_crowded
 from gazelle.engines.planar.kernels_march import LANES, SIDE_BY_SIDE
 from gazelle.engines.planar.kernels_scan import scan
 from gazelle.engines.planar.kernels_walk import FEW_BEAMS, scan_singly
-
-if TYPE_CHECKING:
-    from gazelle.engines.planar.fans import Fan, Scanner
-    from gazelle.engines.planar.fleet import Fleet
 
 _BLOCK = 64  # primitives that are prepared at once; more than make a grid worth it
 _CROWD = 128  # bodies that are sorted at once
@@ -42,7 +39,9 @@ class TapedScan:
     """The scan of a scanner as a call of a kernel.
 
     Args:
-        scanner: Which.
+        fleet: What it looks at.
+        angles: Of the beams [rad], shape (count,).
+        results: Bodies of the sensors, and what comes out: ranges and names.
         row: Its fan as ``columns.START`` and what follows say.
         outline: Around all that it sees, shape (n, 2).
         middles: Directions of the middles of bundles of beams, shape (2, n).
@@ -50,38 +49,46 @@ class TapedScan:
     """
 
     def __init__(
-        self, scanner: Scanner, row: Floats, outline: Floats, middles: Floats, mounts: Floats
+        self,
+        fleet: Fleet,
+        angles: Floats,
+        results: tuple[NDArray[np.int64], Floats, Floats],
+        row: Floats,
+        outline: Floats,
+        middles: Floats,
+        mounts: Floats,
     ) -> None:
-        self._scanner, self._fan, self._outline, self._middles = scanner, row, outline, middles
+        self._fleet, self._results = fleet, results
+        self._fan, self._outline, self._middles = row, outline, middles
         self._mounts = mounts
-        fleet, fan = scanner.fleet, scanner.fan
-        beams = np.zeros((4, fan.count))
-        beams[0], beams[1] = np.cos(fan.angles), np.sin(fan.angles)
+        count = len(angles)
+        beams = np.zeros((4, count))
+        beams[0], beams[1] = np.cos(angles), np.sin(angles)
         statics = len(fleet.scene.table.rows)
         self._scratch = [
             _Scratch(
                 beams.copy(),
                 np.zeros_like(outline),
                 np.zeros(statics + 1, np.int64),
-                np.zeros(-(-fan.count // SIDE_BY_SIDE)),
+                np.zeros(-(-count // SIDE_BY_SIDE)),
             )
             for _ in range(fleet.crew.size)
         ]
-        self._look = _look_of(fan, fleet)
-        self._sensors = np.zeros((len(scanner.owners), c.SENSOR))
+        self._look = _look_of(count, fleet)
+        self._sensors = np.zeros((len(results[0]), c.SENSOR))
 
     def call(self) -> Call:
         """What scans everywhere in one thread."""
-        scanner, own = self._scanner, self.arguments(0)
+        own, results = self.arguments(0), self._results
         extra = () if self._look is scan else self._ahead()
         return self._look, (
-            0, len(scanner.owners), *own[:5], scanner.fleet.widest, *self.surroundings(), *own[5:],
-            *extra, scanner.flat_ranges, scanner.names,
+            0, len(results[0]), *own[:5], self._fleet.widest, *self.surroundings(), *own[5:],
+            *extra, results[1], results[2],
         )  # fmt: skip
 
     def surroundings(self) -> tuple[Any, ...]:
         """What ``kernels_scan.scan`` works on of the fleet, but for the largest radius."""
-        fleet, scene = self._scanner.fleet, self._scanner.fleet.scene
+        fleet, scene = self._fleet, self._fleet.scene
         return (
             scene.grid, scene.table.rows, scene.start, scene.items, scene.lanes, fleet.kinds,
             fleet.looks, fleet.rows, fleet.head, fleet.follow,
@@ -91,13 +98,13 @@ class TapedScan:
         """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
         own = self._scratch[part]
         return (
-            self._sensors, self._scanner.owners, self._mounts, self._fan, self._outline,
+            self._sensors, self._results[0], self._mounts, self._fan, self._outline,
             own.beams, own.view, own.stamp, own.walls, own.others,
         )  # fmt: skip
 
     def _ahead(self) -> tuple[Any, ...]:
         """Where statics are, for kernels in which beams go through clear space."""
-        there = self._scanner.fleet.scene.clearing(solid=self._scanner.fan.begin == 0.0)
+        there = self._fleet.scene.clearing(solid=self._fan[c.NEAR] == math.inf)
         own = self._scratch[0]
         return (
             there.fine, there.start, there.items, there.clear, own.going, own.begins,
@@ -105,14 +112,8 @@ class TapedScan:
         )  # fmt: skip
 
 
-def _look_of(fan: Fan, fleet: Fleet) -> Function:
+def _look_of(count: int, fleet: Fleet) -> Function:
     scene = fleet.scene
-    if scene.cells > 1 and fan.count <= FEW_BEAMS:
+    if scene.cells > 1 and count <= FEW_BEAMS:
         return scan_singly
     return scan_crowded if scene.cells > 1 and len(scene.items) > MANY else scan
-
-
-def row_of(fan: Fan, slack: float) -> Floats:
-    """A fan as ``columns.START`` and what follows say."""
-    begin = 1.0 / fan.begin if fan.begin > 0.0 else math.inf
-    return np.array([fan.start, 1.0 / fan.step, fan.reach, begin, slack])
