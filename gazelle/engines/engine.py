@@ -404,18 +404,11 @@ class Engine(Protocol):
     def cast_ranges(
         self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
     ) -> tuple[Floats, float]:
-        """Follow rays of a range finder, again and again the same: the fastest way there is.
-
-        Args:
-            link: The link that the rays move with.
-            origins: In the link frame [m], shape (rays, 3); the same array each time, unchanged.
-            directions: Unit vectors in the link frame, likewise.
-            worlds: Which worlds.
+        """Follow the rays of a range finder, the same arrays each time; see ``cast_rays``.
 
         Returns:
-            Distances from a point that is some way behind the origins [m], shape (n, rays):
-            infinite where nothing is met, minus infinite where a ray starts inside a shape; they
-            are overwritten by the next call. And how far that point is behind [m].
+            Distances from somewhat behind the origins [m], shape (n, rays), infinite for nothing,
+            minus infinite from inside, overwritten by the next call; and how far behind [m].
         """
 
     def spawn(self, model: Model) -> None:
