@@ -89,6 +89,7 @@ class LidarModel:
             interval: Time since the last measurement [s].
         """
         ranges, begin = self._engine.cast_ranges(self.link, self.origins, self.directions, worlds)
+        ranges = np.ascontiguousarray(ranges)
         offset, noise = self.lidar.range_min - begin, self._noise
         if noise.drifts:
             return self._drifting(ranges + offset, interval, worlds)
