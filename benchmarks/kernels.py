@@ -35,13 +35,11 @@ env = gymnasium.make_vec(
 env.reset(seed=0)
 env.step([2] * 1024)
 """
-LAWS = "from gazelle.engines.mujoco.laws.callback import install; install()"
 CASES = {
     "a Fleet's step and scan": ["-c", FLEET],
     "gazelle run fleet": ["-m", "gazelle", "run", "fleet", "--for", "1", "--rate", "max"],
     "TurtleBot3Stage4, engine planar": ["-c", SINGLE],
     "TurtleBot3Stage4 in 1,024 worlds": ["-c", MANY],
-    "laws that MuJoCo calls": ["-c", LAWS],
 }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -60,6 +61,17 @@ def test_constants_of_compiled_modules_are_those_of_python(path):
     )
     values = {name: literal(text, name) for name in said}
     assert {name: float(value) for name, value in said.items()} == values
+
+
+@pytest.mark.skipif(shutil.which("objdump") is None, reason="needs binutils")
+def test_no_build_multiplies_and_adds_at_once():
+    """A processor that has such instructions would round differently from one that has not."""
+    homes = Path(gazelle.__file__).parent
+    modules = [*homes.rglob("_avx2/*.so"), *homes.rglob("_baseline/*.so")]
+    assert modules
+    done = subprocess.run(["objdump", "-d", *modules], check=True, capture_output=True, text=True)
+    assert "sd" in done.stdout
+    assert not re.search(r"\tv?f(n?m(add|sub)|mla|mls)", done.stdout)
 
 
 def literal(text, name):
