@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401  they teach kinds
-from gazelle.bridges.conversions import View, decoder_of, encoder_of, service_of
+from gazelle.bridges.conversions import ConversionContext, decoder_of, encoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import RosError, SimulationError, SimulationWarning
@@ -101,7 +101,9 @@ class Binding:
     def _publish(self, output: Output[Any]) -> None:
         encoder = encoder_of(output.kind)
         message_class = load_message(encoder.message)
-        view = View(output.frame, self._graph.world, self._graph.stamp, self._prefix(output))
+        view = ConversionContext(
+            output.frame, self._graph.world, self._graph.stamp, self._prefix(output)
+        )
         ending: list[Callable[[], None]] = []
 
         def send(value: Any) -> None:

@@ -19,7 +19,7 @@ from gazelle.simulation.values import RangeValue, Touches, TruePose
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class ConversionContext:
     """How a graph sees a value.
 
     Attributes:
@@ -49,7 +49,7 @@ class Encoder:
     """
 
     message: str
-    fill: Callable[[Any, Any, View], None]
+    fill: Callable[[Any, Any, ConversionContext], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,18 +103,20 @@ def quaternion(message: Any) -> tuple[float, float, float, float]:
     return (x, y, z, w)
 
 
-def set_header(message: Any, view: View, nanoseconds: int, frame: str | None = None) -> None:
+def set_header(
+    message: Any, view: ConversionContext, nanoseconds: int, frame: str | None = None
+) -> None:
     """Fill a header; the port's frame if None."""
     message.header.stamp = view.stamp(nanoseconds)
     message.header.frame_id = view.resolved(view.frame if frame is None else frame)
 
 
-def set_plain_header(message: Any, view: View, nanoseconds: int) -> None:
+def set_plain_header(message: Any, view: ConversionContext, nanoseconds: int) -> None:
     """The same for sensors whose plugins in Gazebo give the frame as it is written."""
     message.header.stamp, message.header.frame_id = view.stamp(nanoseconds), view.frame
 
 
-def _odometry(message: Any, value: Odometry, view: View) -> None:
+def _odometry(message: Any, value: Odometry, view: ConversionContext) -> None:
     set_header(message, view, value.stamp, value.frame)
     message.child_frame_id = view.resolved(value.child_frame)
     set_pose(message.pose.pose, value.position[view.world], value.quaternion[view.world])
@@ -123,7 +125,7 @@ def _odometry(message: Any, value: Odometry, view: View) -> None:
     message.twist.covariance = _diagonal(value.twist_variance)
 
 
-def _true_pose(message: Any, value: TruePose, view: View) -> None:
+def _true_pose(message: Any, value: TruePose, view: ConversionContext) -> None:
     _odometry(message, value, view)
     message.child_frame_id = value.child_frame
 
@@ -132,7 +134,7 @@ def _diagonal(values: Any) -> list[float]:
     return [float(x) for x in np.diag(np.asarray(values, np.float64)).ravel()]
 
 
-def _joint_states(message: Any, value: JointStates, view: View) -> None:
+def _joint_states(message: Any, value: JointStates, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     message.name = list(value.names)
     message.position = value.position[view.world].tolist()
@@ -141,7 +143,7 @@ def _joint_states(message: Any, value: JointStates, view: View) -> None:
         message.effort = value.effort[view.world].tolist()
 
 
-def _transforms(message: Any, value: Transforms, view: View) -> None:
+def _transforms(message: Any, value: Transforms, view: ConversionContext) -> None:
     stamped: Any = load_message("geometry_msgs/TransformStamped")
     for each in value.transforms:
         one = stamped()
@@ -152,7 +154,7 @@ def _transforms(message: Any, value: Transforms, view: View) -> None:
         message.transforms.append(one)
 
 
-def _scan(message: Any, value: LaserScan, view: View) -> None:
+def _scan(message: Any, value: LaserScan, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     message.angle_min, message.angle_max = value.angle_min, value.angle_max
     message.angle_increment = value.angle_increment
@@ -161,7 +163,7 @@ def _scan(message: Any, value: LaserScan, view: View) -> None:
     message.intensities = [0.0] * len(message.ranges)
 
 
-def _imu(message: Any, value: ImuReading, view: View) -> None:
+def _imu(message: Any, value: ImuReading, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     set_quaternion(message.orientation, value.orientation[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
@@ -172,7 +174,7 @@ def _imu(message: Any, value: ImuReading, view: View) -> None:
     message.linear_acceleration_covariance = covariance
 
 
-def _touches(message: Any, value: Touches, view: View) -> None:
+def _touches(message: Any, value: Touches, view: ConversionContext) -> None:
     """One ``ContactState`` for each pair of collisions, as Gazebo groups them."""
     set_header(message, view, value.stamp)
     contacts = value.contacts[view.world]
@@ -201,7 +203,7 @@ def _add(wrench: Any, force: Any, torque: Any) -> None:
     set_point(wrench.torque, np.add(turning, torque))
 
 
-def _range(message: Any, value: RangeValue, view: View) -> None:
+def _range(message: Any, value: RangeValue, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     message.radiation_type = 0 if value.ultrasound else 1
     message.field_of_view = value.field_of_view
@@ -209,13 +211,13 @@ def _range(message: Any, value: RangeValue, view: View) -> None:
     message.range = float(value.distance[view.world])
 
 
-def _wrench(message: Any, value: WrenchValue, view: View) -> None:
+def _wrench(message: Any, value: WrenchValue, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     set_point(message.wrench.force, value.force[view.world])
     set_point(message.wrench.torque, value.torque[view.world])
 
 
-def _data(message: Any, value: Any, _view: View) -> None:
+def _data(message: Any, value: Any, _view: ConversionContext) -> None:
     message.data = value
 
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges.conversions import (
+    ConversionContext,
     Decoder,
     Encoder,
-    View,
     add_decoder,
     add_encoder,
     quaternion,
@@ -31,7 +31,7 @@ def _goal(message: Any) -> GoalPose:
     return GoalPose(at.x, at.y, heading, message.header.frame_id)
 
 
-def _path(message: Any, value: Path, view: View) -> None:
+def _path(message: Any, value: Path, view: ConversionContext) -> None:
     stamped: Any = load_message("geometry_msgs/PoseStamped")
     set_header(message, view, value.stamp, value.frame)
     for x, y, yaw in value.poses[view.world].tolist():

@@ -8,10 +8,10 @@ import numpy as np
 
 from gazelle.bridges import navigation_conversions  # noqa: F401  it teaches goals and paths
 from gazelle.bridges.conversions import (
+    ConversionContext,
     Decoder,
     Encoder,
     ServiceCodec,
-    View,
     add_decoder,
     add_encoder,
     add_service,
@@ -64,7 +64,7 @@ def _outcome(answer: Outcome) -> dict[str, Any]:
     return {"success": answer.success, "status_message": answer.text}
 
 
-def _flags(message: Any, value: Flags, view: View) -> None:
+def _flags(message: Any, value: Flags, view: ConversionContext) -> None:
     message.data = bool(value.values[view.world])
 
 

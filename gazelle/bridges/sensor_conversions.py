@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges.conversions import (
+    ConversionContext,
     Decoder,
     Encoder,
     ServiceCodec,
-    View,
     add_decoder,
     add_encoder,
     add_service,
@@ -58,7 +58,7 @@ _FIELDS = (
 _POINT = np.dtype([(name, kind) for name, _, _, kind in _FIELDS])
 
 
-def _point_cloud2(message: Any, value: LaserPoints, view: View) -> None:
+def _point_cloud2(message: Any, value: LaserPoints, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     kept = value.kept[view.world]
     points = value.points[view.world][kept]
@@ -73,7 +73,7 @@ def _point_cloud2(message: Any, value: LaserPoints, view: View) -> None:
     message.data = packed.tobytes()
 
 
-def _point_cloud(message: Any, value: ChannelPoints, view: View) -> None:
+def _point_cloud(message: Any, value: ChannelPoints, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     kept = value.kept[view.world]
     place: Any = load_message("geometry_msgs/Point32")
@@ -82,7 +82,7 @@ def _point_cloud(message: Any, value: ChannelPoints, view: View) -> None:
     message.channels = [channel("intensities", value.intensities[kept].tolist())]
 
 
-def _unsure_imu(message: Any, value: UnsureImu, view: View) -> None:
+def _unsure_imu(message: Any, value: UnsureImu, view: ConversionContext) -> None:
     encoder_of(ImuReading).fill(message, value.reading, view)
     message.orientation_covariance = _three(value.orientation_variance)
     message.angular_velocity_covariance = _three(value.rate_variance)
@@ -93,7 +93,7 @@ def _three(variance: Any) -> list[float]:
     return [float(x) for x in np.diag(variance).ravel()]
 
 
-def _fix(message: Any, value: Fix, view: View) -> None:
+def _fix(message: Any, value: Fix, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     message.status.status, message.status.service = value.status, value.service
     message.latitude = float(value.latitude[view.world])
@@ -103,29 +103,29 @@ def _fix(message: Any, value: Fix, view: View) -> None:
     message.position_covariance_type = 2  # only the diagonal is known
 
 
-def _vector(message: Any, value: VectorValue, view: View) -> None:
+def _vector(message: Any, value: VectorValue, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.vector, value.values[view.world])
 
 
-def _magnetic(message: Any, value: MagneticValue, view: View) -> None:
+def _magnetic(message: Any, value: MagneticValue, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.magnetic_field, value.values[view.world])
 
 
-def _place(message: Any, value: PointValue, view: View) -> None:
+def _place(message: Any, value: PointValue, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.point, value.values[view.world])
 
 
-def _altimeter(message: Any, value: AltimeterValue, view: View) -> None:
+def _altimeter(message: Any, value: AltimeterValue, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     message.altitude = float(value.altitude[view.world])
     message.pressure = float(value.pressure[view.world])
     message.qnh = value.sea_level
 
 
-def _sonar(message: Any, value: SonarValue, view: View) -> None:
+def _sonar(message: Any, value: SonarValue, view: ConversionContext) -> None:
     encoder_of(RangeValue).fill(message, value, view)
     set_plain_header(message, view, value.stamp)
 
@@ -159,12 +159,12 @@ add_service(
 )
 
 
-def _cliff(message: Any, value: CliffValue, view: View) -> None:
+def _cliff(message: Any, value: CliffValue, view: ConversionContext) -> None:
     message.sensor, message.state = value.place, int(value.deep[view.world])
     message.bottom = int(value.reading[view.world])
 
 
-def _bump(message: Any, value: BumperValue, view: View) -> None:
+def _bump(message: Any, value: BumperValue, view: ConversionContext) -> None:
     message.bumper, message.state = value.place, int(value.pressed[view.world])
 
 

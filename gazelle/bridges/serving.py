@@ -13,7 +13,7 @@ from gazelle.closing import Closeable
 from gazelle.errors import RosError
 from gazelle.ros import Master, Node, WallClock, net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.nodes import process_of
 from gazelle.simulation import Simulation
 
@@ -121,7 +121,10 @@ def refuse_twin(name: str, master_uri: str | None = None) -> None:
     Raises:
         RosError: There is one.
     """
-    with Graph("gazelle", master_uri) as graph, contextlib.suppress(UnreachableError, ApiError):
+    with (
+        GraphInspector("gazelle", master_uri) as graph,
+        contextlib.suppress(UnreachableError, ApiError),
+    ):
         node = graph.resolve(name)
         process = process_of(graph, node)
         if process is None:

@@ -177,7 +177,7 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
 
     from gazelle.ros import net
     from gazelle.ros.launch import describing
-    from gazelle.ros.launch.process import Patience
+    from gazelle.ros.launch.process import StopTimeouts
     from gazelle.ros.launch.runner import Launch, Options
 
     options = Options(
@@ -187,7 +187,7 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
         screen=args.screen,
         log=args.log,
         run_id=args.run_id,
-        patience=Patience(args.sigint_timeout, args.sigterm_timeout),
+        patience=StopTimeouts(args.sigint_timeout, args.sigterm_timeout),
     )
     if args.port is not None:
         options.master_uri = net.uri_of(options.host, args.port)

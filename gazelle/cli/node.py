@@ -52,9 +52,9 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _graph() -> Any:
-    from gazelle.ros.tools.graph import Graph
+    from gazelle.ros.tools.graph import GraphInspector
 
-    return Graph("rosnode")
+    return GraphInspector("rosnode")
 
 
 def _list(args: argparse.Namespace) -> int:

@@ -48,9 +48,9 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _graph() -> Any:
-    from gazelle.ros.tools.graph import Graph
+    from gazelle.ros.tools.graph import GraphInspector
 
-    return Graph("rosparam")
+    return GraphInspector("rosparam")
 
 
 def _list(args: argparse.Namespace) -> int:

@@ -43,9 +43,9 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _graph() -> Any:
-    from gazelle.ros.tools.graph import Graph
+    from gazelle.ros.tools.graph import GraphInspector
 
-    return Graph("rosservice")
+    return GraphInspector("rosservice")
 
 
 def _list(args: argparse.Namespace) -> int:
@@ -82,14 +82,14 @@ def _find(args: argparse.Namespace) -> int:
 
 def _call(args: argparse.Namespace) -> int:
     from gazelle.ros.tools.publishing import documents, parse_arguments
-    from gazelle.ros.tools.services import Caller
+    from gazelle.ros.tools.services import ServiceCaller
     from gazelle.ros.tools.watching import tool_node
 
     values = parse_arguments(args.values)
     with _graph() as graph, tool_node(graph) as node:
         if args.wait:
             node.wait_for_service(graph.resolve(args.service))
-        caller = Caller(graph, node, args.service)
+        caller = ServiceCaller(graph, node, args.service)
         if values or not caller.takes_values:
             _call_once(caller, values, verbose=args.verbose)
             return 0

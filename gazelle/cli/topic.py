@@ -97,9 +97,9 @@ def _configure_rates(commands: SubCommands) -> None:
 
 
 def _graph() -> Any:
-    from gazelle.ros.tools.graph import Graph
+    from gazelle.ros.tools.graph import GraphInspector
 
-    return Graph(_TOOL)
+    return GraphInspector(_TOOL)
 
 
 def _list(args: argparse.Namespace) -> int:

@@ -17,7 +17,7 @@ from gazelle.closing import Closeable
 from gazelle.ros import net
 from gazelle.ros.errors import MasterUnreachableError, RosError
 from gazelle.ros.tools import nodes as node_tools
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 _POLL_S = 0.05
 _END_S = 10.0
@@ -135,7 +135,7 @@ def _client(uri: str) -> Gazebo:
 
 def _refuse_another(uri: str) -> None:
     """Make sure that no other simulator will be taken for the one that starts."""
-    with contextlib.suppress(MasterUnreachableError), Graph("clients", uri) as graph:
+    with contextlib.suppress(MasterUnreachableError), GraphInspector("clients", uri) as graph:
         if node_tools.alive(graph, "/gazebo"):
             raise ClientError(
                 "a simulator is on this graph already: /gazebo",

@@ -38,7 +38,7 @@ class ModelState:
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
-class Place(TypedDict, total=False):
+class ModelPlace(TypedDict, total=False):
     """Where a model is put: ``position`` [m] and ``rpy`` [rad] as a model or link, ``frame``, has it."""
 
     position: Vector
@@ -46,7 +46,7 @@ class Place(TypedDict, total=False):
     frame: str
 
 
-class Where(Place, total=False):
+class Where(ModelPlace, total=False):
     """The same, and the ``namespace`` of its topics."""
 
     namespace: str

@@ -19,7 +19,7 @@ from gazelle.ros.launch import LaunchPlan, Packages, load_launch, load_launch_te
 from gazelle.ros.launch.finding import find_launch_file
 from gazelle.ros.launch.runner import Launch, Options
 from gazelle.ros.tools import nodes as node_tools
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 _WATCH_S = 0.1
 _log = logging.getLogger("gazelle.clients")
@@ -115,7 +115,7 @@ class Processes:
 
     def nodes(self) -> list[str]:
         """The names of all nodes on the graph."""
-        return node_tools.list_nodes(Graph("clients", self._uri)).splitlines()
+        return node_tools.list_nodes(GraphInspector("clients", self._uri)).splitlines()
 
     def stop(self, name: str) -> None:
         """End what was started here under a name.
@@ -138,7 +138,7 @@ class Processes:
 
     def kill(self, *nodes: str) -> list[str]:
         """Ask any nodes of the graph to end; returns those that could not be asked."""
-        return node_tools.kill(Graph("clients", self._uri), nodes)
+        return node_tools.kill(GraphInspector("clients", self._uri), nodes)
 
     def kill_all(self) -> list[str]:
         """Ask all nodes of the graph to end, whoever started them; see ``kill``."""
@@ -150,7 +150,7 @@ class Processes:
         Raises:
             MasterUnreachableError: There is none.
         """
-        Graph("clients", self._uri).master.call("shutdown", "asked by a client")
+        GraphInspector("clients", self._uri).master.call("shutdown", "asked by a client")
 
     def __enter__(self) -> Self:
         return self
@@ -167,7 +167,7 @@ class Processes:
         self._launches.append(_Running(name, plan, self._uri))
 
     def _set_parameters(self, node: str, parameters: Mapping[str, Any]) -> None:
-        master = Graph("clients", self._uri).master
+        master = GraphInspector("clients", self._uri).master
         for key, value in parameters.items():
             master.set_param(f"{node}/{key}", value)
 

@@ -9,7 +9,7 @@ from typing import Unpack
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.descriptions import load_parameters, load_urdf
 from gazelle.clients.gazebo import Gazebo
-from gazelle.clients.poses import Place
+from gazelle.clients.poses import ModelPlace
 from gazelle.clients.processes import Processes
 
 
@@ -25,7 +25,7 @@ def spawn_robot(
     publisher_rate: float | None = 50.0,
     controller_file: str | Path | None = None,
     controllers: Sequence[str] = (),
-    **where: Unpack[Place],
+    **where: Unpack[ModelPlace],
 ) -> None:
     """Put a robot into a running world, with what usually goes with it.
 

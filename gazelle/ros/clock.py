@@ -23,7 +23,7 @@ _SILENCE_S = 2.0
 Cancelled = Callable[[], bool]
 
 
-class Clock(Protocol):
+class TimeSource(Protocol):
     """A source of time."""
 
     simulated: bool
@@ -56,7 +56,7 @@ class WallClock:
         return time.time_ns()
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
-        """Wait; see `Clock.sleep`."""
+        """Wait; see `TimeSource.sleep`."""
         if cancelled is None:
             time.sleep(max(0, nanoseconds) / SECOND)
             return True
@@ -114,7 +114,7 @@ class SimulatedClock:
             self._started.set()
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
-        """Wait; see `Clock.sleep`. Before the first time there is, it waits for that."""
+        """Wait; see `TimeSource.sleep`. Before the first time there is, it waits for that."""
         if not self._wait_for_start(cancelled):
             return False
         with self._lock:
@@ -162,7 +162,7 @@ class Rate:
         ValueError: The rate is not positive.
     """
 
-    def __init__(self, clock: Clock, hertz: float, *, reset: bool = False) -> None:
+    def __init__(self, clock: TimeSource, hertz: float, *, reset: bool = False) -> None:
         if not hertz > 0:
             raise ValueError(f"a rate must be positive, not {hertz}")
         self.period = round(SECOND / hertz)

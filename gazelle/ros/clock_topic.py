@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.clock import Clock, SimulatedClock, WallClock
+from gazelle.ros.clock import SimulatedClock, TimeSource, WallClock
 from gazelle.ros.topics import TopicNode
 
 
-def node_clock(node: TopicNode) -> Clock:
+def node_clock(node: TopicNode) -> TimeSource:
     """The clock a node starts with: simulated if the parameter ``/use_sim_time`` is true."""
     if node.parameters.get("/use_sim_time", False) is not True:
         return WallClock()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class NetworkLimits:
     """Bounds on what comes from the network."""
 
     message_bytes: int = 1_000_000_000
@@ -31,4 +31,4 @@ class Limits:
     """A subscriber without queue size stops reading beyond this until callbacks catch up."""
 
 
-LIMITS = Limits()
+LIMITS = NetworkLimits()

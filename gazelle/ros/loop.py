@@ -29,7 +29,7 @@ WRITE = selectors.EVENT_WRITE
 Handler = Callable[[int], None]
 
 
-class Timer:
+class TimerHandle:
     """Something that runs later, on the loop's thread; `cancel` it from anywhere."""
 
     __slots__ = ("callback",)
@@ -50,7 +50,7 @@ class EventLoop:
         self._watched: dict[int, tuple[socket.socket, Handler]] = {}
         """Sockets and their handlers by file descriptor."""
         self._soon: deque[Task] = deque()
-        self._timers: list[tuple[float, int, Timer]] = []
+        self._timers: list[tuple[float, int, TimerHandle]] = []
         self._timer_count = 0
         self._sleeping = False
         self._stopping = False
@@ -78,9 +78,9 @@ class EventLoop:
             self._sleeping = False
             self._wake()
 
-    def call_later(self, seconds: float, callback: Task) -> Timer:
+    def call_later(self, seconds: float, callback: Task) -> TimerHandle:
         """Run `callback` on the loop's thread after `seconds` of wall time."""
-        timer = Timer(callback)
+        timer = TimerHandle(callback)
         due = time.monotonic() + seconds
 
         def add() -> None:

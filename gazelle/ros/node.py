@@ -15,7 +15,7 @@ from typing import Any
 from gazelle.closing import Closeable
 from gazelle.ros import loop as loops
 from gazelle.ros import names, net, statistics
-from gazelle.ros.clock import Clock
+from gazelle.ros.clock import TimeSource
 from gazelle.ros.clock_topic import node_clock
 from gazelle.ros.errors import (
     InvalidNameError,
@@ -23,9 +23,9 @@ from gazelle.ros.errors import (
     RosError,
     report,
 )
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.master.proxy import MasterProxy
-from gazelle.ros.parameters import Parameters
+from gazelle.ros.parameters import NodeParameters
 from gazelle.ros.registration import Registrar
 from gazelle.ros.serving import ServiceNode
 from gazelle.ros.slave import SlaveApi
@@ -83,9 +83,9 @@ class Node(TopicNode, ServiceNode, Closeable):
         host: str | None = None,
         anonymous: bool = False,
         remappings: Mapping[str, str] | None = None,
-        clock: Clock | None = None,
+        clock: TimeSource | None = None,
         share_messages: bool = True,
-        limits: Limits = LIMITS,
+        limits: NetworkLimits = LIMITS,
     ) -> None:
         super().__init__()
         self.name = _full_name(name, names.as_namespace(namespace), anonymous=anonymous)
@@ -98,7 +98,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self.on_shutdown: list[Callable[[str], None]] = []
         self.on_new_master: list[Callable[[], None]] = []
         self.master = MasterProxy(self.master_uri, self.name, limits=limits)
-        self.parameters = Parameters(self)
+        self.parameters = NodeParameters(self)
         self.loop = loops.acquire()
         self._open()
         try:
@@ -133,7 +133,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self._registrar = Registrar(self)
         self.loop.call_soon(self._registrar.start)
 
-    def _start(self, clock: Clock | None) -> None:
+    def _start(self, clock: TimeSource | None) -> None:
         """Look at the parameters that say how nodes behave."""
         self.clock = node_clock(self) if clock is None else clock
         if self.parameters.get("/enable_statistics", False) is True:
@@ -144,7 +144,7 @@ class Node(TopicNode, ServiceNode, Closeable):
     # Parameters ----------------------------------------------------------------------------
 
     def get_param(self, name: str, default: Any = _REQUIRED) -> Any:
-        """The value of a parameter; see `Parameters.get`."""
+        """The value of a parameter; see `NodeParameters.get`."""
         if default is _REQUIRED:
             return self.parameters.get(name)
         return self.parameters.get(name, default)

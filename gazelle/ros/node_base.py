@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from gazelle.ros import names
-from gazelle.ros.clock import Clock
+from gazelle.ros.clock import TimeSource
 from gazelle.ros.errors import (
     ApiError,
     InvalidNameError,
@@ -17,10 +17,10 @@ from gazelle.ros.errors import (
     NodeClosedError,
     report,
 )
-from gazelle.ros.limits import Limits
+from gazelle.ros.limits import NetworkLimits
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.master.proxy import MasterProxy
-from gazelle.ros.parameters import Parameters
+from gazelle.ros.parameters import NodeParameters
 from gazelle.ros.xmlrpc.async_client import AsyncClient
 
 _nodes: dict[str, NodeBase] = {}
@@ -64,10 +64,10 @@ class NodeBase(ABC):
     master: MasterProxy
     calls: AsyncClient
     loop: EventLoop
-    limits: Limits
+    limits: NetworkLimits
     share_messages: bool
-    clock: Clock
-    parameters: Parameters
+    clock: TimeSource
+    parameters: NodeParameters
 
     def __init__(self) -> None:
         self._lock = threading.RLock()

@@ -18,7 +18,7 @@ _MISSING: Any = object()
 
 
 class ParameterNode(Protocol):
-    """What `Parameters` needs of its node."""
+    """What `NodeParameters` needs of its node."""
 
     loop: EventLoop
     master: MasterProxy
@@ -28,7 +28,7 @@ class ParameterNode(Protocol):
         """The global name that `name` means to the node."""
 
 
-class Parameters:
+class NodeParameters:
     """Parameters as one node sees them; names are resolved for it."""
 
     def __init__(self, node: ParameterNode) -> None:
@@ -193,7 +193,7 @@ def _inner(tree: Any, rest: str) -> Any:
     return copy.deepcopy(tree)
 
 
-def set_private(parameters: Parameters, mappings: dict[str, str]) -> None:
+def set_private(parameters: NodeParameters, mappings: dict[str, str]) -> None:
     """Set the private parameters of a command line (``_rate:=5``), typed as YAML."""
     import yaml
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from gazelle.ros.errors import RosError, report
-from gazelle.ros.loop import EventLoop, Timer
-from gazelle.ros.parameters import Parameters
+from gazelle.ros.loop import EventLoop, TimerHandle
+from gazelle.ros.parameters import NodeParameters
 from gazelle.ros.publishing import Publication
 from gazelle.ros.services import ServiceServer
 from gazelle.ros.subscribing import Subscription
@@ -35,7 +35,7 @@ class RegisteredNode(Protocol):
     master_uri: str
     loop: EventLoop
     calls: AsyncClient
-    parameters: Parameters
+    parameters: NodeParameters
     on_new_master: list[Callable[[], None]]
 
     def publications(self) -> list[Publication]:
@@ -53,7 +53,7 @@ class Registrar:
 
     def __init__(self, node: RegisteredNode) -> None:
         self._node = node
-        self._timer: Timer | None = None
+        self._timer: TimerHandle | None = None
         self._stopped = False
         self._asking = False
         self._unknown = False

@@ -214,7 +214,7 @@ class ServiceClient:
         self.persistent = persistent
         self.fields: dict[str, str] = {}
         """More fields for the connection header."""
-        self._channel: ServiceChannel | NearChannel | None = None
+        self._channel: ServiceChannel | LocalServiceChannel | None = None
         self._lock = threading.RLock()
         self._closed = False
 
@@ -280,7 +280,7 @@ class ServiceClient:
                 self._channel = None
         return body
 
-    def _connect(self, deadline: float | None) -> ServiceChannel | NearChannel:
+    def _connect(self, deadline: float | None) -> ServiceChannel | LocalServiceChannel:
         host, port = find_service(self.node, self.name)
         fields = {
             "callerid": self.node.name,
@@ -294,11 +294,11 @@ class ServiceClient:
         # Who sets a limit of time may have to leave the handler behind, on a thread of its own.
         server = self._find_near(host, port, self.name) if deadline is None else None
         if server is not None:
-            return NearChannel(server, fields)
+            return LocalServiceChannel(server, fields)
         return ServiceChannel(host, port, fields, self.node.limits, deadline)
 
 
-class NearChannel:
+class LocalServiceChannel:
     """A way to a service of this process: the calling thread runs the handler itself.
 
     Request and response are serialised all the same, so that the two sides share nothing and

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 from gazelle.ros import apis
 from gazelle.ros.apis import Api, Method, Triple
-from gazelle.ros.parameters import Parameters
+from gazelle.ros.parameters import NodeParameters
 from gazelle.ros.publishing import Publication
 from gazelle.ros.subscribing import Subscription
 
@@ -16,7 +16,7 @@ _TCPROS = "TCPROS"
 _INPROC = "INTRAPROCESS"
 
 
-class AskedNode(Protocol):
+class SlaveNode(Protocol):
     """What the API needs of its node."""
 
     name: str
@@ -24,7 +24,7 @@ class AskedNode(Protocol):
     host: str
     tcpros_port: int
     master_uri: str
-    parameters: Parameters
+    parameters: NodeParameters
 
     def publications(self) -> list[Publication]:
         """All topics published."""
@@ -45,7 +45,7 @@ class AskedNode(Protocol):
 class SlaveApi:
     """The methods of one node; all run on the loop's thread."""
 
-    def __init__(self, node: AskedNode) -> None:
+    def __init__(self, node: SlaveNode) -> None:
         self._node = node
         topic, key = ("topic", apis.graph_name), ("parameter_key", apis.parameter)
         self._api = Api(

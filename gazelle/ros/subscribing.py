@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from gazelle.ros.errors import Md5MismatchError, report
-from gazelle.ros.limits import Limits
+from gazelle.ros.limits import NetworkLimits
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.messages.base import Message
 from gazelle.ros.node_base import NodeBase
@@ -59,7 +59,7 @@ class Subscription:
         self.node = node
         self.topic = topic
         self.message_class = message_class
-        self.limits: Limits = node.limits
+        self.limits: NetworkLimits = node.limits
         self._most_behind = node.limits.receive_backlog_bytes
         self.tcp_nodelay = False
         self.queue_size: int | None = None

@@ -11,7 +11,7 @@ from ros.graph import until
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.bridges.conversions import View, decoder_of, encoder_of
+from gazelle.bridges.conversions import ConversionContext, decoder_of, encoder_of
 from gazelle.navigation import GoalPose, Path
 from gazelle.ros import Master, Node, load_message
 from gazelle.ros.time import Time
@@ -34,7 +34,7 @@ def test_a_path_is_written():
     encoder = encoder_of(Path)
     message = load_message(encoder.message)()
     value = Path(5, "odom", (np.zeros((0, 3)), np.array([[1.0, 2.0, 0.0], [1.5, 2.0, np.pi]])))
-    encoder.fill(message, value, View("", 1, lambda nanoseconds: Time(0, nanoseconds)))
+    encoder.fill(message, value, ConversionContext("", 1, lambda nanoseconds: Time(0, nanoseconds)))
     assert (message.header.frame_id, message.header.stamp) == ("odom", Time(0, 5))
     assert [(p.pose.position.x, p.pose.position.y) for p in message.poses] == [(1, 2), (1.5, 2)]
     assert message.poses[1].pose.orientation.z == pytest.approx(1.0)

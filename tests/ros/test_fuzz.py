@@ -12,7 +12,7 @@ import pytest
 from ros.graph import Flag, Text, until
 
 from gazelle.ros import Master, MasterProxy
-from gazelle.ros.limits import Limits
+from gazelle.ros.limits import NetworkLimits
 from gazelle.ros.net import split_uri
 from gazelle.ros.tcpros import headers
 from gazelle.ros.xmlrpc.http import request
@@ -170,7 +170,7 @@ def test_a_publisher_that_lies_does_not_hurt_its_subscriber(master, make_node):
 
 
 def test_a_request_beyond_the_limits_is_refused(master):
-    small = Limits(xml_bytes=2000, xml_depth=5, http_header_bytes=500, xml_values=20)
+    small = NetworkLimits(xml_bytes=2000, xml_depth=5, http_header_bytes=500, xml_values=20)
     with Master(port=0, rosout=False, limits=small) as master:
 
         def status(data):
@@ -193,14 +193,14 @@ def test_a_request_beyond_the_limits_is_refused(master):
 
 
 def test_half_open_connections_end_by_themselves(make_node):
-    node = make_node("node", limits=Limits(handshake_seconds=0.2))
+    node = make_node("node", limits=NetworkLimits(handshake_seconds=0.2))
     with socket.create_connection(("127.0.0.1", node.tcpros_port), timeout=5) as sock:
         sock.sendall(b"\x10")
         assert sock.recv(10) == b""
 
 
 def test_too_many_connections_are_turned_away(make_node):
-    node = make_node("node", limits=Limits(connections=10))
+    node = make_node("node", limits=NetworkLimits(connections=10))
     socks = [socket.create_connection(("127.0.0.1", node.tcpros_port)) for _ in range(20)]
     try:
         socks[-1].settimeout(5)

@@ -10,7 +10,7 @@ from gazelle.ros import Node, load_service
 from gazelle.simulation import Simulation
 
 
-class Context(Graph):
+class GazeboContext(Graph):
     """A graph, and what is in the world that it sees; arguments are those of ``Graph``.
 
     Attributes:

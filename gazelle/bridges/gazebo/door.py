@@ -7,14 +7,14 @@ from typing import Any
 
 from gazelle.array_types import Worlds
 from gazelle.bridges.binding import Binding
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.finite import Handler, ignoring, refusing
 from gazelle.bridges.gazebo.joints import JointServices
 from gazelle.bridges.gazebo.lights import LightServices
 from gazelle.bridges.gazebo.links import LinkServices
 from gazelle.bridges.gazebo.models import ModelServices
 from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
-from gazelle.bridges.gazebo.states import ClockBeat, PerformanceBeat, StatesBeat
+from gazelle.bridges.gazebo.states import ClockPublisher, PerformancePublisher, StatesPublisher
 from gazelle.bridges.gazebo.world import WorldServices
 from gazelle.closing import Closeable
 from gazelle.ros import Node, load_message, load_service
@@ -54,7 +54,7 @@ class GazeboDoor(Closeable):
         world: int = 0,
         monotonic_clock: bool = False,
     ) -> None:
-        self.context = Context(simulation, node, world, monotonic=monotonic_clock)
+        self.context = GazeboContext(simulation, node, world, monotonic=monotonic_clock)
         self._simulation, self._node = simulation, node
         self._closing: list[Callable[[], None]] = []
         self._bindings: dict[str, Binding] = {}
@@ -62,9 +62,9 @@ class GazeboDoor(Closeable):
         node.on_new_master.append(self._make_time)
         self._closing.append(lambda: node.on_new_master.remove(self._make_time))
         rate = float(node.get_param("~pub_clock_frequency", 0))
-        self._clock = ClockBeat(self.context, rate)
-        self._states: StatesBeat | None = None
-        self._beats: list[ClockBeat | StatesBeat | PerformanceBeat] = [self._clock]
+        self._clock = ClockPublisher(self.context, rate)
+        self._states: StatesPublisher | None = None
+        self._beats: list[ClockPublisher | StatesPublisher | PerformancePublisher] = [self._clock]
         # Plugins of the world speak for themselves, as in Gazebo.
         simulation.requests.call(self._follow)
         self._closing.append(serve_loggers(node))
@@ -84,8 +84,8 @@ class GazeboDoor(Closeable):
             self._node.set_param("/use_sim_time", True)
 
     def _open_network(self) -> None:
-        self._states = StatesBeat(self.context)
-        self._beats += [self._states, PerformanceBeat(self.context)]
+        self._states = StatesPublisher(self.context)
+        self._beats += [self._states, PerformancePublisher(self.context)]
         self._serve()
 
     def _follow(self) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.bridges.gazebo.answers import Answer, no, yes
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.errors import Error
 from gazelle.simulation import JointHandle
 
@@ -21,7 +21,7 @@ from gazelle.simulation import JointHandle
 class JointServices:
     """What ``/gazebo`` offers about joints."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._entities = context.entities
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.bridges.conversions import point, quaternion
 from gazelle.bridges.gazebo.answers import Answer, no, yes
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.description import Light, Pose
 from gazelle.ros import load_message
 
@@ -15,7 +15,7 @@ from gazelle.ros import load_message
 class LightServices:
     """What ``/gazebo`` offers about lights."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._simulation = context.simulation
 
     def add(self, light: Light) -> bool:

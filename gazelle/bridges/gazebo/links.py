@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.bridges.conversions import point, set_pose, set_twist
 from gazelle.bridges.gazebo.answers import Answer, no, yes
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.entities import State, is_world
 from gazelle.bridges.gazebo.models import read_state
 from gazelle.errors import Error
@@ -21,7 +21,7 @@ _UNSCOPED = "link not found, did you forget to scope the link by model name?"
 class LinkServices:
     """What ``/gazebo`` offers about links."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._entities = context.entities
         self._engine = context.simulation.engine

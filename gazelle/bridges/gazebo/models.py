@@ -15,7 +15,7 @@ from gazelle.bridges.conversions import (
     set_twist,
 )
 from gazelle.bridges.gazebo.answers import Answer, no, yes
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.entities import State
 from gazelle.bridges.gazebo.lights import LightServices
 from gazelle.bridges.gazebo.spawning import (
@@ -35,7 +35,7 @@ _NO_FRAME = "reference reference_frame not found, did you forget to scope the li
 class ModelServices:
     """What ``/gazebo`` offers about models."""
 
-    def __init__(self, context: Context, lights: LightServices) -> None:
+    def __init__(self, context: GazeboContext, lights: LightServices) -> None:
         self._context = context
         self._lights = lights
         self._entities = context.entities

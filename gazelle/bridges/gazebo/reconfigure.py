@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.world import WorldServices
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.simulation import Tunable, Tuning
@@ -45,7 +45,7 @@ _NAMES = {
 class PhysicsReconfigure:
     """Physics properties as rqt_reconfigure sets them; it begins with those that hold."""
 
-    def __init__(self, context: Context, world: WorldServices) -> None:
+    def __init__(self, context: GazeboContext, world: WorldServices) -> None:
         self._world = world
         self._physics = context.simulation.physics
         tuning = Tuning(context.node.name, _PHYSICS, self._change, self._now)

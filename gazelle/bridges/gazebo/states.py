@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.outbox import Outbox
 from gazelle.engines import Motion, Placement
 from gazelle.ros import load_message
@@ -22,7 +22,7 @@ _COUNT = struct.Struct("<I")
 _STAMP = struct.Struct("<II")
 
 
-class ClockBeat(Plugin):
+class ClockPublisher(Plugin):
     """Publishes ``/clock`` while somebody listens.
 
     Args:
@@ -30,7 +30,7 @@ class ClockBeat(Plugin):
         rate: At most [Hz]; 0 means every step.
     """
 
-    def __init__(self, context: Context, rate: float) -> None:
+    def __init__(self, context: GazeboContext, rate: float) -> None:
         self.update_rate = rate
         self._context = context
         self._publisher = context.node.advertise(
@@ -71,12 +71,12 @@ class ClockBeat(Plugin):
         self._context.simulation.requests.post(work)
 
 
-class StatesBeat(Plugin):
+class StatesPublisher(Plugin):
     """Publishes ``model_states`` and ``link_states`` at every step while somebody listens."""
 
     update_rate = 0.0
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._models = context.node.advertise(
             "~model_states", load_message("gazebo_msgs/ModelStates"), 10
@@ -85,7 +85,7 @@ class StatesBeat(Plugin):
             "~link_states", load_message("gazebo_msgs/LinkStates"), 10
         )
         self._outboxes = Outbox(self._models), Outbox(self._links)
-        self._tables: tuple[Table, Table] | None = None
+        self._tables: tuple[SerializedStates, SerializedStates] | None = None
         events = context.simulation.events
         self._forgetting = [
             event.subscribe(self._forget) for event in (events.spawned, events.deleted)
@@ -124,17 +124,17 @@ class StatesBeat(Plugin):
         """There are other models now."""
         self._tables = None
 
-    def _make_tables(self) -> tuple[Table, Table]:
+    def _make_tables(self) -> tuple[SerializedStates, SerializedStates]:
         entities = self._context.entities
         robots = self._context.simulation.robots
         self._tables = (
-            Table(dict(robots), entities.worlds),
-            Table({link.name: link for link in entities.links()}, entities.worlds),
+            SerializedStates(dict(robots), entities.worlds),
+            SerializedStates({link.name: link for link in entities.links()}, entities.worlds),
         )
         return self._tables
 
 
-class Table:
+class SerializedStates:
     """A ``ModelStates`` or ``LinkStates``, serialised: it goes out at every step.
 
     Args:
@@ -172,12 +172,12 @@ def _strings(names: Iterable[str]) -> bytes:
     return b"".join([_COUNT.pack(len(encoded)), *(_COUNT.pack(len(e)) + e for e in encoded)])
 
 
-class PerformanceBeat(Plugin):
+class PerformancePublisher(Plugin):
     """Publishes ``performance_metrics`` while somebody listens."""
 
     update_rate = _PERFORMANCE_RATE
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._publisher = context.node.advertise(
             "~performance_metrics", load_message("gazebo_msgs/PerformanceMetrics"), 10

@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.bridges.conversions import point, set_point
 from gazelle.bridges.gazebo.answers import Answer, no, yes
-from gazelle.bridges.gazebo.context import Context
+from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import Error
 
@@ -17,7 +17,7 @@ _MOST_STEPS = 10_000_000
 class WorldServices:
     """What ``/gazebo`` offers about the world, and ``/gazelle`` about the run."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._simulation = context.simulation
 

@@ -29,7 +29,7 @@ from gazelle.ros.bags.answers import (
 )
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.opening import Streamed, ensure_index, header_of, raw_header
-from gazelle.ros.bags.reader import BagFile, BagReader, Entry, messages_of
+from gazelle.ros.bags.reader import BagFile, BagReader, RawBagMessage, messages_of
 from gazelle.ros.bags.records import BagIndex, Connection
 from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending
 from gazelle.ros.time import Time
@@ -285,11 +285,11 @@ class Bag(Closeable):
                 yield BagMessage(topic, message, stamp)
 
     @staticmethod
-    def _decoded(entry: Entry) -> Any:
+    def _decoded(entry: RawBagMessage) -> Any:
         return class_for(entry.connection.header)().deserialize(entry.data)
 
     @staticmethod
-    def _raw(entry: Entry) -> tuple[str, bytes, str, tuple[int, int], Any]:
+    def _raw(entry: RawBagMessage) -> tuple[str, bytes, str, tuple[int, int], Any]:
         connection = entry.connection
         kind = class_for(connection.header)
         return connection.type, entry.data, connection.md5sum, entry.place, kind

@@ -57,7 +57,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
         args: What `configure_record` declares.
         node_options: Of the node; by default it has a name of its own.
     """
-    from gazelle.ros.bags.recording import Recorder, RecordOptions, check, duration_of
+    from gazelle.ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
     from gazelle.ros.node import Node
 
     options = RecordOptions(
@@ -82,7 +82,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
     check(options)
     keywords = node_options or {"name": names.anonymous("record")}
     with stopping() as stop, Node(**keywords) as node:
-        Recorder(node, options, _quiet if args.quiet else _say).run(stop)
+        BagRecorder(node, options, _quiet if args.quiet else _say).run(stop)
     return 0
 
 
@@ -147,7 +147,7 @@ def play(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None
     )
     keywords = node_options or {"name": names.anonymous("play")}
     with stopping() as stop, Node(**keywords, clock=WallClock()) as node:
-        player = Player(node, bags, options, None if args.quiet else _Status().show)
+        player = Player(node, bags, options, None if args.quiet else _PlayStatus().show)
         try:
             with _keys(player, stop):
                 player.play(stop)
@@ -158,7 +158,7 @@ def play(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None
     return 0
 
 
-class _Status:
+class _PlayStatus:
     """A line with the time of the bag, rewritten in place on a terminal."""
 
     def __init__(self) -> None:

@@ -9,9 +9,9 @@ from typing import Any
 
 from gazelle.errors import Error
 from gazelle.ros.bags.errors import BagError
-from gazelle.ros.bags.reader import BagReader, Entry, messages_of
+from gazelle.ros.bags.reader import BagReader, RawBagMessage, messages_of
 from gazelle.ros.bags.records import SECOND, Connection
-from gazelle.ros.bags.scanning import Scan, scan
+from gazelle.ros.bags.scanning import BagScan, scan
 from gazelle.ros.bags.writer import BagWriter
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
@@ -78,7 +78,7 @@ def filter_bag(
 
 
 @contextmanager
-def _copying(target: Path, compression: str = "none") -> Iterator[Callable[[Entry], None]]:
+def _copying(target: Path, compression: str = "none") -> Iterator[Callable[[RawBagMessage], None]]:
     """Write a bag entry by entry; it gets its name when it is complete."""
     partial = target.with_name(target.name + ".active")
     known: dict[int, Connection] = {}
@@ -86,7 +86,7 @@ def _copying(target: Path, compression: str = "none") -> Iterator[Callable[[Entr
         with partial.open("w+b") as stream:
             writer = BagWriter(stream, compression=compression)
 
-            def copy(entry: Entry) -> None:
+            def copy(entry: RawBagMessage) -> None:
                 connection = known.get(entry.connection.id)
                 if connection is None:
                     old = entry.connection
@@ -117,7 +117,7 @@ def recompress(path: str, compression: str, *, folder: str = "", force: bool = F
         reader.close()
 
 
-def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, Scan]:
+def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, BagScan]:
     """Make a bag whole that was cut off; the old one is kept as ``NAME.orig.bag``.
 
     Returns:
@@ -137,7 +137,7 @@ def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, 
 
 
 def _replace(
-    path: Path, entries: Iterable[Entry], compression: str, *, folder: str, force: bool
+    path: Path, entries: Iterable[RawBagMessage], compression: str, *, folder: str, force: bool
 ) -> Path:
     target = Path(folder) / path.name if folder else path
     name = path.name.removesuffix(".active")

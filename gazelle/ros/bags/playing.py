@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.ros import names
 from gazelle.ros.bags import records
 from gazelle.ros.bags.bag import Bag
-from gazelle.ros.bags.reader import Entry, messages_of
+from gazelle.ros.bags.reader import RawBagMessage, messages_of
 from gazelle.ros.bags.records import Connection
 from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
@@ -184,7 +184,7 @@ class Player:
 
     # Playing -----------------------------------------------------------------------------
 
-    def _entries(self, start: int) -> Iterator[Entry]:
+    def _entries(self, start: int) -> Iterator[RawBagMessage]:
         duration = self._options.duration
         end = None if duration is None else start + round(duration * records.SECOND)
         streams = [

@@ -19,7 +19,7 @@ _CACHED_CHUNKS = 8
 _BLOCK = 65536
 
 
-class Entry(NamedTuple):
+class RawBagMessage(NamedTuple):
     """A message in a bag, as bytes."""
 
     connection: Connection
@@ -163,7 +163,7 @@ class BagReader:
         connections: Collection[int] | None = None,
         start: int | None = None,
         end: int | None = None,
-    ) -> Iterator[Entry]:
+    ) -> Iterator[RawBagMessage]:
         """Messages in the order of time; see `messages_of`."""
         return messages_of(self.file, self.index, connections, start, end)
 
@@ -270,7 +270,7 @@ def messages_of(
     connections: Collection[int] | None = None,
     start: int | None = None,
     end: int | None = None,
-) -> Iterator[Entry]:
+) -> Iterator[RawBagMessage]:
     """Messages in the order of time, and in that of the file where times are equal.
 
     Args:
@@ -299,7 +299,7 @@ def messages_of(
             if number != current:
                 current, content = number, file.content(index.chunks[number])
             first, last = records.message_at(content, offset)
-            yield Entry(
+            yield RawBagMessage(
                 index.connections[connection],
                 time,
                 bytes(content[first:last]),

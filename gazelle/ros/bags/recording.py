@@ -91,7 +91,7 @@ class _Output:
     connections: dict[tuple[str, str, str], Connection] = field(default_factory=dict)
 
 
-class Recorder:
+class BagRecorder:
     """Subscribes to topics and writes what comes.
 
     Args:

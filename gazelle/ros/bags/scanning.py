@@ -14,7 +14,7 @@ from gazelle.ros.bags.records import BagIndex, Chunk, Fields
 
 
 @dataclass(slots=True)
-class Scan:
+class BagScan:
     """What was found."""
 
     index: BagIndex = field(default_factory=BagIndex)
@@ -22,7 +22,7 @@ class Scan:
     """Why and where it ended early; empty if the whole file could be read."""
 
 
-def scan(view: memoryview, position: int) -> Scan:
+def scan(view: memoryview, position: int) -> BagScan:
     """All connections and messages of a bag.
 
     Args:
@@ -35,11 +35,11 @@ def scan(view: memoryview, position: int) -> Scan:
 class _Scanner:
     def __init__(self, view: memoryview) -> None:
         self._view = view
-        self._found = Scan()
+        self._found = BagScan()
         self._rows: dict[int, list[tuple[int, int, int]]] = {}
         self._open: Chunk | None = None
 
-    def run(self, position: int) -> Scan:
+    def run(self, position: int) -> BagScan:
         """Go through the records until the end, or until one is damaged."""
         end = len(self._view)
         while position < end:

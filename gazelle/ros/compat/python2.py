@@ -72,7 +72,7 @@ _MOST_NAMED = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Python2Finding:
     """Something written for Python 2."""
 
     line: int | None
@@ -81,7 +81,7 @@ class Finding:
     """None for the script itself."""
 
 
-def explain(error: BaseException, source: str) -> list[Finding]:
+def explain(error: BaseException, source: str) -> list[Python2Finding]:
     """What in a script is Python 2 and explains an error; empty if nothing does.
 
     Args:
@@ -95,12 +95,12 @@ def explain(error: BaseException, source: str) -> list[Finding]:
         return []
     frames = traceback.extract_tb(error.__traceback__)
     place = frames[-1] if frames else None
-    return [Finding(place and place.lineno, advice, place and place.filename)]
+    return [Python2Finding(place and place.lineno, advice, place and place.filename)]
 
 
-def _statements(error: SyntaxError, source: str) -> list[Finding]:
+def _statements(error: SyntaxError, source: str) -> list[Python2Finding]:
     if isinstance(error, TabError):
-        return [Finding(error.lineno, "tabs and spaces are mixed: indent with spaces only")]
+        return [Python2Finding(error.lineno, "tabs and spaces are mixed: indent with spaces only")]
     found = []
     for number, line in enumerate(source.splitlines(), 1):
         code = line.partition("#")[0]
@@ -108,7 +108,7 @@ def _statements(error: SyntaxError, source: str) -> list[Finding]:
             match = pattern.search(code)
             if match:
                 rest = match.groupdict().get("rest")
-                found.append(Finding(number, f"write print({rest})" if rest else advice))
+                found.append(Python2Finding(number, f"write print({rest})" if rest else advice))
                 break
     # Where the error is on another line, what was found may be text in a string.
     return found if any(each.line == error.lineno for each in found) else []
@@ -131,7 +131,7 @@ def _advice(error: BaseException) -> str:
     return ""
 
 
-def advice_text(findings: list[Finding]) -> str:
+def advice_text(findings: list[Python2Finding]) -> str:
     """What to change, for people: the first things found, and how many more there are."""
     first = findings[:_MOST_NAMED]
     lines = ", ".join(

@@ -12,7 +12,7 @@ from gazelle.ros.compat import commands
 from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.errors import MasterUnreachableError
 from gazelle.ros.tools import nodes
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 ID = "/rosnode"
 
@@ -25,8 +25,8 @@ class ROSNodeIOException(ROSNodeException):
     """The master does not answer."""
 
 
-def _graph() -> Graph:
-    return Graph("rosnode")
+def _graph() -> GraphInspector:
+    return GraphInspector("rosnode")
 
 
 @raising(ROSNodeIOException)

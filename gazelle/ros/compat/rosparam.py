@@ -14,7 +14,7 @@ from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.values import load_yaml, load_yaml_documents
 from gazelle.ros.tools import params
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 NS = "_ns"
 
@@ -27,8 +27,8 @@ class RosParamIOException(RosParamException):
     """The master does not answer."""
 
 
-def _graph() -> Graph:
-    return Graph("rosparam")
+def _graph() -> GraphInspector:
+    return GraphInspector("rosparam")
 
 
 def get_param_server() -> MasterProxy:

@@ -15,7 +15,7 @@ from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.messages.yaml import fill_message_args
 from gazelle.ros.time import Time
 from gazelle.ros.tools import services
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 
 class ROSServiceException(Exception):  # noqa: N818  # rosservice's names
@@ -26,8 +26,8 @@ class ROSServiceIOException(ROSServiceException):
     """The master or the service does not answer."""
 
 
-def _graph() -> Graph:
-    return Graph("rosservice")
+def _graph() -> GraphInspector:
+    return GraphInspector("rosservice")
 
 
 @raising(ROSServiceIOException, ROSServiceIOException)

@@ -16,7 +16,7 @@ from gazelle.ros.messages.yaml import fill_message_args
 from gazelle.ros.time import Time
 from gazelle.ros.tools import listing
 from gazelle.ros.tools.fields import parse_path, value_at
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.rates import RateMeter
 
 Evaluator = Callable[[Any], Any]
@@ -30,8 +30,8 @@ class ROSTopicIOException(ROSTopicException):
     """The master does not answer."""
 
 
-def _graph() -> Graph:
-    return Graph("rostopic")
+def _graph() -> GraphInspector:
+    return GraphInspector("rostopic")
 
 
 @raising(ROSTopicIOException, ROSTopicIOException)

@@ -6,7 +6,7 @@ from typing import Any
 
 from gazelle.ros.compat.rospy.rostime import Time
 from gazelle.ros.messages import load_message
-from gazelle.ros.tf.core import DEFAULT_CACHE_NS, FrameTree, Transform
+from gazelle.ros.tf.core import DEFAULT_CACHE_NS, FrameTree, StampedTransform
 from gazelle.ros.tf.describe import as_dot, as_yaml
 from gazelle.ros.tf.errors import (
     ConnectivityException,
@@ -95,7 +95,7 @@ class BufferCore:
         )
         return self._message(found, target_frame, source_frame)
 
-    def _message(self, found: Transform, target: str, source: str) -> Any:
+    def _message(self, found: StampedTransform, target: str, source: str) -> Any:
         result: Any = self._make()
         result.header.stamp = Time(nsecs=found.stamp)
         result.header.frame_id, result.child_frame_id = target, source

@@ -11,12 +11,12 @@ import time
 
 from gazelle.ros.errors import MasterUnreachableError
 from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.plan import NodePlan, Place
+from gazelle.ros.launch.plan import NodePlan, SourceLocation
 from gazelle.ros.launch.process import NodeProcess
 from gazelle.ros.launch.programs import Program
 from gazelle.ros.master.proxy import MasterProxy
 
-_PLACE = Place("roscore", 0, "node")
+_PLACE = SourceLocation("roscore", 0, "node")
 _LOOK_S = 0.005
 _MASTER_S = 30.0
 """Seconds a master may take to answer, on the slowest of machines."""

@@ -8,7 +8,7 @@ from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.plan import Argument, Command, LaunchPlan, NodePlan
+from gazelle.ros.launch.plan import Argument, LaunchPlan, NodePlan, ParameterCommand
 from gazelle.ros.launch.programs import (
     Skipped,
     find_program,
@@ -41,7 +41,7 @@ def summary(plan: LaunchPlan) -> str:
 
 
 def _short(value: Any) -> str:
-    if isinstance(value, Command):
+    if isinstance(value, ParameterCommand):
         return f"<output of: {value.text}>"
     if isinstance(value, bytes):
         return f"<{len(value)} bytes>"

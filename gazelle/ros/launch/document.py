@@ -86,10 +86,10 @@ def parse_element(data: bytes, name: str) -> Element:
     Raises:
         LaunchError: It is not XML.
     """
-    return _Builder(name).parse(data)
+    return _DocumentBuilder(name).parse(data)
 
 
-class _Builder:
+class _DocumentBuilder:
     """Makes elements of what expat reports."""
 
     def __init__(self, file: str) -> None:

@@ -34,7 +34,7 @@ for number, seconds in ((signal.SIGINT, 5.0), (signal.SIGTERM, 2.0), (signal.SIG
 _HAS_GROUPS = hasattr(os, "killpg")
 
 
-class Guard:
+class LaunchWatchdog:
     """A small process that outlives this one for a moment if this one is killed.
 
     It is told of every node; on Windows there is none.

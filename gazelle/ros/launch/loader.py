@@ -11,8 +11,15 @@ from gazelle.ros.launch import nodes, params
 from gazelle.ros.launch.document import Element, parse_document, read_document
 from gazelle.ros.launch.errors import LaunchError, MissingArgumentError, SubstitutionError
 from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.plan import Argument, LaunchPlan, Machine, NodePlan, Place, TestPlan
-from gazelle.ros.launch.scope import Scope
+from gazelle.ros.launch.plan import (
+    Argument,
+    LaunchMachine,
+    LaunchPlan,
+    NodePlan,
+    SourceLocation,
+    TestPlan,
+)
+from gazelle.ros.launch.scope import LaunchScope
 from gazelle.ros.launch.substitution import Substitution
 
 _DEEPEST = 50
@@ -123,7 +130,7 @@ class _Loader:
         self._default_machine = ""
         self._depth = 0
         self._used: set[str] = set()
-        self._handlers: dict[str, Callable[[Element, Scope], None]] = {
+        self._handlers: dict[str, Callable[[Element, LaunchScope], None]] = {
             "arg": self._arg,
             "env": self._env,
             "group": self._group,
@@ -142,7 +149,7 @@ class _Loader:
         words = Substitution(self._packages, file, args)
         if self._environment is not None:
             words.environment = self._environment
-        scope = Scope(names.as_namespace(namespace), words)
+        scope = LaunchScope(names.as_namespace(namespace), words)
         self._launch(root, scope)
         self._used |= scope.declared
         self.plan.arguments |= self._declared(root, scope)
@@ -174,20 +181,20 @@ class _Loader:
                     self._notice(parameter.place, f"'{name}' is below the parameter '{above}'")
                 above = names.namespace_of(above).rstrip("/")
 
-    def _notice(self, at: Place | Element, text: str) -> None:
+    def _notice(self, at: SourceLocation | Element, text: str) -> None:
         label = at.label if isinstance(at, Element) else at.element
         self.plan.notices.append(f"{at.file}:{at.line}: <{label}>: {text}")
 
     # One file ----------------------------------------------------------------------------
 
-    def _launch(self, root: Element, scope: Scope) -> None:
+    def _launch(self, root: Element, scope: LaunchScope) -> None:
         self.plan.files.append(root.file)
         self._check_attributes(root)
         if root.attributes.get("deprecated"):
             self._notice(root, f"deprecated: {root.attributes['deprecated']}")
         self._children(root, scope)
 
-    def _children(self, parent: Element, scope: Scope) -> None:
+    def _children(self, parent: Element, scope: LaunchScope) -> None:
         for element in parent.children:
             if self._arguments_only and element.tag != "arg":
                 continue
@@ -213,7 +220,7 @@ class _Loader:
                 self._notice(element, f"unknown attribute '{key}', ignored; {hint}")
 
     @staticmethod
-    def _declared(root: Element, scope: Scope) -> dict[str, Argument]:
+    def _declared(root: Element, scope: LaunchScope) -> dict[str, Argument]:
         """The arguments of a file, with the texts that describe them."""
         found: dict[str, Argument] = {}
         for element in root.children:
@@ -231,7 +238,7 @@ class _Loader:
 
     # One element -------------------------------------------------------------------------
 
-    def _arg(self, element: Element, scope: Scope) -> None:
+    def _arg(self, element: Element, scope: LaunchScope) -> None:
         (name,) = scope.required(element, "name")
         try:
             value, default = scope.text(element, "value"), scope.text(element, "default")
@@ -243,19 +250,19 @@ class _Loader:
             raise element.error("an argument has a value or a default, not both")
         scope.declare(element, name, value, default)
 
-    def _env(self, element: Element, scope: Scope) -> None:
+    def _env(self, element: Element, scope: LaunchScope) -> None:
         name, value = scope.required(element, "name", "value")
         if not name:
             raise element.error("the name is empty")
         scope.environment.append((name, value))
 
-    def _group(self, element: Element, scope: Scope) -> None:
+    def _group(self, element: Element, scope: LaunchScope) -> None:
         inner = scope.child(self._namespace(element, scope))
         self._clear(element, scope, inner)
         self._children(element, inner)
 
     @staticmethod
-    def _namespace(element: Element, scope: Scope) -> str | None:
+    def _namespace(element: Element, scope: LaunchScope) -> str | None:
         namespace = scope.text(element, "ns")
         if namespace is None:
             return None
@@ -265,14 +272,16 @@ class _Loader:
             raise element.error("a namespace cannot be private (begin with '~')")
         return namespace
 
-    def _clear(self, element: Element, scope: Scope, inner: Scope, node: str = "") -> None:
+    def _clear(
+        self, element: Element, scope: LaunchScope, inner: LaunchScope, node: str = ""
+    ) -> None:
         if not element.attributes.get("clear_params") or not scope.flag(element, "clear_params"):
             return
         if not node and "ns" not in element.attributes:
             raise element.error("clear_params needs the attribute 'ns'")
         self.plan.clear.append(names.as_namespace(inner.namespace + node))
 
-    def _machine(self, element: Element, scope: Scope) -> None:
+    def _machine(self, element: Element, scope: LaunchScope) -> None:
         name, address = scope.required(element, "name", "address")
         for key in _GONE:
             if key in element.attributes:
@@ -280,17 +289,17 @@ class _Loader:
         default = (scope.text(element, "default") or "false").lower()
         if default not in _MACHINE_DEFAULTS:
             raise element.error(f"default='{default}' is neither true, false nor never")
-        place = Place(element.file, element.line, element.label)
+        place = SourceLocation(element.file, element.line, element.label)
         assignable = _MACHINE_DEFAULTS[default]
-        self.plan.machines[name] = Machine(name, address, place, assignable)
+        self.plan.machines[name] = LaunchMachine(name, address, place, assignable)
         if default == "true":
             self._default_machine = name
 
-    def _master(self, element: Element, scope: Scope) -> None:
+    def _master(self, element: Element, scope: LaunchScope) -> None:
         del scope
         self._notice(element, "<master> has no meaning since ROS Fuerte, ignored")
 
-    def _node(self, element: Element, scope: Scope) -> None:
+    def _node(self, element: Element, scope: LaunchScope) -> None:
         inner = scope.child(self._namespace(element, scope))
         own = [child for child in element.children if self._may_be_in_node(child)]
         node, parameters = nodes.read_node(
@@ -313,7 +322,7 @@ class _Loader:
         self._notice(child, f"<{child.tag}> has no place in a node, ignored")
         return False
 
-    def _param(self, element: Element, scope: Scope) -> None:
+    def _param(self, element: Element, scope: LaunchScope) -> None:
         parameter = params.read_param(element, scope)
         if names.is_private(parameter.name):
             key = parameter.name[1:]
@@ -322,14 +331,14 @@ class _Loader:
         else:
             params.put_at(self.plan, names.join(scope.namespace, parameter.name), parameter)
 
-    def _remap(self, element: Element, scope: Scope) -> None:
+    def _remap(self, element: Element, scope: LaunchScope) -> None:
         old, new = scope.required(element, "from", "to")
         scope.remap(element, old, new)
 
-    def _rosparam(self, element: Element, scope: Scope) -> None:
+    def _rosparam(self, element: Element, scope: LaunchScope) -> None:
         params.read_rosparam(element, scope, self.plan)
 
-    def _include(self, element: Element, scope: Scope) -> None:
+    def _include(self, element: Element, scope: LaunchScope) -> None:
         (file,) = scope.required(element, "file")
         given = dict(scope.words.arguments) if scope.flag(element, "pass_all_args") else {}
         passes_all = scope.flag(element, "pass_all_args")
@@ -361,7 +370,7 @@ class _Loader:
                 did_you_mean(unused[0], inner.declared),
             )
 
-    def _passed(self, element: Element, scope: Scope, inner: Scope) -> set[str]:
+    def _passed(self, element: Element, scope: LaunchScope, inner: LaunchScope) -> set[str]:
         """Evaluate what stands in an include; returns the names of arguments given."""
         passed: set[str] = set()
         for child in element.children:
@@ -391,7 +400,7 @@ class _Loader:
         return passed
 
 
-def _explain_missing(error: MissingArgumentError, element: Element, inner: Scope) -> None:
+def _explain_missing(error: MissingArgumentError, element: Element, inner: LaunchScope) -> None:
     """An included file lacks an argument: say who should give it."""
     if error.argument in inner.declared and error.hint and "include" not in error.hint:
         error.hint = f"give it in the <include> at {element.file}:{element.line}"

@@ -9,8 +9,8 @@ from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch import params
 from gazelle.ros.launch.document import Element
-from gazelle.ros.launch.plan import LaunchPlan, NodePlan, Parameter, TestPlan
-from gazelle.ros.launch.scope import Scope
+from gazelle.ros.launch.plan import LaunchParameter, LaunchPlan, NodePlan, TestPlan
+from gazelle.ros.launch.scope import LaunchScope
 
 NODE_ATTRIBUTES = (
     "pkg", "type", "name", "args", "machine", "respawn", "respawn_delay", "required", "ns",
@@ -25,12 +25,12 @@ _FOLDERS = ("ROS_HOME", "ros-root", "node")
 def read_node(
     element: Element,
     children: Iterable[Element],
-    scope: Scope,
-    inner: Scope,
+    scope: LaunchScope,
+    inner: LaunchScope,
     plan: LaunchPlan,
     *,
     machine: str,
-) -> tuple[NodePlan, list[Parameter]]:
+) -> tuple[NodePlan, list[LaunchParameter]]:
     """A ``<node>`` or ``<test>``, and its private parameters.
 
     Args:
@@ -54,7 +54,7 @@ def read_node(
             _child(child, outer, own, plan)
     space = inner.namespace + common["name"] + "/"
     parameters = [
-        Parameter(names.canonical(space + key), value, place)
+        LaunchParameter(names.canonical(space + key), value, place)
         for key, value, place in [*scope.private, *own.private]
     ]
     common |= {
@@ -69,7 +69,7 @@ def read_node(
     return NodePlan(**common, **_behaviour(element, scope)), parameters
 
 
-def _child(child: Element, outer: Scope, own: Scope, plan: LaunchPlan) -> None:
+def _child(child: Element, outer: LaunchScope, own: LaunchScope, plan: LaunchPlan) -> None:
     """Take over one element of a node."""
     tag = child.tag.lower()
     if tag == "remap":
@@ -86,7 +86,7 @@ def _child(child: Element, outer: Scope, own: Scope, plan: LaunchPlan) -> None:
         params.read_rosparam(child, own, plan)
 
 
-def _common(element: Element, scope: Scope, *, is_test: bool) -> dict[str, Any]:
+def _common(element: Element, scope: LaunchScope, *, is_test: bool) -> dict[str, Any]:
     """What nodes and tests have in common."""
     package, kind = scope.required(element, "pkg", "type")
     if is_test:
@@ -113,7 +113,7 @@ def _common(element: Element, scope: Scope, *, is_test: bool) -> dict[str, Any]:
     }
 
 
-def _behaviour(element: Element, scope: Scope) -> dict[str, Any]:
+def _behaviour(element: Element, scope: LaunchScope) -> dict[str, Any]:
     """What only nodes have."""
     output = scope.text(element, "output") or "log"
     if output not in _OUTPUTS:
@@ -130,7 +130,7 @@ def _behaviour(element: Element, scope: Scope) -> dict[str, Any]:
     }
 
 
-def _test(element: Element, scope: Scope) -> dict[str, Any]:
+def _test(element: Element, scope: LaunchScope) -> dict[str, Any]:
     """What only tests have."""
     for key in _NOT_FOR_TESTS:
         if key in element.attributes:

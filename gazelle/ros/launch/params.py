@@ -10,30 +10,36 @@ from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch.document import Element
 from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.plan import Action, Command, LaunchPlan, Parameter, Place
-from gazelle.ros.launch.scope import Scope
+from gazelle.ros.launch.plan import (
+    Action,
+    LaunchParameter,
+    LaunchPlan,
+    ParameterCommand,
+    SourceLocation,
+)
+from gazelle.ros.launch.scope import LaunchScope
 from gazelle.ros.launch.values import KINDS, convert, load_yaml
 
 _SOURCES = ("value", "textfile", "binfile", "command")
 _COMMANDS = ("load", "dump", "delete")
 
 
-def place_of(element: Element) -> Place:
+def place_of(element: Element) -> SourceLocation:
     """Where an element is written."""
-    return Place(element.file, element.line, element.label)
+    return SourceLocation(element.file, element.line, element.label)
 
 
-def put(plan: LaunchPlan, parameter: Parameter) -> None:
+def put(plan: LaunchPlan, parameter: LaunchParameter) -> None:
     """Add a parameter to a plan; the last one of a name wins."""
     plan.parameters[parameter.name] = parameter
 
 
-def put_at(plan: LaunchPlan, name: str, parameter: Parameter) -> None:
+def put_at(plan: LaunchPlan, name: str, parameter: LaunchParameter) -> None:
     """Add a parameter under another name."""
     put(plan, replace(parameter, name=names.canonical(name)))
 
 
-def read_param(element: Element, scope: Scope) -> Parameter:
+def read_param(element: Element, scope: LaunchScope) -> LaunchParameter:
     """The parameter of a ``<param>``, its name as written.
 
     Raises:
@@ -51,7 +57,7 @@ def read_param(element: Element, scope: Scope) -> Parameter:
         raise element.error(f"type='{kind}' is unknown", did_you_mean(kind, KINDS))
     text = cast("str", scope.text(element, given[0]))
     try:
-        return Parameter(name, _value(given[0], text, kind), place_of(element))
+        return LaunchParameter(name, _value(given[0], text, kind), place_of(element))
     except LaunchError as error:
         raise element.error(error.message, error.hint) from None
     except OSError as error:
@@ -65,10 +71,10 @@ def _value(source: str, text: str, kind: str) -> Any:
         return convert(Path(text).read_text(encoding="utf-8", errors="replace"), kind)
     if source == "binfile":
         return Path(text).read_bytes()
-    return Command(text, kind)
+    return ParameterCommand(text, kind)
 
 
-def read_rosparam(element: Element, scope: Scope, plan: LaunchPlan) -> None:
+def read_rosparam(element: Element, scope: LaunchScope, plan: LaunchPlan) -> None:
     """Put what a ``<rosparam>`` asks for into the plan, seen from the scope's namespace.
 
     Raises:
@@ -93,7 +99,13 @@ def read_rosparam(element: Element, scope: Scope, plan: LaunchPlan) -> None:
 
 
 def _load(
-    element: Element, scope: Scope, plan: LaunchPlan, name: str, file: str | None, *, has_name: bool
+    element: Element,
+    scope: LaunchScope,
+    plan: LaunchPlan,
+    name: str,
+    file: str | None,
+    *,
+    has_name: bool,
 ) -> None:
     text = element.text
     if file:
@@ -116,7 +128,7 @@ def _load(
             scope.private.append((key, value, place_of(element)))
         return
     for key, value in flatten(name, data):
-        put(plan, Parameter(key, value, place_of(element)))
+        put(plan, LaunchParameter(key, value, place_of(element)))
 
 
 def flatten(name: str, value: Any) -> list[tuple[str, Any]]:

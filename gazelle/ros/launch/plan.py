@@ -9,7 +9,7 @@ from gazelle.ros import names
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class SourceLocation:
     """Where in which file something is written."""
 
     file: str
@@ -18,7 +18,7 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Command:
+class ParameterCommand:
     """A parameter's value that a program will write to its standard output."""
 
     text: str
@@ -27,12 +27,12 @@ class Command:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class LaunchParameter:
     """A parameter to set; bytes stand for binary data."""
 
     name: str
     value: Any
-    place: Place
+    place: SourceLocation
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,16 +43,16 @@ class Action:
     name: str
     """Name of the parameter or namespace."""
     file: str | None
-    place: Place
+    place: SourceLocation
 
 
 @dataclass(frozen=True, slots=True)
-class Machine:
+class LaunchMachine:
     """A machine that nodes can run on."""
 
     name: str
     address: str
-    place: Place
+    place: SourceLocation
     assignable: bool = True
     """False for ``default="never"``."""
 
@@ -67,7 +67,7 @@ class NodePlan:
     """Its name without the namespace."""
     namespace: str
     """With slashes at both ends."""
-    place: Place
+    place: SourceLocation
     arguments: str = ""
     """What follows the program on its command line, to be split as a shell does."""
     machine: str = ""
@@ -122,9 +122,9 @@ class LaunchPlan:
     clear: list[str] = field(default_factory=list)
     """Namespaces to delete before parameters are set."""
     actions: list[Action] = field(default_factory=list)
-    parameters: dict[str, Parameter] = field(default_factory=dict)
+    parameters: dict[str, LaunchParameter] = field(default_factory=dict)
     nodes: list[NodePlan] = field(default_factory=list)
     tests: list[TestPlan] = field(default_factory=list)
-    machines: dict[str, Machine] = field(default_factory=dict)
+    machines: dict[str, LaunchMachine] = field(default_factory=dict)
     notices: list[str] = field(default_factory=list)
     """What is ignored or suspicious, one line each, with file and line."""

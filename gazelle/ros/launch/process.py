@@ -24,7 +24,7 @@ _ORPHAN_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Patience:
+class StopTimeouts:
     """How long a process may take to end after a signal."""
 
     interrupt: float = 15.0
@@ -163,7 +163,7 @@ class NodeProcess:
 
 
 def stop_all(
-    processes: Iterable[NodeProcess], patience: Patience, first: int = signal.SIGINT
+    processes: Iterable[NodeProcess], patience: StopTimeouts, first: int = signal.SIGINT
 ) -> list[NodeProcess]:
     """End processes, all at the same time: SIGINT, then SIGTERM, then SIGKILL.
 

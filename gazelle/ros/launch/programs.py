@@ -17,7 +17,7 @@ from gazelle.errors import Error
 from gazelle.ros.builtin import registry, terminal
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages, is_python
-from gazelle.ros.launch.plan import Command, NodePlan, Parameter
+from gazelle.ros.launch.plan import LaunchParameter, NodePlan, ParameterCommand
 from gazelle.ros.launch.values import convert
 
 _EXECUTE = (sys.executable, "-m", "gazelle.cli.main", "exec")
@@ -150,14 +150,14 @@ def node_environment(
 
 
 def parameter_value(
-    parameter: Parameter, packages: Packages, environment: Mapping[str, str] | None = None
+    parameter: LaunchParameter, packages: Packages, environment: Mapping[str, str] | None = None
 ) -> Any:
-    """The value to set; a `Command` is run.
+    """The value to set; a `ParameterCommand` is run.
 
     Raises:
         LaunchError: The command fails, or its output is of another type.
     """
-    if not isinstance(parameter.value, Command):
+    if not isinstance(parameter.value, ParameterCommand):
         return parameter.value
     try:
         output = _output(parameter.value.text, packages, environment)

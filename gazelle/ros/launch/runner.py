@@ -16,10 +16,10 @@ from gazelle.ros import net
 from gazelle.ros.errors import ApiError, MasterUnreachableError, RosError
 from gazelle.ros.launch import core, folders, machines, setup
 from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.guard import Guard
+from gazelle.ros.launch.guard import LaunchWatchdog
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.launch.plan import LaunchPlan, NodePlan
-from gazelle.ros.launch.process import NodeProcess, Patience, Start, stop_all
+from gazelle.ros.launch.process import NodeProcess, Start, StopTimeouts, stop_all
 from gazelle.ros.launch.programs import (
     Program,
     Skipped,
@@ -52,7 +52,7 @@ class Options:
     """All nodes write to the screen."""
     log: bool = False
     """No node writes to the screen."""
-    patience: Patience = field(default_factory=Patience)
+    patience: StopTimeouts = field(default_factory=StopTimeouts)
     run_id: str = ""
     core_survives: bool = False
     """Whether a master that the launch started outlives it if it is killed, as with roslaunch."""
@@ -103,7 +103,7 @@ class Launch(Closeable):
         self._due: dict[NodeProcess, float] = {}
         self._reported: set[NodeProcess] = set()
         self._failed = False
-        self._guard = Guard()
+        self._guard = LaunchWatchdog()
         self._lock = threading.RLock()
 
     # Beginning ---------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch.document import Element
 from gazelle.ros.launch.errors import LaunchError, place_error
-from gazelle.ros.launch.plan import Place
+from gazelle.ros.launch.plan import SourceLocation
 from gazelle.ros.launch.substitution import Substitution
 from gazelle.ros.launch.values import truth
 
@@ -17,13 +17,13 @@ _YES_NO = {"true": True, "false": False}
 
 
 @dataclass(slots=True)
-class Scope:
+class LaunchScope:
     """Where in the launch files we are."""
 
     namespace: str
     """With slashes at both ends."""
     words: Substitution
-    private: list[tuple[str, Any, Place]] = field(default_factory=list)
+    private: list[tuple[str, Any, SourceLocation]] = field(default_factory=list)
     """Parameters ``~x`` for the nodes that follow."""
     remappings: dict[str, str] = field(default_factory=dict)
     environment: list[tuple[str, str]] = field(default_factory=list)
@@ -32,7 +32,7 @@ class Scope:
     passes_all: bool = False
     """True below an include with ``pass_all_args``."""
 
-    def child(self, namespace: str | None = None) -> Scope:
+    def child(self, namespace: str | None = None) -> LaunchScope:
         """The scope of a group: what is set in it stays in it."""
         return replace(
             self,
@@ -45,7 +45,7 @@ class Scope:
             passes_all=False,
         )
 
-    def included(self, namespace: str | None, arguments: dict[str, str], file: str) -> Scope:
+    def included(self, namespace: str | None, arguments: dict[str, str], file: str) -> LaunchScope:
         """The scope of an included file: it has its own arguments, and shares ``~`` parameters."""
         words = replace(self.words, arguments=arguments, file=file, anonymous={})
         scope = replace(self.child(namespace), words=words, private=self.private)

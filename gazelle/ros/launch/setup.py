@@ -7,7 +7,7 @@ from pathlib import Path
 from gazelle.ros.errors import ApiError, MarshalError
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.plan import Action, LaunchPlan, Parameter
+from gazelle.ros.launch.plan import Action, LaunchParameter, LaunchPlan
 from gazelle.ros.launch.programs import parameter_value
 from gazelle.ros.master.proxy import MasterProxy
 
@@ -28,7 +28,7 @@ def prepare(plan: LaunchPlan, master: MasterProxy, packages: Packages) -> None:
         _set(parameter, value, master)
 
 
-def _set(parameter: Parameter, value: object, master: MasterProxy) -> None:
+def _set(parameter: LaunchParameter, value: object, master: MasterProxy) -> None:
     if value is None:
         raise _error(parameter, f"the parameter {parameter.name} has no value")
     try:
@@ -55,5 +55,5 @@ def _act(action: Action, master: MasterProxy) -> None:
         raise _error(action, f"'{action.file}' cannot be written: {error.strerror}") from None
 
 
-def _error(what: Parameter | Action, message: str) -> LaunchError:
+def _error(what: LaunchParameter | Action, message: str) -> LaunchError:
     return LaunchError(message, source=what.place)

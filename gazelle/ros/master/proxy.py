@@ -15,7 +15,7 @@ from gazelle.ros.errors import (
     SilentPeerError,
     UnreachableError,
 )
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.xmlrpc.client import BlockingClient
 
 GREETING_S = 10.0
@@ -53,7 +53,7 @@ class MasterProxy:
     """
 
     def __init__(
-        self, uri: str, caller: str, timeout: float = 30.0, limits: Limits = LIMITS
+        self, uri: str, caller: str, timeout: float = 30.0, limits: NetworkLimits = LIMITS
     ) -> None:
         self.uri = uri
         self.caller = caller

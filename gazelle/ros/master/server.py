@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.closing import Closeable
 from gazelle.ros import loop, net
 from gazelle.ros.errors import RosError
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.master.api import MasterApi
 from gazelle.ros.master.proxy import TAKEN_HINT, MasterProxy
 from gazelle.ros.xmlrpc.async_client import AsyncClient
@@ -54,7 +54,7 @@ class Master(Closeable):
         *,
         rosout: bool = True,
         run_id: str = "",
-        limits: Limits = LIMITS,
+        limits: NetworkLimits = LIMITS,
         ended: threading.Event | None = None,
     ) -> None:
         self.ended = ended or threading.Event()

@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.ros.messages import construct, decode, encode
 from gazelle.ros.messages.arrays import shared_names
 from gazelle.ros.messages.base import STRUCT_ERRORS, Message
-from gazelle.ros.messages.emit import Code
+from gazelle.ros.messages.emit import GeneratedCode
 from gazelle.ros.messages.errors import DeserializationError
 from gazelle.ros.time import Duration, Time
 
@@ -50,12 +50,12 @@ _shared = shared_names() | {
 
 def _make(owner: type[Message], method: str) -> Any:
     names = dict(_shared) | {"_slots": owner.__slots__}
-    text = _source(owner, method, Code(names))
+    text = _source(owner, method, GeneratedCode(names))
     exec(compile(text, f"<{owner._type} {method}>", "exec"), names)  # noqa: S102  # names are checked by the parser
     return names[method]
 
 
-def _source(owner: type[Message], method: str, code: Code) -> str:
+def _source(owner: type[Message], method: str, code: GeneratedCode) -> str:
     spec, known = owner._spec, owner._known  # type: ignore[attr-defined]  # set by generate
     if method in _WRITERS:
         return _WRITERS[method](spec, code, known)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from gazelle.ros.messages.base import Message
-from gazelle.ros.messages.emit import Code
+from gazelle.ros.messages.emit import GeneratedCode
 from gazelle.ros.messages.spec import FLOATS, INTEGER_BITS, OCTETS, Field, MessageSpec
 
 HEAD = "def __init__(self, *args, **kwds):"
 
 
-def write_constructor(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
+def write_constructor(
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
+) -> str:
     """Source of ``__init__``; without arguments it takes the shortest way."""
     names = [field.attribute for field in spec.fields]
     defaults = [default(field, code, known) for field in spec.fields]
@@ -41,7 +43,7 @@ def write_constructor(spec: MessageSpec, code: Code, known: dict[str, type[Messa
     return code.source(HEAD)
 
 
-def default(field: Field, code: Code, known: dict[str, type[Message]]) -> str:
+def default(field: Field, code: GeneratedCode, known: dict[str, type[Message]]) -> str:
     """An expression for the default of a field."""
     if not field.is_array:
         return _element_default(field.base, code, known)
@@ -55,7 +57,7 @@ def default(field: Field, code: Code, known: dict[str, type[Message]]) -> str:
     return f"[{element}] * {field.length}"
 
 
-def _element_default(base: str, code: Code, known: dict[str, type[Message]]) -> str:
+def _element_default(base: str, code: GeneratedCode, known: dict[str, type[Message]]) -> str:
     if base in INTEGER_BITS:
         return "0"
     if base in FLOATS:
@@ -71,7 +73,9 @@ def _element_default(base: str, code: Code, known: dict[str, type[Message]]) -> 
     return f"{code.message_class(base, known)}()"
 
 
-def _assign_default(field: Field, target: str, code: Code, known: dict[str, type[Message]]) -> None:
+def _assign_default(
+    field: Field, target: str, code: GeneratedCode, known: dict[str, type[Message]]
+) -> None:
     """Set a field to its default, without a call for times and messages of plain numbers."""
     if field.is_array:
         code.line(f"{target} = {default(field, code, known)}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import struct
 
 from gazelle.ros.messages.base import Message
-from gazelle.ros.messages.emit import Code, fixed_codes
+from gazelle.ros.messages.emit import GeneratedCode, fixed_codes
 from gazelle.ros.messages.encode import Later
 from gazelle.ros.messages.spec import OCTETS, STRUCT_CODES, Field, MessageSpec
 
@@ -21,7 +21,7 @@ numpy arrays for octets too; ``lossy``: as plain, replacing what is no UTF-8."""
 _MOST_EMPTY_ELEMENTS = 1 << 16
 
 
-class Decoder:
+class DecoderWriter:
     """Writes the body of a decoder that reads from ``data``, of ``size`` bytes.
 
     Args:
@@ -32,7 +32,7 @@ class Decoder:
     """
 
     def __init__(
-        self, code: Code, known: dict[str, type[Message]], mode: str, start: str = ""
+        self, code: GeneratedCode, known: dict[str, type[Message]], mode: str, start: str = ""
     ) -> None:
         self._code = code
         self._known = known
@@ -242,7 +242,9 @@ class Decoder:
                 targets.append(f"{local}.{each.attribute}")
 
 
-def write_deserialize(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
+def write_deserialize(
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
+) -> str:
     """Source of ``deserialize(self, data, numpy=False)``: the plain decoder, unless told."""
     code.line("if numpy: return self._decode_arrays(data)")
     code.line("if type(data) is not bytes: data = bytes(data)")
@@ -250,14 +252,16 @@ def write_deserialize(spec: MessageSpec, code: Code, known: dict[str, type[Messa
     return code.source("def deserialize(self, data, numpy=False):")
 
 
-def write_decoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str) -> str:
+def write_decoder(
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
+) -> str:
     """Source of ``_decode_MODE(self, data)``, which returns the message."""
     _write_guarded(spec, code, known, mode)
     return code.source(f"def _decode_{mode}(self, data):")
 
 
 def _write_guarded(
-    spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
 ) -> None:
     with code.block("try:"):
         _write_body(spec, code, known, mode)
@@ -269,9 +273,11 @@ def _write_guarded(
         code.line("raise _DeserializationError(str(err)) from err")
 
 
-def _write_body(spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str) -> None:
+def _write_body(
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
+) -> None:
     code.line("size = len(data)")
-    decoder = Decoder(code, known, mode)
+    decoder = DecoderWriter(code, known, mode)
     decoder.message(spec, "self")
     decoder.flush()
     if decoder.sliced:
@@ -284,10 +290,10 @@ def _write_body(spec: MessageSpec, code: Code, known: dict[str, type[Message]], 
 
 
 def write_element_decoder(
-    spec: MessageSpec, code: Code, known: dict[str, type[Message]], mode: str
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
 ) -> str:
     """Source of ``_read_MODE(self, data, place, size)``, which returns where the message ends."""
-    decoder = Decoder(code, known, mode, start="place")
+    decoder = DecoderWriter(code, known, mode, start="place")
     decoder.message(spec, "self")
     decoder.flush()
     code.line(f"return {decoder.position()}")

@@ -11,7 +11,7 @@ from gazelle.ros.messages.base import Message
 from gazelle.ros.messages.spec import MessageSpec
 
 
-class Code:
+class GeneratedCode:
     """Lines of Python and the names they refer to.
 
     Args:

@@ -7,13 +7,13 @@ are written.
 from __future__ import annotations
 
 from gazelle.ros.messages.base import Message
-from gazelle.ros.messages.emit import Code, fixed_codes
+from gazelle.ros.messages.emit import GeneratedCode, fixed_codes
 from gazelle.ros.messages.spec import OCTETS, STRUCT_CODES, Field, MessageSpec
 
 _TIME_CODES = {"time": "I", "duration": "i"}
 
 
-class Encoder:
+class EncoderWriter:
     """Writes the body of an encoder; the local ``w`` writes bytes.
 
     Args:
@@ -21,7 +21,7 @@ class Encoder:
         known: The class of each message type in the fields, at any depth.
     """
 
-    def __init__(self, code: Code, known: dict[str, type[Message]]) -> None:
+    def __init__(self, code: GeneratedCode, known: dict[str, type[Message]]) -> None:
         self._code = code
         self._known = known
         self._codes = ""
@@ -165,7 +165,7 @@ class Later:
         name: Its name there.
     """
 
-    def __init__(self, owner: type[Message], method: str, code: Code, name: str) -> None:
+    def __init__(self, owner: type[Message], method: str, code: GeneratedCode, name: str) -> None:
         self._owner = owner
         self._method = method
         self._names = code.names
@@ -179,11 +179,11 @@ class Later:
         return function(*args)
 
 
-def write_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
+def write_encoder(spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]) -> str:
     """Source of ``serialize(self, buff)``."""
     with code.block("try:"):
         code.line("w = buff.write")
-        encoder = Encoder(code, known)
+        encoder = EncoderWriter(code, known)
         encoder.message(spec, "self")
         encoder.flush()
     with code.block("except _struct_errors as err:"):
@@ -197,9 +197,11 @@ def write_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]
     return source.replace("        w = buff.write\n", "").replace(" w(", " buff.write(")
 
 
-def write_element_encoder(spec: MessageSpec, code: Code, known: dict[str, type[Message]]) -> str:
+def write_element_encoder(
+    spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
+) -> str:
     """Source of ``_write(self, w)``, for messages in arrays; errors are the caller's."""
-    encoder = Encoder(code, known)
+    encoder = EncoderWriter(code, known)
     encoder.message(spec, "self")
     encoder.flush()
     return code.source("def _write(self, w):")

@@ -2,12 +2,12 @@
 
 from gazelle.ros.robot.joint_publisher import JointStatePublisher
 from gazelle.ros.robot.state_publisher import RobotStatePublisher
-from gazelle.ros.robot.tree import Joint, JointTree, read_joints
+from gazelle.ros.robot.tree import JointTree, TreeJoint, read_joints
 
 __all__ = [
-    "Joint",
     "JointStatePublisher",
     "JointTree",
     "RobotStatePublisher",
+    "TreeJoint",
     "read_joints",
 ]

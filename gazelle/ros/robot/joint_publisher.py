@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.clock import SECOND
 from gazelle.ros.messages import load_message
-from gazelle.ros.robot.tree import MOVABLE, Joint, JointTree, position_of
+from gazelle.ros.robot.tree import MOVABLE, JointTree, TreeJoint, position_of
 from gazelle.ros.time import Time
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class JointStatePublisher:
         loop.call_later(self._period, lambda: loop.submit(self._send))
 
 
-def _zero(joint: Joint) -> float:
+def _zero(joint: TreeJoint) -> float:
     """0, or the middle of the limits if they exclude 0."""
     if joint.lower is None or joint.upper is None or joint.lower <= 0.0 <= joint.upper:
         return 0.0

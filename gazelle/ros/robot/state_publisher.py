@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.clock import SECOND
 from gazelle.ros.messages import load_message
-from gazelle.ros.robot.tree import MOVABLE, Joint, JointTree, position_of
+from gazelle.ros.robot.tree import MOVABLE, JointTree, TreeJoint, position_of
 from gazelle.ros.tf.naming import FramePrefixes, resolve_frame
 from gazelle.ros.time import Time
 
@@ -98,7 +98,7 @@ class RobotStatePublisher:
         loop = self._node.loop
         loop.call_later(self._period, lambda: loop.submit(self._send_fixed))
 
-    def _message(self, joint: Joint, position: float, stamp: int) -> Any:
+    def _message(self, joint: TreeJoint, position: float, stamp: int) -> Any:
         translation, rotation = joint.placed(position)
         made: Any = self._transform()
         made.header.stamp = Time(stamp // SECOND, stamp % SECOND)

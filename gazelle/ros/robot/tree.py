@@ -17,7 +17,7 @@ MOVABLE = _TURNING | {"prismatic"}
 
 
 @dataclass(frozen=True, slots=True)
-class Mimic:
+class TreeMimic:
     """A joint that follows another: `multiplier` times its position, plus `offset`."""
 
     joint: str
@@ -26,7 +26,7 @@ class Mimic:
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class TreeJoint:
     """A joint between two links.
 
     Attributes:
@@ -51,7 +51,7 @@ class Joint:
     axis: Vector = (1.0, 0.0, 0.0)
     lower: float | None = None
     upper: float | None = None
-    mimic: Mimic | None = None
+    mimic: TreeMimic | None = None
 
     def placed(self, position: float) -> tuple[Vector, Quaternion]:
         """Translation and rotation of the child in the parent at a position [rad or m]."""
@@ -67,7 +67,7 @@ class Joint:
         return self.translation, self.rotation
 
 
-JointTree = dict[str, Joint]
+JointTree = dict[str, TreeJoint]
 """Joints by name, in the order of the file."""
 
 
@@ -93,7 +93,7 @@ def read_joints(text: str) -> JointTree:
     return joints
 
 
-def _joint(element: Element) -> Joint:
+def _joint(element: Element) -> TreeJoint:
     name, kind = element.attributes.get("name", ""), element.attributes.get("type", "")
     parent, child = element.find("parent"), element.find("child")
     if not name or kind not in _KINDS or parent is None or child is None:
@@ -108,7 +108,7 @@ def _joint(element: Element) -> Joint:
     axis = element.find("axis")
     limit = element.find("limit")
     bounded = limit is not None and kind in {"revolute", "prismatic"}
-    return Joint(
+    return TreeJoint(
         name,
         kind,
         parent.attributes.get("link", ""),
@@ -122,10 +122,10 @@ def _joint(element: Element) -> Joint:
     )
 
 
-def _mimic(element: Element | None) -> Mimic | None:
+def _mimic(element: Element | None) -> TreeMimic | None:
     if element is None:
         return None
-    return Mimic(
+    return TreeMimic(
         element.attributes.get("joint", ""),
         _number(element, "multiplier", 1.0),
         _number(element, "offset", 0.0),

@@ -8,8 +8,8 @@ from typing import Any, Protocol
 
 from gazelle.ros import net
 from gazelle.ros.errors import Md5MismatchError, ProtocolError, RosError, report
-from gazelle.ros.limits import Limits
-from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
+from gazelle.ros.limits import NetworkLimits
+from gazelle.ros.loop import READ, WRITE, EventLoop, TimerHandle
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.dedicated import DedicatedReader
 from gazelle.ros.tcpros.frames import FrameReader
@@ -23,7 +23,7 @@ class Receiver(Protocol):
     """What an inbound link needs of the subscription it belongs to."""
 
     topic: str
-    limits: Limits
+    limits: NetworkLimits
 
     def request_header(self) -> dict[str, str]:
         """The header to send to a publisher."""
@@ -94,7 +94,7 @@ class InboundLink:
         self._reader = FrameReader(receiver.limits.header_bytes)
         self._outgoing = b""
         self._retry_s = _FIRST_RETRY_S
-        self._timer: Timer | None = None
+        self._timer: TimerHandle | None = None
         self.paused = False
         self._complained = ""
         self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)

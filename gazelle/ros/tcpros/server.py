@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from gazelle.ros import net
 from gazelle.ros.errors import ProtocolError, RosError
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.loop import READ, EventLoop
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import LENGTH
@@ -24,7 +24,9 @@ Raises RosError to refuse; the peer is told the text."""
 class TcprosServer:
     """Accepts connections for the topics and services of one node."""
 
-    def __init__(self, loop: EventLoop, host: str, route: Route, limits: Limits = LIMITS) -> None:
+    def __init__(
+        self, loop: EventLoop, host: str, route: Route, limits: NetworkLimits = LIMITS
+    ) -> None:
         self._loop = loop
         self._route = route
         self.limits = limits

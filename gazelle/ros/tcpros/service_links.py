@@ -15,7 +15,7 @@ from gazelle.ros.errors import (
     ServiceError,
     ServiceFailedError,
 )
-from gazelle.ros.limits import Limits
+from gazelle.ros.limits import NetworkLimits
 from gazelle.ros.loop import READ, EventLoop
 from gazelle.ros.serial_queue import SerialQueue
 from gazelle.ros.tcpros import headers
@@ -51,7 +51,7 @@ class ServiceConnection:
         sock: socket.socket,
         fields: dict[str, str],
         answer: Answer,
-        limits: Limits,
+        limits: NetworkLimits,
         on_close: Callable[[ServiceConnection], None],
     ) -> None:
         self._loop = loop
@@ -208,7 +208,7 @@ class ServiceChannel:
         host: str,
         port: int,
         fields: dict[str, str],
-        limits: Limits,
+        limits: NetworkLimits,
         deadline: float | None,
     ) -> None:
         self._limits = limits

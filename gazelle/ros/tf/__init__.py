@@ -1,6 +1,6 @@
 """Coordinate frames over time: what tf2 does, without its server."""
 
-from gazelle.ros.tf.core import FrameTree, Transform
+from gazelle.ros.tf.core import FrameTree, StampedTransform
 from gazelle.ros.tf.errors import (
     ConnectivityException,
     ExtrapolationException,
@@ -16,7 +16,7 @@ __all__ = [
     "FrameTree",
     "InvalidArgumentException",
     "LookupException",
+    "StampedTransform",
     "TimeoutException",
-    "Transform",
     "TransformException",
 ]

@@ -12,7 +12,7 @@ _COMPACT = 256
 
 
 @dataclass(frozen=True, slots=True)
-class Placement:
+class ParentTransform:
     """A frame in its parent.
 
     Attributes:
@@ -30,13 +30,13 @@ class OutsideError(Exception):
     """The time asked for is not held; the text says how far off it is."""
 
 
-class Cache(Protocol):
+class FrameCache(Protocol):
     """The placements of one frame."""
 
-    def insert(self, stamp: int, placement: Placement) -> str:
+    def insert(self, stamp: int, placement: ParentTransform) -> str:
         """Keep a placement; what is returned says why not, and is empty if it is kept."""
 
-    def at(self, stamp: int) -> Placement | None:
+    def at(self, stamp: int) -> ParentTransform | None:
         """The placement at a time [ns], 0 for the latest; None if nothing is known.
 
         Raises:
@@ -59,15 +59,15 @@ class StaticCache:
     __slots__ = ("_placement",)
 
     def __init__(self) -> None:
-        self._placement: Placement | None = None
+        self._placement: ParentTransform | None = None
 
-    def insert(self, stamp: int, placement: Placement) -> str:
+    def insert(self, stamp: int, placement: ParentTransform) -> str:
         """Keep the placement instead of the one before."""
         del stamp
         self._placement = placement
         return ""
 
-    def at(self, stamp: int) -> Placement | None:
+    def at(self, stamp: int) -> ParentTransform | None:
         """The placement, at any time."""
         del stamp
         return self._placement
@@ -96,10 +96,10 @@ class MovingCache:
     def __init__(self, length: int) -> None:
         self._length = length
         self._stamps: list[int] = []
-        self._placements: list[Placement] = []
+        self._placements: list[ParentTransform] = []
         self._first = 0
 
-    def insert(self, stamp: int, placement: Placement) -> str:
+    def insert(self, stamp: int, placement: ParentTransform) -> str:
         """Keep the placement, unless it is older than all that is kept or known already."""
         stamps = self._stamps
         if not stamps or stamp > stamps[-1]:
@@ -128,7 +128,7 @@ class MovingCache:
             first = 0
         self._first = first
 
-    def at(self, stamp: int) -> Placement | None:
+    def at(self, stamp: int) -> ParentTransform | None:
         """The placement at a time, between two known ones interpolated."""
         stamps, first = self._stamps, self._first
         if not stamps:
@@ -154,7 +154,7 @@ class MovingCache:
             )
         return self._between(bisect_right(stamps, stamp, first), stamp)
 
-    def _between(self, after: int, stamp: int) -> Placement:
+    def _between(self, after: int, stamp: int) -> ParentTransform:
         before, begin = self._placements[after - 1], self._stamps[after - 1]
         if begin == stamp:
             return before
@@ -162,7 +162,7 @@ class MovingCache:
         if before.parent != behind.parent:
             return before
         ratio = ((stamp - begin) * 1e-9) / ((end - begin) * 1e-9)
-        return Placement(
+        return ParentTransform(
             before.parent,
             mix(before.translation, behind.translation, ratio),
             slerp(before.rotation, behind.rotation, ratio),

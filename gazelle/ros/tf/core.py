@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from gazelle.ros.tf.cache import Cache, MovingCache, OutsideError, Placement, StaticCache
+from gazelle.ros.tf.cache import FrameCache, MovingCache, OutsideError, ParentTransform, StaticCache
 from gazelle.ros.tf.errors import (
     ConnectivityException,
     ExtrapolationException,
@@ -46,7 +46,7 @@ DEFAULT_CACHE_NS = 10_000_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Transform:
+class StampedTransform:
     """Takes points from the source frame to the target frame: rotate, then translate.
 
     Attributes:
@@ -69,7 +69,7 @@ class FrameTree:
 
     def __init__(self, cache_ns: int = DEFAULT_CACHE_NS) -> None:
         self.cache_ns = cache_ns
-        self._caches: dict[str, Cache | None] = {}
+        self._caches: dict[str, FrameCache | None] = {}
         self._authorities: dict[str, str] = {}
         self._lock = threading.RLock()
         self._quiet_until: dict[tuple[str, str], float] = {}
@@ -114,7 +114,7 @@ class FrameTree:
                 self._caches[child] = cache
             if parent not in self._caches:
                 self._caches[parent] = None
-            refusal = cache.insert(stamp, Placement(parent, translation, rotation))
+            refusal = cache.insert(stamp, ParentTransform(parent, translation, rotation))
             if not refusal:
                 self._authorities[child] = authority
         if refusal:
@@ -147,7 +147,7 @@ class FrameTree:
 
     # Looking up --------------------------------------------------------------------------
 
-    def lookup(self, target: str, source: str, stamp: int = 0) -> Transform:
+    def lookup(self, target: str, source: str, stamp: int = 0) -> StampedTransform:
         """The transform from `source` to `target` at a time.
 
         Raises:
@@ -158,14 +158,14 @@ class FrameTree:
         """
         with self._lock:
             if target == source:
-                return Transform(self._own_stamp(target) if stamp == 0 else stamp)
+                return StampedTransform(self._own_stamp(target) if stamp == 0 else stamp)
             self._check("lookupTransform argument target_frame", target)
             self._check("lookupTransform argument source_frame", source)
             return self._transform(target, source, stamp)
 
     def lookup_full(
         self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
-    ) -> Transform:
+    ) -> StampedTransform:
         """From `source` at one time to `target` at another, through a frame that stands still.
 
         Raises:
@@ -181,7 +181,7 @@ class FrameTree:
             first = self.lookup(fixed, source, source_stamp)
             second = self.lookup(target, fixed, target_stamp)
         turn = matrix(second.rotation)
-        return Transform(
+        return StampedTransform(
             second.stamp,
             add(apply(turn, first.translation), second.translation),
             quaternion(product(turn, matrix(first.rotation))),
@@ -226,7 +226,7 @@ class FrameTree:
         with self._lock:
             return list(self._caches)
 
-    def known(self) -> list[tuple[str, str, Cache]]:
+    def known(self) -> list[tuple[str, str, FrameCache]]:
         """Name, authority and placements of each frame that was ever placed."""
         with self._lock:
             return [
@@ -259,19 +259,21 @@ class FrameTree:
         latest = cache.latest() if cache is not None else None
         return latest[0] if latest else 0
 
-    def _transform(self, target: str, source: str, stamp: int) -> Transform:
+    def _transform(self, target: str, source: str, stamp: int) -> StampedTransform:
         if stamp == 0:
             stamp = self._common_time(target, source)
         up, down = self._way(target, source, stamp)
         translation, rotation = _accumulate(up)
         if not down:
-            return Transform(stamp, translation, rotation)
+            return StampedTransform(stamp, translation, rotation)
         other, turned = _accumulate(down)
         back = conjugate(turned)
         offset = rotate(back, minus(other))
         if not up:
-            return Transform(stamp, offset, back)
-        return Transform(stamp, add(rotate(back, translation), offset), multiply(back, rotation))
+            return StampedTransform(stamp, offset, back)
+        return StampedTransform(
+            stamp, add(rotate(back, translation), offset), multiply(back, rotation)
+        )
 
     def _names(self, target: str, source: str, stamp: int) -> list[str]:
         if target == source:
@@ -285,7 +287,9 @@ class FrameTree:
             return [source, *(placement.parent for placement in up)]
         return [source, *(placement.parent for placement in down[-2::-1]), target]
 
-    def _way(self, target: str, source: str, stamp: int) -> tuple[list[Placement], list[Placement]]:
+    def _way(
+        self, target: str, source: str, stamp: int
+    ) -> tuple[list[ParentTransform], list[ParentTransform]]:
         """The placements from `source` up to where the ways meet, and those from `target`."""
         up, top, outside = self._climb(source, stamp, target)
         if top == target:
@@ -304,9 +308,9 @@ class FrameTree:
 
     def _climb(
         self, start: str, stamp: int, *goals: str
-    ) -> tuple[list[Placement], str, str | None]:
+    ) -> tuple[list[ParentTransform], str, str | None]:
         """Placements from a frame towards the root, the frame reached, and why not further."""
-        path: list[Placement] = []
+        path: list[ParentTransform] = []
         frame = start
         caches = self._caches
         while frame not in goals:
@@ -380,7 +384,7 @@ def _earlier(common: int, stamp: int) -> int:
     return min(common, stamp) if stamp else common
 
 
-def _accumulate(path: list[Placement]) -> tuple[Vector, Quaternion]:
+def _accumulate(path: list[ParentTransform]) -> tuple[Vector, Quaternion]:
     """The transform from the first frame of a path to the parent of the last."""
     if not path:
         return ORIGIN, IDENTITY

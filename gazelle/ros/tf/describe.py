@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from gazelle.ros.tf.cache import Cache
+from gazelle.ros.tf.cache import FrameCache
 from gazelle.ros.tf.core import FrameTree
 
 _SECOND = 1e-9
 _SHORTEST = 0.0001
 
 
-def _rate(cache: Cache) -> tuple[float, float, float, float]:
+def _rate(cache: FrameCache) -> tuple[float, float, float, float]:
     """Average rate [Hz], latest and oldest time [s], and the time between them [s]."""
     count, oldest, latest = cache.span()
     length = (latest - oldest) * _SECOND

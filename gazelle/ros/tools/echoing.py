@@ -13,9 +13,9 @@ from gazelle.ros.messages import Message, load_message
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.time import Time
 from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.fields import Step, parse_path, type_at, value_at
+from gazelle.ros.tools.fields import FieldAccess, parse_path, type_at, value_at
 from gazelle.ros.tools.formatting import Plot, as_yaml, leave_out
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.watching import tool_node, wait_for_topic
 from gazelle.ros.typed import decode
 
@@ -57,7 +57,7 @@ class Echo:
         self,
         out: TextIO,
         options: EchoOptions,
-        steps: Iterable[Step] = (),
+        steps: Iterable[FieldAccess] = (),
         kind: str | None = None,
     ) -> None:
         self._out = out
@@ -74,7 +74,7 @@ class Echo:
         """Whether as many were written as were asked for."""
         return self._options.count is not None and self.count >= self._options.count
 
-    def write(self, message: Any, now: Time, steps: Iterable[Step] | None = None) -> None:
+    def write(self, message: Any, now: Time, steps: Iterable[FieldAccess] | None = None) -> None:
         """Write a message, or another part of it than usual.
 
         Raises:
@@ -103,7 +103,9 @@ class Echo:
         return as_yaml(value, offset=offset, width=self._options.width)
 
 
-def echo(graph: Graph, name: str, out: TextIO, options: EchoOptions, stop: threading.Event) -> None:
+def echo(
+    graph: GraphInspector, name: str, out: TextIO, options: EchoOptions, stop: threading.Event
+) -> None:
     """Write the messages of a topic, or a field of them, until `stop` is set.
 
     Raises:
@@ -146,7 +148,7 @@ def _wait(writer: Echo, stop: threading.Event, *, simulated: bool) -> None:
     stop.wait()
 
 
-def _leaf_type(kind: str, steps: list[Step]) -> str | None:
+def _leaf_type(kind: str, steps: list[FieldAccess]) -> str | None:
     """The type of a field, if the message's type is known here and the field is no message."""
     if not steps:
         return None
@@ -180,7 +182,7 @@ def echo_bag(
                 writer.write(each.message, each.timestamp, where)
 
 
-def _within(topic: str, wanted: str | None) -> list[Step] | None:
+def _within(topic: str, wanted: str | None) -> list[FieldAccess] | None:
     """The steps from a topic to what is wanted; None if it is another topic."""
     if wanted is None or topic == wanted:
         return []

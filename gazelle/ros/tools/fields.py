@@ -17,14 +17,14 @@ _SLICE = re.compile(r"(-?\d+)?:(-?\d+)?(?::(-?\d+)?)?")
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class FieldAccess:
     """One field, and an index or slice of it."""
 
     name: str
     index: int | slice | None
 
 
-def parse_path(text: str) -> list[Step]:
+def parse_path(text: str) -> list[FieldAccess]:
     """The steps of a path.
 
     Raises:
@@ -33,23 +33,23 @@ def parse_path(text: str) -> list[Step]:
     return [_step(part) for part in text.split("/") if part]
 
 
-def _step(part: str) -> Step:
+def _step(part: str) -> FieldAccess:
     match = _STEP.fullmatch(part)
     if match is None:
         raise ToolError(f"'{part}' is no field", hint="write name, name[0] or name[1:3]")
     name, inner = match.groups()
     if inner is None:
-        return Step(name, None)
+        return FieldAccess(name, None)
     if _INDEX.fullmatch(inner):
-        return Step(name, int(inner))
+        return FieldAccess(name, int(inner))
     bounds = _SLICE.fullmatch(inner)
     if bounds is None:
         raise ToolError(f"'[{inner}]' is no index", hint="write [0] or [1:3]")
     start, stop, stride = (None if each is None else int(each) for each in bounds.groups())
-    return Step(name, slice(start, stop, stride))
+    return FieldAccess(name, slice(start, stop, stride))
 
 
-def value_at(message: Any, steps: Sequence[Step]) -> Any:
+def value_at(message: Any, steps: Sequence[FieldAccess]) -> Any:
     """The part of a message that a path leads to; of a slice, the parts of all its elements.
 
     Raises:
@@ -75,7 +75,7 @@ def value_at(message: Any, steps: Sequence[Step]) -> Any:
     return value
 
 
-def type_at(message_class: type[Message], steps: Sequence[Step]) -> str:
+def type_at(message_class: type[Message], steps: Sequence[FieldAccess]) -> str:
     """The type of the field a path leads to, as its definition has it.
 
     Raises:

@@ -17,7 +17,7 @@ Uses = list[tuple[str, str, list[str]]]
 UNKNOWN_TYPE = "unknown type"
 
 
-class Graph(Closeable):
+class GraphInspector(Closeable):
     """A master, asked by a tool.
 
     Args:

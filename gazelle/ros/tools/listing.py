@@ -10,11 +10,11 @@ from gazelle.ros import names
 from gazelle.ros.messages import load_message
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import parse_path, type_at
-from gazelle.ros.tools.graph import UNKNOWN_TYPE, Graph, Uses
+from gazelle.ros.tools.graph import UNKNOWN_TYPE, GraphInspector, Uses
 
 
 def list_topics(
-    graph: Graph,
+    graph: GraphInspector,
     out: TextIO,
     space: str | None = None,
     *,
@@ -55,7 +55,7 @@ def _below(uses: Uses, topic: str) -> Uses:
     return [each for each in uses if each[0] == topic or each[0].startswith(space)]
 
 
-def _by_host(graph: Graph, uses: Uses) -> dict[str, Uses]:
+def _by_host(graph: GraphInspector, uses: Uses) -> dict[str, Uses]:
     found: dict[str, dict[str, tuple[str, str, list[str]]]] = {}
     for topic, kind, nodes in uses:
         for node in nodes:
@@ -95,7 +95,7 @@ def _write_uses(out: TextIO, uses: Uses, indent: str, role: str) -> None:
         out.write(f"{indent} * {topic} [{kind}] {max(1, len(nodes))} {role}{plural}\n")
 
 
-def topic_info(graph: Graph, topic: str) -> str:
+def topic_info(graph: GraphInspector, topic: str) -> str:
     """Type, publishers and subscribers of a topic.
 
     Raises:
@@ -115,11 +115,11 @@ def topic_info(graph: Graph, topic: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _address(graph: Graph, node: str) -> str:
+def _address(graph: GraphInspector, node: str) -> str:
     return graph.node_uri(node) or f"unknown address {node}"
 
 
-def find_topic(graph: Graph, name: str) -> tuple[str, str, str] | None:
+def find_topic(graph: GraphInspector, name: str) -> tuple[str, str, str] | None:
     """What a name means: a topic, or a topic and a path of fields in its messages.
 
     Returns:
@@ -151,7 +151,7 @@ def _may_have(kind: str, path: str) -> bool:
     return True
 
 
-def closest_topic(graph: Graph, name: str) -> str | None:
+def closest_topic(graph: GraphInspector, name: str) -> str | None:
     """A hint for a topic that is not there: one with nearly that name, or with such fields."""
     types = graph.types()
     for topic, kind in types.items():
@@ -161,7 +161,7 @@ def closest_topic(graph: Graph, name: str) -> str | None:
     return hint if hint.startswith("did you mean") else None
 
 
-def topic_type(graph: Graph, name: str) -> str:
+def topic_type(graph: GraphInspector, name: str) -> str:
     """The type of a topic; for a field of its messages, the type, the field and the field's type.
 
     Raises:
@@ -177,6 +177,6 @@ def topic_type(graph: Graph, name: str) -> str:
     return f"{kind} {path[1:]} {type_at(load_message(kind), parse_path(path))}"
 
 
-def topics_of_type(graph: Graph, kind: str) -> list[str]:
+def topics_of_type(graph: GraphInspector, kind: str) -> list[str]:
     """The topics of a type, sorted."""
     return sorted(topic for topic, each in graph.types().items() if each == kind)

@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 from gazelle.ros.errors import ApiError, RosError, UnreachableError
 from gazelle.ros.master.proxy import MasterProxy, value_of
 from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.graph import UNKNOWN_TYPE, Graph
+from gazelle.ros.tools.graph import UNKNOWN_TYPE, GraphInspector
 from gazelle.ros.xmlrpc.client import BlockingClient
 
 _PATIENCE_S = 3.0
@@ -23,7 +23,7 @@ _LINE = "-" * 80
 
 
 def list_nodes(
-    graph: Graph, space: str | None = None, *, uris: bool = False, names: bool = True
+    graph: GraphInspector, space: str | None = None, *, uris: bool = False, names: bool = True
 ) -> str:
     """Nodes of a namespace, or all: names, addresses, or both, one a line."""
     lines = []
@@ -36,7 +36,7 @@ def list_nodes(
     return "\n".join(lines) + "\n"
 
 
-def node_info(graph: Graph, name: str, *, quiet: bool = False) -> str:
+def node_info(graph: GraphInspector, name: str, *, quiet: bool = False) -> str:
     """What a node publishes, subscribes to and serves, and its connections.
 
     Args:
@@ -61,7 +61,7 @@ def node_info(graph: Graph, name: str, *, quiet: bool = False) -> str:
         return text + f"ERROR: Communication with node[{uri}] failed: {error}\n"
 
 
-def _registrations(graph: Graph, node: str) -> str:
+def _registrations(graph: GraphInspector, node: str) -> str:
     publishers, subscribers, services = graph.master.system_state()
     types = dict(graph.master.published_topics("/"))
     lines = [f"Node [{node}]"]
@@ -76,7 +76,7 @@ def _registrations(graph: Graph, node: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _connections(graph: Graph, uri: str) -> str:
+def _connections(graph: GraphInspector, uri: str) -> str:
     client = BlockingClient(uri, timeout=5.0)
     try:
         pid = value_of("getPid", client.call("getPid", graph.caller))
@@ -109,7 +109,7 @@ def _detail(text: str) -> str:
     return f" ({port} - {peer})" + (f" [{sock}]" if sock else "")
 
 
-def _peer(graph: Graph, peer: str, topic: str) -> str:
+def _peer(graph: GraphInspector, peer: str, topic: str) -> str:
     """A peer, with its name where it is given by its address."""
     if not peer.startswith("http://"):
         return peer
@@ -121,13 +121,13 @@ def _peer(graph: Graph, peer: str, topic: str) -> str:
     return peer
 
 
-def machines(graph: Graph) -> list[str]:
+def machines(graph: GraphInspector) -> list[str]:
     """The hosts that nodes run on, sorted."""
     found = {urlsplit(graph.node_uri(node) or "").hostname for node in graph.nodes()}
     return sorted(host for host in found if host)
 
 
-def nodes_on(graph: Graph, machine: str) -> list[str]:
+def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
     """The nodes of a host, sorted.
 
     Raises:
@@ -154,7 +154,7 @@ def _addresses(host: str) -> set[str]:
     return {str(each[4][0]) for each in socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)}
 
 
-def kill(graph: Graph, nodes: Sequence[str]) -> list[str]:
+def kill(graph: GraphInspector, nodes: Sequence[str]) -> list[str]:
     """Ask nodes to end; returns those that could not be asked."""
     failed = []
     for node in nodes:
@@ -173,7 +173,7 @@ def kill(graph: Graph, nodes: Sequence[str]) -> list[str]:
 
 
 def ping(
-    graph: Graph,
+    graph: GraphInspector,
     name: str,
     out: TextIO,
     stop: threading.Event,
@@ -221,7 +221,7 @@ def ping(
     return True
 
 
-def process_of(graph: Graph, node: str) -> int | None:
+def process_of(graph: GraphInspector, node: str) -> int | None:
     """The number of a node's process; None if it does not answer."""
     uri = graph.node_uri(node, fresh=True)
     if uri is None:
@@ -235,17 +235,17 @@ def process_of(graph: Graph, node: str) -> int | None:
         client.close()
 
 
-def alive(graph: Graph, node: str) -> bool:
+def alive(graph: GraphInspector, node: str) -> bool:
     """Whether a node answers."""
     return process_of(graph, node) is not None
 
 
-def dead_nodes(graph: Graph) -> list[str]:
+def dead_nodes(graph: GraphInspector) -> list[str]:
     """The nodes that are registered and do not answer, sorted."""
     return [node for node in graph.nodes() if not alive(graph, node)]
 
 
-def unregister(graph: Graph, nodes: Sequence[str]) -> None:
+def unregister(graph: GraphInspector, nodes: Sequence[str]) -> None:
     """Take all that nodes registered off the master."""
     publishers, subscribers, services = graph.master.system_state()
     for node in nodes:

@@ -14,18 +14,18 @@ from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.params import flatten
 from gazelle.ros.launch.values import load_yaml, load_yaml_documents
 from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 _NAMESPACE_KEY = "_ns"
 
 
-def list_parameters(graph: Graph, space: str | None = None) -> list[str]:
+def list_parameters(graph: GraphInspector, space: str | None = None) -> list[str]:
     """Names of parameters, sorted; those of a namespace, or all."""
     below = names.as_namespace(graph.resolve(space) if space else "/")
     return sorted(name for name in graph.master.param_names() if name.startswith(below))
 
 
-def get_parameter(graph: Graph, name: str) -> Any:
+def get_parameter(graph: GraphInspector, name: str) -> Any:
     """The value of a parameter or namespace.
 
     Raises:
@@ -75,7 +75,7 @@ def pretty(value: Any, indent: str = "") -> str:
     return "".join(lines)
 
 
-def set_parameter(graph: Graph, name: str, value: Any) -> list[tuple[str, Any]]:
+def set_parameter(graph: GraphInspector, name: str, value: Any) -> list[tuple[str, Any]]:
     """Set a parameter; a mapping is merged into what is there, one parameter after another.
 
     Returns:
@@ -97,7 +97,7 @@ def set_parameter(graph: Graph, name: str, value: Any) -> list[tuple[str, Any]]:
     return done
 
 
-def set_from_text(graph: Graph, name: str, text: str) -> list[tuple[str, Any]]:
+def set_from_text(graph: GraphInspector, name: str, text: str) -> list[tuple[str, Any]]:
     """Set a parameter to a YAML value; returns what was set.
 
     Raises:
@@ -109,7 +109,9 @@ def set_from_text(graph: Graph, name: str, text: str) -> list[tuple[str, Any]]:
         raise ToolError(error.message) from None
 
 
-def load_parameters(graph: Graph, file: str, space: str | None = None) -> list[tuple[str, Any]]:
+def load_parameters(
+    graph: GraphInspector, file: str, space: str | None = None
+) -> list[tuple[str, Any]]:
     """Set the parameters of a YAML file, ``-`` for standard input; returns what was set.
 
     A document's key ``_ns`` names the namespace it goes to.
@@ -137,7 +139,7 @@ def load_parameters(graph: Graph, file: str, space: str | None = None) -> list[t
     return done
 
 
-def dump_parameters(graph: Graph, space: str | None = None) -> str:
+def dump_parameters(graph: GraphInspector, space: str | None = None) -> str:
     """A namespace, or all parameters, as YAML.
 
     Raises:
@@ -158,7 +160,7 @@ def leaves(value: Any, name: str) -> Iterator[tuple[str, Any]]:
         yield from leaves(inner, names.join(name, key))
 
 
-def delete_parameter(graph: Graph, name: str) -> None:
+def delete_parameter(graph: GraphInspector, name: str) -> None:
     """Delete a parameter or namespace; ``/`` deletes all.
 
     Raises:

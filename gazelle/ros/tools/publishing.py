@@ -16,7 +16,7 @@ from gazelle.ros.publishing import Publisher
 from gazelle.ros.time import Time
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import texts_as_texts
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.watching import tool_node
 
 ONCE_S = 3.0
@@ -91,7 +91,7 @@ class MessagePublisher:
 
     def __init__(
         self,
-        graph: Graph,
+        graph: GraphInspector,
         topic: str,
         kind: str,
         out: TextIO,

@@ -13,8 +13,8 @@ from typing import Any, TextIO
 
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.graph import Graph
-from gazelle.ros.tools.watching import Pacer, tool_node, wait_for_topic
+from gazelle.ros.tools.graph import GraphInspector
+from gazelle.ros.tools.watching import PeriodicReport, tool_node, wait_for_topic
 from gazelle.ros.typed import decode
 
 _MOST = 50_000
@@ -67,7 +67,7 @@ class RateMeter:
 
 
 def measure_rates(
-    graph: Graph,
+    graph: GraphInspector,
     topics: Sequence[str],
     out: TextIO,
     stop: threading.Event,
@@ -110,7 +110,7 @@ def measure_rates(
             _begin(out, found[0])
         if node.clock.simulated and not wall_time:
             sys.stderr.write("WARNING: may be using simulated time\n")
-        Pacer(stop).run(lambda: _show_rates(meters, out))
+        PeriodicReport(stop).run(lambda: _show_rates(meters, out))
 
 
 def _begin(out: TextIO, topic: str) -> None:
@@ -185,7 +185,7 @@ class SizeMeter:
 
 
 def measure_size(
-    graph: Graph, name: str, out: TextIO, stop: threading.Event, *, window: int = 100
+    graph: GraphInspector, name: str, out: TextIO, stop: threading.Event, *, window: int = 100
 ) -> None:
     """Write the bytes per second of a topic every second until `stop` is set."""
     found = wait_for_topic(graph, name, stop)
@@ -204,11 +204,11 @@ def measure_size(
             out.write(meter.text(time.monotonic()))
             out.flush()
 
-        Pacer(stop).run(show)
+        PeriodicReport(stop).run(show)
 
 
 def measure_delay(
-    graph: Graph,
+    graph: GraphInspector,
     name: str,
     out: TextIO,
     stop: threading.Event,
@@ -240,7 +240,7 @@ def measure_delay(
 
         node.subscribe(found[0], RawMessage, count, tcp_nodelay=tcp_nodelay)
         _begin(out, found[0])
-        Pacer(stop).run(lambda: _show_delay(delays, fresh, out))
+        PeriodicReport(stop).run(lambda: _show_delay(delays, fresh, out))
     if failed:
         raise failed[0]
 

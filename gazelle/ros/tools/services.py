@@ -16,12 +16,12 @@ from gazelle.ros.tcpros.service_links import ServiceChannel
 from gazelle.ros.time import Time
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import texts_as_texts
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 _PATIENCE_S = 5.0
 
 
-def list_services(graph: Graph, space: str | None = None) -> list[tuple[str, list[str]]]:
+def list_services(graph: GraphInspector, space: str | None = None) -> list[tuple[str, list[str]]]:
     """Services and their nodes, sorted; those of a namespace, or all."""
     found = sorted(graph.services())
     if space is None:
@@ -31,7 +31,7 @@ def list_services(graph: Graph, space: str | None = None) -> list[tuple[str, lis
     return [each for each in found if each[0] == name or each[0].startswith(below)]
 
 
-def service_node(graph: Graph, service: str) -> str:
+def service_node(graph: GraphInspector, service: str) -> str:
     """The node that provides a service.
 
     Raises:
@@ -44,7 +44,7 @@ def service_node(graph: Graph, service: str) -> str:
     return known[name][0]
 
 
-def service_uri(graph: Graph, service: str) -> str:
+def service_uri(graph: GraphInspector, service: str) -> str:
     """The address of a service.
 
     Raises:
@@ -57,7 +57,7 @@ def service_uri(graph: Graph, service: str) -> str:
     return uri
 
 
-def probe(graph: Graph, service: str) -> dict[str, str]:
+def probe(graph: GraphInspector, service: str) -> dict[str, str]:
     """What a service says about itself.
 
     Raises:
@@ -75,7 +75,7 @@ def probe(graph: Graph, service: str) -> dict[str, str]:
     return channel.header
 
 
-def service_type(graph: Graph, service: str) -> str:
+def service_type(graph: GraphInspector, service: str) -> str:
     """The type of a service.
 
     Raises:
@@ -84,7 +84,7 @@ def service_type(graph: Graph, service: str) -> str:
     return probe(graph, service).get("type", "")
 
 
-def services_of_type(graph: Graph, kind: str) -> list[str]:
+def services_of_type(graph: GraphInspector, kind: str) -> list[str]:
     """The services of a type; those that do not answer are left out."""
     found = []
     for name, _ in graph.services():
@@ -96,7 +96,7 @@ def services_of_type(graph: Graph, kind: str) -> list[str]:
     return found
 
 
-def service_arguments(graph: Graph, service: str) -> str:
+def service_arguments(graph: GraphInspector, service: str) -> str:
     """The fields of a service's request, with spaces between.
 
     Raises:
@@ -106,7 +106,7 @@ def service_arguments(graph: Graph, service: str) -> str:
     return get_printable_message_args(request())
 
 
-def service_info(graph: Graph, service: str) -> str:
+def service_info(graph: GraphInspector, service: str) -> str:
     """Node, address, type and arguments of a service.
 
     Raises:
@@ -121,7 +121,7 @@ def service_info(graph: Graph, service: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-class Caller:
+class ServiceCaller:
     """Calls one service with values that users write.
 
     Args:
@@ -133,7 +133,7 @@ class Caller:
         ToolError: Nobody offers it, or it does not answer.
     """
 
-    def __init__(self, graph: Graph, node: Node, service: str) -> None:
+    def __init__(self, graph: GraphInspector, node: Node, service: str) -> None:
         self._node = node
         self._class: Any = load_service(service_type(graph, service))
         self._client = node.client(graph.resolve(service), self._class)

@@ -12,7 +12,7 @@ from typing import Any
 from gazelle.ros import names
 from gazelle.ros.names import ANY_TYPE
 from gazelle.ros.node import Node
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.listing import closest_topic, find_topic
 
 NODE_NAME = "GAZELLE_ROS_NODE"
@@ -20,7 +20,9 @@ NODE_NAME = "GAZELLE_ROS_NODE"
 _POLL_S = 0.1
 
 
-def wait_for_topic(graph: Graph, name: str, stop: threading.Event) -> tuple[str, str, str] | None:
+def wait_for_topic(
+    graph: GraphInspector, name: str, stop: threading.Event
+) -> tuple[str, str, str] | None:
     """Topic, type and path that a name means, when there is such a topic; None if stopped."""
     wanted = graph.resolve(name)
     said = False
@@ -38,14 +40,14 @@ def wait_for_topic(graph: Graph, name: str, stop: threading.Event) -> tuple[str,
     return None
 
 
-def tool_node(graph: Graph, **keywords: Any) -> Node:
+def tool_node(graph: GraphInspector, **keywords: Any) -> Node:
     """A node for a tool, under the name that a launch file gave, else under one of its own."""
     given = os.environ.get(NODE_NAME)
     name = graph.resolve(given) if given else names.anonymous(graph.caller)
     return Node(name, master_uri=graph.master_uri, **keywords)
 
 
-class Pacer:
+class PeriodicReport:
     """Calls something once a second until it is told to stop."""
 
     def __init__(self, stop: threading.Event) -> None:

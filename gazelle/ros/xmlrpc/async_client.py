@@ -10,11 +10,11 @@ from typing import Any
 
 from gazelle.ros import net
 from gazelle.ros.errors import ProtocolError, RosError, UnreachableError
-from gazelle.ros.limits import LIMITS, Limits
-from gazelle.ros.loop import READ, WRITE, EventLoop, Timer
+from gazelle.ros.limits import LIMITS, NetworkLimits
+from gazelle.ros.loop import READ, WRITE, EventLoop, TimerHandle
 from gazelle.ros.xmlrpc.client import value_of_answer
-from gazelle.ros.xmlrpc.http import Message, MessageReader, request
-from gazelle.ros.xmlrpc.long_documents import Aside, is_long
+from gazelle.ros.xmlrpc.http import HttpMessage, MessageReader, request
+from gazelle.ros.xmlrpc.long_documents import BackgroundTasks, is_long
 from gazelle.ros.xmlrpc.writing import write_call
 
 Done = Callable[[Any, RosError | None], None]
@@ -37,7 +37,7 @@ class AsyncClient:
         self,
         loop: EventLoop,
         timeout: float = 30.0,
-        limits: Limits = LIMITS,
+        limits: NetworkLimits = LIMITS,
         lost: Callable[[str], None] | None = None,
     ) -> None:
         self.loop = loop
@@ -45,7 +45,7 @@ class AsyncClient:
         self.limits = limits
         self.lost = lost
         self._peers: dict[str, _Peer] = {}
-        self._aside = Aside(loop)
+        self._aside = BackgroundTasks(loop)
 
     def call(self, uri: str, method: str, params: Sequence[Any], done: Done | None = None) -> None:
         """Call; `done(value, error)` runs on the loop's thread. Only on the loop's thread."""
@@ -119,7 +119,7 @@ class _Peer:
         self._outgoing = memoryview(b"")
         self._busy = False
         self._fresh = True
-        self._deadline: Timer | None = None
+        self._deadline: TimerHandle | None = None
 
     def call(self, document: bytes | None, done: Done | None) -> _Call:
         if len(self._queue) >= _MOST_QUEUED:
@@ -238,7 +238,7 @@ class _Peer:
         if message is not None:
             self._finish(message)
 
-    def _finish(self, message: Message) -> None:
+    def _finish(self, message: HttpMessage) -> None:
         if not self._busy:
             self._drop()  # an answer without a question
             self._client.retire(self)

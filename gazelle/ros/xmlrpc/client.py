@@ -15,8 +15,8 @@ from gazelle.ros.errors import (
     SilentPeerError,
     UnreachableError,
 )
-from gazelle.ros.limits import LIMITS, Limits
-from gazelle.ros.xmlrpc.http import Message, MessageReader, request
+from gazelle.ros.limits import LIMITS, NetworkLimits
+from gazelle.ros.xmlrpc.http import HttpMessage, MessageReader, request
 from gazelle.ros.xmlrpc.reading import read_response
 from gazelle.ros.xmlrpc.writing import write_call
 
@@ -24,7 +24,7 @@ _CHUNK = 65536
 _MOST_IDLE = 4
 
 
-def value_of_answer(message: Message, limits: Limits) -> Any:
+def value_of_answer(message: HttpMessage, limits: NetworkLimits) -> Any:
     """The value of an answer.
 
     Raises:
@@ -46,7 +46,7 @@ class BlockingClient:
         timeout: Seconds to wait for an answer.
     """
 
-    def __init__(self, uri: str, timeout: float = 30.0, limits: Limits = LIMITS) -> None:
+    def __init__(self, uri: str, timeout: float = 30.0, limits: NetworkLimits = LIMITS) -> None:
         self.uri = uri
         self.timeout = timeout
         self._limits = limits
@@ -119,7 +119,7 @@ class BlockingClient:
                 return sock
             sock.close()  # readable without a question: closed, or out of step
 
-    def _receive(self, sock: socket.socket) -> Message | None:
+    def _receive(self, sock: socket.socket) -> HttpMessage | None:
         reader = MessageReader(self._limits, response=True)
         while True:
             data = sock.recv(_CHUNK)
@@ -130,7 +130,7 @@ class BlockingClient:
             if message is not None:
                 return message
 
-    def _finish(self, sock: socket.socket, message: Message) -> Any:
+    def _finish(self, sock: socket.socket, message: HttpMessage) -> Any:
         keep = False
         if message.keep_alive:
             with self._lock:

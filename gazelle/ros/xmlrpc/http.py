@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.ros.errors import ProtocolError
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 
 REASONS = {
     200: "OK",
@@ -28,7 +28,7 @@ class HttpError(ProtocolError):
         super().__init__(message)
 
 
-class Message:
+class HttpMessage:
     """One request or response."""
 
     __slots__ = ("body", "first", "headers", "keep_alive")
@@ -52,12 +52,12 @@ class MessageReader:
         response: True if the stream holds responses; a body without length ends the stream.
     """
 
-    def __init__(self, limits: Limits = LIMITS, *, response: bool = False) -> None:
+    def __init__(self, limits: NetworkLimits = LIMITS, *, response: bool = False) -> None:
         self._limits = limits
         self._response = response
         self._buffer = bytearray()
         self._searched = 0
-        self._message: Message | None = None
+        self._message: HttpMessage | None = None
         self._length: int | None = None
         self.expects_continue = False
 
@@ -69,7 +69,7 @@ class MessageReader:
         """Add what came in."""
         self._buffer += data
 
-    def next(self) -> Message | None:
+    def next(self) -> HttpMessage | None:
         """The next whole message, or None.
 
         Raises:
@@ -86,7 +86,7 @@ class MessageReader:
         self._message, self._searched = None, 0
         return message
 
-    def end(self) -> Message | None:
+    def end(self) -> HttpMessage | None:
         """The stream ended: the message whose body was everything up to here, if any."""
         message, self._message = self._message, None
         if message is None or self._length is not None:
@@ -119,7 +119,7 @@ class MessageReader:
         if start and not start[:1].isalpha():
             raise HttpError(400, "this is no HTTP")
 
-    def _parse_head(self, head: str) -> Message:
+    def _parse_head(self, head: str) -> HttpMessage:
         lines = head.lstrip("\r\n").split("\r\n")
         first = lines[0].split(" ", 2) if self._response else lines[0].split()
         if len(first) < 2 or (not self._response and len(first) != 3):
@@ -133,9 +133,9 @@ class MessageReader:
             if not colon:
                 raise HttpError(400, f"not a header line: {line[:60]!r}")
             headers[name.strip().lower()] = value.strip()
-        return Message(first, headers)
+        return HttpMessage(first, headers)
 
-    def _body_length(self, message: Message) -> int | None:
+    def _body_length(self, message: HttpMessage) -> int | None:
         if "transfer-encoding" in message.headers:
             raise HttpError(501, "transfer encodings are not supported")
         text = message.headers.get("content-length")

@@ -36,7 +36,7 @@ def is_long(value: Any) -> bool:
     return left <= 0
 
 
-class Aside:
+class BackgroundTasks:
     """Runs tasks one after another on a thread that holds up nobody. Only on the loop's thread.
 
     There is one at a time, however many clients send long documents: Python runs one thread at a

@@ -8,7 +8,7 @@ from typing import Any
 from xml.parsers import expat
 
 from gazelle.ros.errors import FaultError, MarshalError
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 
 _SCALARS = frozenset(
     {"i4", "int", "i8", "boolean", "double", "string", "dateTime.iso8601", "base64", "nil"}
@@ -29,7 +29,7 @@ _MISSING = object()
 _PIECE_BYTES = 64 * 1024
 
 
-def read_call(document: bytes, limits: Limits = LIMITS) -> tuple[str, list[Any]]:
+def read_call(document: bytes, limits: NetworkLimits = LIMITS) -> tuple[str, list[Any]]:
     """The method's name and the parameters of a call.
 
     Raises:
@@ -41,7 +41,7 @@ def read_call(document: bytes, limits: Limits = LIMITS) -> tuple[str, list[Any]]
     return reader.method, reader.params
 
 
-def read_response(document: bytes, limits: Limits = LIMITS) -> Any:
+def read_response(document: bytes, limits: NetworkLimits = LIMITS) -> Any:
     """The value of an answer.
 
     Raises:
@@ -62,7 +62,7 @@ def read_response(document: bytes, limits: Limits = LIMITS) -> Any:
     return reader.params[0]
 
 
-def _read(document: bytes, root: str, limits: Limits) -> _Reader:
+def _read(document: bytes, root: str, limits: NetworkLimits) -> _Reader:
     reader = _Reader(root, limits)
     try:
         # Piece by piece: meanwhile no other thread runs.
@@ -92,7 +92,7 @@ class _Value:
 class _Reader:
     """Collects what the XML parser sees."""
 
-    def __init__(self, root: str, limits: Limits) -> None:
+    def __init__(self, root: str, limits: NetworkLimits) -> None:
         self.root = root
         self.limits = limits
         self.method: str | None = None

@@ -10,10 +10,10 @@ from typing import Any
 
 from gazelle.ros import net
 from gazelle.ros.errors import MarshalError, report
-from gazelle.ros.limits import LIMITS, Limits
+from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.loop import READ, WRITE, EventLoop
-from gazelle.ros.xmlrpc.http import HttpError, Message, MessageReader, response
-from gazelle.ros.xmlrpc.long_documents import LONG_BYTES, Aside, is_long
+from gazelle.ros.xmlrpc.http import HttpError, HttpMessage, MessageReader, response
+from gazelle.ros.xmlrpc.long_documents import LONG_BYTES, BackgroundTasks, is_long
 from gazelle.ros.xmlrpc.reading import read_call
 from gazelle.ros.xmlrpc.writing import write_fault, write_response
 
@@ -59,12 +59,12 @@ class XmlRpcServer:
         host: str,
         port: int,
         dispatch: Dispatch,
-        limits: Limits = LIMITS,
+        limits: NetworkLimits = LIMITS,
         prepare: Prepare | None = None,
     ) -> None:
         self._loop = loop
         self._prepare = prepare or functools.partial(functools.partial, dispatch)
-        self.aside = Aside(loop)
+        self.aside = BackgroundTasks(loop)
         self.limits = limits
         self._connections: dict[_Connection, None] = {}
         self._listener = net.listen(host, port)
@@ -251,7 +251,7 @@ class _Connection:
             return False
         return self._exchange(message)
 
-    def _exchange(self, message: Message) -> bool:
+    def _exchange(self, message: HttpMessage) -> bool:
         """Answer a request; False if that goes on beside the loop."""
         if message.first[0] != "POST":
             self._put(message, b"POST only", 501)
@@ -269,18 +269,18 @@ class _Connection:
         self._wait_for(0)
         self._server.aside.post(task)
 
-    def _read_long(self, message: Message) -> None:
+    def _read_long(self, message: HttpMessage) -> None:
         step = self._server.prepared(message.body)
         message.body = b""
         self._loop.call_soon(lambda: self._do_later(message, step))
 
-    def _do_later(self, message: Message, step: Step) -> None:
+    def _do_later(self, message: HttpMessage, step: Step) -> None:
         if self._sock.fileno() >= 0:
             self._working = False
             self._do(message, step)
             self._go_on()
 
-    def _do(self, message: Message, step: Step) -> None:
+    def _do(self, message: HttpMessage, step: Step) -> None:
         try:
             value = step()
         except Exception as error:  # noqa: BLE001  # a bad call must not end the server
@@ -291,11 +291,11 @@ class _Connection:
         else:
             self._put(message, _answered(value))
 
-    def _write_long(self, message: Message, value: Any) -> None:
+    def _write_long(self, message: HttpMessage, value: Any) -> None:
         body = _answered(value)
         self._loop.call_soon(lambda: self._put_later(message, body))
 
-    def _put_later(self, message: Message, body: bytes) -> None:
+    def _put_later(self, message: HttpMessage, body: bytes) -> None:
         if self._sock.fileno() >= 0:
             self._working = False
             self._put(message, body)
@@ -311,7 +311,7 @@ class _Connection:
         except OSError:
             self.close()
 
-    def _put(self, message: Message, body: bytes, status: int = 200) -> None:
+    def _put(self, message: HttpMessage, body: bytes, status: int = 200) -> None:
         self._closing = not message.keep_alive
         kind = "text/xml" if status == 200 else "text/plain"
         self._outgoing += response(status, body, keep_alive=message.keep_alive, kind=kind)

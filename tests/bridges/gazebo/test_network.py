@@ -9,7 +9,7 @@ import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.ros import Master
 from gazelle.ros.tools import services
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 pytestmark = pytest.mark.corpus
 FOLDER = "ros-simulation__gazebo_ros_pkgs/gazebo_ros/test/ros_network"
@@ -18,7 +18,7 @@ CHECKER = "/ros_network_by_default/"  # the checker's own node
 
 def check(wanted, uri):
     """Names, types and numbers of publishers, as the checker does; returns how many there are."""
-    with Graph("checker", uri) as graph:
+    with GraphInspector("checker", uri) as graph:
         publishers, subscribers, offered = graph.master.system_state()
         types = graph.types()
         for each in wanted["topics"]:

@@ -10,7 +10,7 @@ from value_samples import FRAMES, MAKERS
 
 import gazelle.bridges.binding  # noqa: F401  it teaches all kinds
 from gazelle.bridges import conversions
-from gazelle.bridges.conversions import View, encoder_of
+from gazelle.bridges.conversions import ConversionContext, encoder_of
 from gazelle.navigation.values import Path
 from gazelle.ros import Time, load_message
 from gazelle.ros.tf.naming import resolve_frame
@@ -68,7 +68,7 @@ def encoded(kind, case):
     rng = np.random.default_rng(case["seed"])
     world = int(rng.integers(case["nworld"]))
     value = MAKERS[kind](rng, case["nworld"], case["stamp"])
-    view = View(case["frame"], world, stamped, case["prefix"])
+    view = ConversionContext(case["frame"], world, stamped, case["prefix"])
     encoder = encoder_of(kind)
     message = load_message(encoder.message)()
     encoder.fill(message, value, view)

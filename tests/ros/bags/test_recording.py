@@ -11,7 +11,7 @@ from ros.graph import until
 from gazelle.ros import Time, WallClock, load_message
 from gazelle.ros.bags import Bag, BagError
 from gazelle.ros.bags.playing import Player, PlayOptions
-from gazelle.ros.bags.recording import Recorder, RecordOptions, check, duration_of
+from gazelle.ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
 
 
 @pytest.fixture
@@ -22,7 +22,7 @@ def record(make_node, tmp_path):
     def run(**options):
         stop = threading.Event()
         options.setdefault("name", str(tmp_path / "r"))
-        recorder = Recorder(make_node("recorder"), RecordOptions(**options), lambda text: None)
+        recorder = BagRecorder(make_node("recorder"), RecordOptions(**options), lambda text: None)
         thread = threading.Thread(target=recorder.run, args=(stop,))
         thread.start()
         made.append((stop, thread))

@@ -23,7 +23,7 @@ from gazelle.ros.builtin.map_saver import write_map
 from gazelle.ros.builtin.map_server import grid_message, read_map
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.static_transform import from_angles
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.nodes import kill
 
 STRING = load_message("std_msgs/String")
@@ -381,7 +381,7 @@ def test_a_node_that_is_asked_to_end_is_off_the_master_when_it_is_gone(start, ma
     words = ["0", "0", "1", "0", "0", "0", "a", "b", "50"]
     for number in range(5):
         process = start("tf", "static_transform_publisher", *words, f"__name:=n{number}")
-        with Graph("killer", master.uri) as graph:
+        with GraphInspector("killer", master.uri) as graph:
             until(lambda: graph.nodes("/"))
             assert kill(graph, [f"/n{number}"]) == []
             assert process.wait(10) == 0

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.ros.launch import (
-    Command,
     LaunchError,
     MissingArgumentError,
     MissingPackageError,
     Packages,
+    ParameterCommand,
     load_launch,
     load_launch_text,
 )
@@ -49,7 +49,7 @@ def test_files_become_parameters(values, tmp_path):
 
 def test_commands_are_kept_and_not_run(values, tmp_path):
     body = f'<param name="c" command="touch {tmp_path}/x" type="yaml"/>'
-    assert values(body) == {"/c": Command(f"touch {tmp_path}/x", "yaml")}
+    assert values(body) == {"/c": ParameterCommand(f"touch {tmp_path}/x", "yaml")}
     assert not (tmp_path / "x").exists()
 
 

@@ -16,13 +16,13 @@ from ros.graph import until
 from gazelle.ros import Master
 from gazelle.ros.errors import MasterUnreachableError
 from gazelle.ros.launch import LaunchError, Packages
-from gazelle.ros.launch.process import Patience
+from gazelle.ros.launch.process import StopTimeouts
 from gazelle.ros.launch.runner import Launch, Options
 from gazelle.ros.master.proxy import MasterProxy
 from gazelle.ros.xmlrpc.client import BlockingClient
 
 SLEEP = "#!/bin/sh\nexec sleep 100\n"
-PATIENCE = Patience(5.0, 1.0)
+PATIENCE = StopTimeouts(5.0, 1.0)
 
 
 @pytest.fixture
@@ -234,7 +234,7 @@ def test_the_stubborn_are_killed(launch, script, tmp_path):
         "no.sh",
         f"#!/bin/sh\ntrap '' INT TERM\ntouch {tmp_path}/up\nwhile true; do sleep 0.1; done\n",
     )
-    running = launch(node("no.sh"), patience=Patience(0.3, 0.3))
+    running = launch(node("no.sh"), patience=StopTimeouts(0.3, 0.3))
     until((tmp_path / "up").exists)
     begin = time.monotonic()
     running.close()

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from ros.real import PYTHON, needs_ros
 
-from gazelle.ros.launch import Command, LaunchError, Packages, TestPlan, load_launch
+from gazelle.ros.launch import LaunchError, Packages, ParameterCommand, TestPlan, load_launch
 
 pytestmark = [pytest.mark.ros, needs_ros]
 
@@ -54,7 +54,7 @@ class Roslaunch:
 
 
 def plain_value(value):
-    if isinstance(value, Command):
+    if isinstance(value, ParameterCommand):
         return {"command": value.text, "kind": value.kind}
     return {"binary": value.hex()} if isinstance(value, bytes) else value
 

@@ -6,12 +6,12 @@ import io
 
 import pytest
 
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 
 
 @pytest.fixture
 def graph(master):
-    with Graph("rostool", master.uri, namespace="/") as made:
+    with GraphInspector("rostool", master.uri, namespace="/") as made:
         yield made
 
 

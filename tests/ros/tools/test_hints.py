@@ -11,7 +11,7 @@ from gazelle.ros import load_message, load_service
 from gazelle.ros.errors import ProtocolError, report
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import texts_as_texts
-from gazelle.ros.tools.graph import Graph
+from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.listing import closest_topic, topic_type
 from gazelle.ros.tools.watching import wait_for_topic
 
@@ -21,7 +21,7 @@ ODOMETRY = load_message("nav_msgs/Odometry")
 @pytest.fixture
 def graph(master, make_node):
     make_node("robot").advertise("/odom", ODOMETRY)
-    with Graph("rostopic", master.uri) as made:
+    with GraphInspector("rostopic", master.uri) as made:
         yield made
 
 

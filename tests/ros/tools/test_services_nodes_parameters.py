@@ -35,7 +35,7 @@ def test_services_are_described(graph, server):
 
 
 def test_services_are_called(graph, server, make_node):
-    caller = services.Caller(graph, make_node("caller"), "/set")
+    caller = services.ServiceCaller(graph, make_node("caller"), "/set")
     assert caller.takes_values
     response = caller.call(caller.request([True]))
     assert (response.success, response.message) == (True, "got True")

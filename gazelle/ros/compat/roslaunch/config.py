@@ -8,7 +8,7 @@ from gazelle.errors import Error
 from gazelle.ros.compat.roslaunch.core import Machine, Master, Node, Param, RLException, Test
 from gazelle.ros.compat.roslaunch.plans import load_plan, node_of
 from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.plan import Command, LaunchPlan
+from gazelle.ros.launch.plan import LaunchPlan, ParameterCommand
 from gazelle.ros.launch.programs import parameter_value
 
 
@@ -98,7 +98,7 @@ class ROSLaunchConfig:
         self.clear_params += plan.clear
         for parameter in plan.parameters.values():
             value = parameter.value
-            if isinstance(value, Command):
+            if isinstance(value, ParameterCommand):
                 value = _or_rl_exception(lambda p=parameter: parameter_value(p, packages))
             self.add_param(Param(parameter.name, value))
         for node in plan.nodes:

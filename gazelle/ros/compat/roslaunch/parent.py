@@ -21,7 +21,7 @@ from gazelle.ros.compat.roslaunch.plans import load_plan, plan_of, required
 from gazelle.ros.compat.roslaunch.pmon import Process, ProcessListener
 from gazelle.ros.compat.rosmaster.master_api import NUM_WORKERS
 from gazelle.ros.launch.describing import summary
-from gazelle.ros.launch.process import NodeProcess, Patience
+from gazelle.ros.launch.process import NodeProcess, StopTimeouts
 from gazelle.ros.launch.runner import Launch, Options
 from gazelle.ros.master.proxy import MasterProxy
 
@@ -92,7 +92,7 @@ class ROSLaunchParent:
             screen=force_screen,
             log=force_log,
             run_id=run_id,
-            patience=Patience(float(sigint_timeout), float(sigterm_timeout)),
+            patience=StopTimeouts(float(sigint_timeout), float(sigterm_timeout)),
             core_survives=True,
         )
         if port:

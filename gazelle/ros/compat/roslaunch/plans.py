@@ -7,7 +7,7 @@ from typing import Any, cast
 
 from gazelle.ros.compat.roslaunch.core import Node, RLException, Test
 from gazelle.ros.launch.loader import load_launch, load_launch_text
-from gazelle.ros.launch.plan import LaunchPlan, NodePlan, Place, TestPlan
+from gazelle.ros.launch.plan import LaunchPlan, NodePlan, SourceLocation, TestPlan
 from gazelle.ros.names import split_arguments
 
 Files = list[Any]
@@ -49,7 +49,7 @@ def plan_of(node: Node) -> NodePlan:
         type=node.type,
         name=node.name or node.type.partition(".")[0],
         namespace=node.namespace,
-        place=Place(node.filename, 0, f"node[@pkg='{node.package}']"),
+        place=SourceLocation(node.filename, 0, f"node[@pkg='{node.package}']"),
         arguments=node.args,
         respawn=bool(node.respawn),
         respawn_delay=float(node.respawn_delay),

@@ -10,7 +10,7 @@ from gazelle.ros.compat.rospy import names
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.limits import LIMITS
 from gazelle.ros.master.proxy import MasterProxy
-from gazelle.ros.parameters import Parameters
+from gazelle.ros.parameters import NodeParameters
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
@@ -25,7 +25,7 @@ class Guest:
         self.master_uri = master_uri()
         self.master = MasterProxy(self.master_uri, self.name)
         self.limits = LIMITS
-        self.parameters = Parameters(cast("Node", self))
+        self.parameters = NodeParameters(cast("Node", self))
         self.uri = "http://127.0.0.1:0/"
         """Where nobody answers: a guest is told of no changes."""
 

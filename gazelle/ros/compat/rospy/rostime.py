@@ -7,7 +7,7 @@ import time
 from typing import Self
 
 from gazelle.ros import time as values
-from gazelle.ros.clock import SECOND, Clock, SimulatedClock, WallClock
+from gazelle.ros.clock import SECOND, SimulatedClock, TimeSource, WallClock
 from gazelle.ros.compat.rospy.state import process
 
 
@@ -97,7 +97,7 @@ def _set_rostime(moment: values.Time) -> None:
     _set_clock(clock)
 
 
-def _set_clock(clock: Clock) -> None:
+def _set_clock(clock: TimeSource) -> None:
     if process.node is None:
         process.own_clock = clock
     else:

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.compat.rospy.exceptions import ROSInitException
 
 if TYPE_CHECKING:
-    from gazelle.ros.clock import Clock
+    from gazelle.ros.clock import TimeSource
     from gazelle.ros.node import Node
 
 Hook = Callable[..., Any]
 _PATIENCE_S = 5.0
 
 
-class Process:
+class NodeProcessState:
     """What the modules of rospy share.
 
     Attributes:
@@ -33,7 +33,7 @@ class Process:
 
     def __init__(self) -> None:
         self.node: Node | None = None
-        self.own_clock: Clock | None = None
+        self.own_clock: TimeSource | None = None
         self.shutdown = threading.Event()
         self.ready = threading.Event()
         self.waiting: list[Callable[[], None]] = []
@@ -57,7 +57,7 @@ class Process:
         return self.node
 
     @property
-    def clock(self) -> Clock:
+    def clock(self) -> TimeSource:
         """The node's clock.
 
         Raises:
@@ -165,4 +165,4 @@ class Process:
         self.__init__()  # type: ignore[misc]
 
 
-process = Process()
+process = NodeProcessState()

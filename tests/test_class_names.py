@@ -1,0 +1,132 @@
+"""Every class name is used once, so that a name in an error, a log or a search means one thing."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import gazelle
+
+PACKAGE = Path(gazelle.__file__).parent
+COMPAT = "ros/compat/"
+"""Modules with the names and interfaces of ROS's own packages."""
+
+GIVEN_BY_ROS = frozenset(
+    [
+        "ActionClient",
+        "ActionServer",
+        "Duration",
+        "Frame",
+        "Group",
+        "Machine",
+        "Master",
+        "MasterProxy",
+        "Node",
+        "Publisher",
+        "Rate",
+        "Service",
+        "SimpleActionClient",
+        "SimpleActionServer",
+        "Subscriber",
+        "Time",
+        "TransformBroadcaster",
+        "TransformListener",
+        "Wrench",
+    ]
+)
+"""Names that scripts import from ROS's packages: `ros/compat` has them besides one of ours."""
+
+SAME_PROGRAM = {"JointStatePublisher": 2}
+"""ROS has a node and a Gazebo plugin of this name, and we have both."""
+
+KNOWN = {
+    "Body": 4,
+    "Camera": 2,
+    "Draft": 2,
+    "Drive": 2,
+    "Entry": 2,
+    "Kind": 3,
+    "Layout": 4,
+    "Mount": 2,
+    "Odometry": 2,
+    "Outcome": 3,
+    "Part": 5,
+    "Pictures": 2,
+    "Pid": 2,
+    "Pieces": 2,
+    "Place": 2,
+    "Plugin": 2,
+    "Publisher": 2,
+    "RangeNoise": 2,
+    "Rate": 2,
+    "Recipe": 3,
+    "Robot": 2,
+    "Scene": 3,
+    "Schedule": 2,
+    "Sight": 2,
+    "Solid": 2,
+    "Source": 2,
+    "Step": 2,
+    "Surface": 2,
+    "Table": 2,
+    "Tree": 3,
+    "View": 2,
+    "Wrench": 2,
+    "_Builder": 5,
+    "_Part": 2,
+    "_Step": 2,
+}
+"""How often names outside the ROS room are still used; to be emptied, never to grow."""
+
+
+def class_names(root, *, skip=("assets",)):
+    """Of all classes under a folder, with their files."""
+    return [
+        (node.name, path.relative_to(root).as_posix())
+        for path in sorted(root.rglob("*.py"))
+        if path.relative_to(root).parts[0] not in skip
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    ]
+
+
+def repeated(found):
+    """Names used more often than they may be, with their files."""
+    own = [(name, file) for name, file in found if not file.startswith(COMPAT)]
+    allowed = {**SAME_PROGRAM, **KNOWN}
+    files = {}
+    for name, file in own:
+        files.setdefault(name, []).append(file)
+    wrong = {name: where for name, where in files.items() if len(where) > allowed.get(name, 1)}
+    for name, file in found:
+        if file.startswith(COMPAT) and name in files and name not in GIVEN_BY_ROS:
+            wrong[name] = [*files[name], file]
+    return wrong
+
+
+def test_every_class_name_is_used_once():
+    assert repeated(class_names(PACKAGE)) == {}
+
+
+def test_the_list_of_ros_names_holds_nothing_else():
+    found = class_names(PACKAGE)
+    everywhere = Counter(name for name, _ in found)
+    assert [name for name in GIVEN_BY_ROS if everywhere[name] < 2] == []
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        ([("Rope", "a.py"), ("Knot", "b.py")], set()),
+        ([("Rope", "a.py"), ("Rope", "b.py")], {"Rope"}),
+        ([("Rope", "a.py"), ("Rope", "a.py")], {"Rope"}),
+        ([("Rope", "a.py"), ("Rope", "ros/compat/rospy/rope.py")], {"Rope"}),
+        ([("Node", "ros/node.py"), ("Node", "ros/compat/roslaunch/core.py")], set()),
+        ([("Node", "ros/node.py"), ("Node", "viewer/graph.py")], {"Node"}),
+    ],
+)
+def test_a_repeated_name_is_caught(found, expected):
+    assert set(repeated(found)) == expected
