@@ -53,6 +53,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument("--core", action="store_true", help="start master and rosout, as roscore")
     runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
     runs.add_argument("-p", "--port", type=int, help="port of the master")
+    runs.add_argument(
+        "--nodes-survive",
+        action="store_true",
+        help="leave the nodes running if this is killed (kill -9), as roslaunch does",
+    )
     runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
     runs.add_argument("--pid", metavar="FILE", help="write the process number to a file")
     runs.add_argument("--no-summary", action="store_true", help="do not show parameters and nodes")
@@ -183,6 +188,7 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     options = Options(
         core=args.core,
         core_survives=True,
+        nodes_survive=args.nodes_survive,
         wait=args.wait,
         screen=args.screen,
         log=args.log,

@@ -14,6 +14,8 @@ __all__ = [
     "FaultError",
     "InvalidNameError",
     "MarshalError",
+    "MarshalRangeError",
+    "MarshalTypeError",
     "MasterUnreachableError",
     "Md5MismatchError",
     "NoListeningMasterError",
@@ -42,6 +44,14 @@ class InvalidNameError(RosError, ValueError):
 
 class MarshalError(RosError, ValueError):
     """A value that XML-RPC cannot carry, or a document that is not XML-RPC."""
+
+
+class MarshalTypeError(MarshalError, TypeError):
+    """A value of a type that XML-RPC has not; Python's own XML-RPC raises TypeError."""
+
+
+class MarshalRangeError(MarshalError, OverflowError):
+    """A number that XML-RPC has no room for; Python's own XML-RPC raises OverflowError."""
 
 
 class ProtocolError(RosError):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 COMMANDS: dict[str, tuple[str, ...]] = {
     "rosbag": ("bag",),
     "roscore": ("launch", "--core"),
-    "roslaunch": ("launch",),
+    "roslaunch": ("launch", "--nodes-survive"),
     "rosmaster": ("master", "--no-rosout"),
     "rosmsg": ("msg",),
     "rosnode": ("node",),
@@ -29,6 +29,9 @@ NODES: dict[str, tuple[str, str]] = {
     "xacro": ("xacro", "xacro"),
 }
 """From a tool to the package and the type of a built-in node."""
+
+_NAMES_NOTHING = {"--nodes-survive"}
+"""Options that leave a process its name."""
 
 
 def translated(words: Sequence[str]) -> list[str]:
@@ -60,7 +63,11 @@ def process_name(words: Sequence[str]) -> str | None:
         return None
     if words[0] == "master":
         return "rosmaster"
-    names = [name for name, known in COMMANDS.items() if known[0] == words[0]]
-    exact = [name for name in names if COMMANDS[name][1:] and set(COMMANDS[name][1:]) <= set(words)]
-    plain = [name for name in names if not COMMANDS[name][1:]]
+    names = {
+        name: set(known[1:]) - _NAMES_NOTHING
+        for name, known in COMMANDS.items()
+        if known[0] == words[0]
+    }
+    exact = [name for name, options in names.items() if options and options <= set(words)]
+    plain = [name for name, options in names.items() if not options]
     return next(iter(exact + plain), None)

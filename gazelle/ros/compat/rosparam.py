@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from gazelle.ros import names
 from gazelle.ros.compat import commands
-from gazelle.ros.compat.rospy.msproxy import MasterProxy
+from gazelle.ros.compat.rosgraph.masterapi import Master
+from gazelle.ros.compat.rosgraph.names import get_ros_namespace, make_global_ns
 from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.values import load_yaml, load_yaml_documents
+from gazelle.ros.launch.values import parse_yaml, parse_yaml_documents
 from gazelle.ros.tools import params
-from gazelle.ros.tools.graph import GraphInspector
 
 NS = "_ns"
 
@@ -27,56 +28,66 @@ class RosParamIOException(RosParamException):
     """The master does not answer."""
 
 
-def _graph() -> GraphInspector:
-    return GraphInspector("rosparam")
+def get_param_server() -> Master:
+    """The master, whose methods raise rosgraph's errors."""
+    return Master(f"rosparam-{os.getpid()}")
 
 
-def get_param_server() -> MasterProxy:
-    """The master."""
-    return MasterProxy(_graph().master_uri)
-
-
-@raising(RosParamIOException, RosParamException)
+@raising(RosParamIOException)
 def get_param(param: str) -> Any:
     """The value of a parameter.
 
     Raises:
-        RosParamException: It is not set.
+        MasterError: It is not set.
     """
-    return params.get_parameter(_graph(), param)
+    return get_param_server().getParam(param)
 
 
-@raising(RosParamIOException, RosParamIOException)
-def list_params(ns: str = "") -> list[str]:
+@raising(RosParamIOException)
+def list_params(ns: str) -> list[str]:
     """Names of the parameters in a namespace."""
-    return params.list_parameters(_graph(), ns or None)
+    space = make_global_ns(ns)
+    return sorted(name for name in get_param_server().getParamNames() if name.startswith(space))
 
 
-@raising(RosParamIOException, RosParamException)
+@raising(RosParamIOException)
 def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
-    """Set a parameter.
+    """Set a parameter; a dict is merged into what is there, one parameter after another.
 
     Raises:
-        RosParamException: The master cannot take the value.
+        MasterError: The master does not take the value there.
+        TypeError: XML-RPC has no such values.
+        OverflowError: A number does not fit.
+        RosParamException: A key of a dict is no text.
     """
-    params.set_parameter(_graph(), param, value)
-    if verbose:
-        sys.stdout.write(f"set parameter [{param}] to [{value}]\n")
+    if not isinstance(value, dict):
+        get_param_server().setParam(param, value)
+        if verbose:
+            sys.stdout.write(f"set parameter [{param}] to [{value}]\n")
+        return
+    for key, inner in value.items():
+        if not isinstance(key, str):
+            raise RosParamException(
+                f"YAML dictionaries must have string keys. Invalid dictionary is:\n{value}"
+            )
+        set_param_raw(names.join(param, key), inner, verbose)
 
 
 def set_param(param: str, value: str, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
     """Set a parameter to a YAML text.
 
     Raises:
-        RosParamException: It is not YAML, or the master cannot take the value.
+        YAMLError: It is not YAML.
+        RosParamException: An angle in it is none.
+        Exception: The value cannot be set; see `set_param_raw`.
     """
-    set_param_raw(param, _yaml(value), verbose)
+    set_param_raw(param, _parsed(parse_yaml, value), verbose)
 
 
-def _yaml(text: str) -> Any:
+def _parsed(parse: Callable[[str], Any], text: str) -> Any:
     try:
-        return load_yaml(text)
-    except LaunchError as error:
+        return parse(text)
+    except LaunchError as error:  # an angle that is none
         raise RosParamException(str(error)) from None
 
 
@@ -84,25 +95,25 @@ def upload_params(ns: str, values: Any, verbose: bool = False) -> None:  # noqa:
     """Set all parameters of a dict below a namespace, each for itself.
 
     Raises:
-        RosParamException: The master cannot take them.
+        RosParamException: A namespace is set to what is no dict.
+        Exception: A value cannot be set; see `set_param_raw`.
     """
     if ns == "/" and not isinstance(values, dict):
         raise RosParamException("global / can only be set to a dictionary")
-    if not isinstance(values, dict):
-        set_param_raw(ns, values, verbose)
-        return
-    for key, value in values.items():
-        upload_params(names.join(ns, str(key)), value, verbose)
+    set_param_raw(ns, values, verbose)
 
 
-@raising(RosParamIOException, RosParamException)
+@raising(RosParamIOException)
 def delete_param(param: str, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
-    """Remove a parameter.
+    """Remove a parameter; ``/`` removes all.
 
     Raises:
-        RosParamException: It is not set.
+        MasterError: It is not set.
     """
-    params.delete_parameter(_graph(), param)
+    if param == "/":
+        get_param_server().setParam("/", {})
+    else:
+        get_param_server().deleteParam(param)
     if verbose:
         sys.stdout.write(f"deleted parameter [{param}]\n")
 
@@ -119,16 +130,12 @@ def load_str(
         Values and namespaces.
 
     Raises:
-        RosParamException: It is not YAML.
+        YAMLError: It is not YAML.
     """
-    del verbose
-    base = default_namespace or names.namespace_of(_graph().caller)
-    try:
-        documents = load_yaml_documents(str)
-    except LaunchError as error:
-        raise RosParamException(f"{filename}: {error}") from None
+    del verbose, filename
+    base = default_namespace or get_ros_namespace()
     found = []
-    for document in documents:
+    for document in _parsed(parse_yaml_documents, str):
         space = base
         if isinstance(document, dict) and NS in document:
             space = names.join(base, f"{document.pop(NS)}")
@@ -144,7 +151,8 @@ def load_file(
     """Read parameters from a YAML file, ``-`` for standard input; see `load_str`.
 
     Raises:
-        RosParamException: It cannot be read, or is not YAML.
+        RosParamException: It cannot be read.
+        YAMLError: It is not YAML.
     """
     try:
         text = sys.stdin.read() if filename == "-" else Path(filename).read_text(encoding="utf-8")
@@ -153,15 +161,15 @@ def load_file(
     return load_str(text, filename, default_namespace, verbose)
 
 
-@raising(RosParamIOException, RosParamException)
 def dump_params(filename: str | None, param: str, verbose: bool = False) -> None:  # noqa: FBT001, FBT002  # rosparam's interface
     """Write a namespace as YAML to a file, or to standard output.
 
     Raises:
-        RosParamException: It is not set.
+        MasterError: It is not set.
+        OSError: The file cannot be written.
     """
     del verbose
-    text = params.dump_parameters(_graph(), param)
+    text = params.as_document(get_param(param))
     if filename:
         Path(filename).write_text(text, encoding="utf-8")
     else:

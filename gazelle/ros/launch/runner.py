@@ -56,6 +56,8 @@ class Options:
     run_id: str = ""
     core_survives: bool = False
     """Whether a master that the launch started outlives it if it is killed, as with roslaunch."""
+    nodes_survive: bool = False
+    """Whether the nodes do, as with roslaunch."""
 
 
 class Launch(Closeable):
@@ -118,7 +120,8 @@ class Launch(Closeable):
         """
         machines.check(self.plan)
         programs = self._find_programs()
-        self._guard.start()
+        if not (self.options.core_survives and self.options.nodes_survive):
+            self._guard.start()
         self._reach_master()
         self._serve()
         setup.prepare(self.plan, self._proxy, self._packages)
@@ -269,7 +272,8 @@ class Launch(Closeable):
         if process.spawned:
             self._guard.forget(process.pid)
         process.start()
-        if process not in self._core or not self.options.core_survives:
+        core = process in self._core
+        if not (self.options.core_survives if core else self.options.nodes_survive):
             self._guard.watch(process.pid)
         self._reported.discard(process)
         self._say(f"process[{process.name}]: started with pid [{process.pid}]")

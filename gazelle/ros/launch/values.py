@@ -69,6 +69,20 @@ def truth(text: str) -> bool:
     raise LaunchError(f"'{text}' is neither true (1) nor false (0)")
 
 
+def parse_yaml(text: str) -> Any:
+    """As `load_yaml`, but raises what PyYAML does; LaunchError for an angle that is none."""
+    import yaml
+
+    return yaml.load(text, _loader())  # noqa: S506  # a safe loader, with angles
+
+
+def parse_yaml_documents(text: str) -> list[Any]:
+    """As `load_yaml_documents`, but raises what PyYAML does."""
+    import yaml
+
+    return list(yaml.load_all(text, _loader()))  # a safe loader, with angles
+
+
 def load_yaml(text: str) -> Any:
     """YAML with rosparam's extras: ``!degrees 90``, ``!radians pi/2``, ``deg(90)``, ``rad(pi/2)``.
 
@@ -80,7 +94,7 @@ def load_yaml(text: str) -> Any:
     import yaml
 
     try:
-        return yaml.load(text, _loader())  # noqa: S506  # a safe loader, with angles
+        return parse_yaml(text)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         line = f" in line {mark.line + 1}" if mark is not None else ""
@@ -99,7 +113,7 @@ def load_yaml_documents(text: str) -> list[Any]:
     import yaml
 
     try:
-        return list(yaml.load_all(text, _loader()))  # a safe loader, with angles
+        return parse_yaml_documents(text)
     except yaml.YAMLError as error:
         raise LaunchError(f"this is no YAML: {error}") from None
 

@@ -145,9 +145,13 @@ def dump_parameters(graph: GraphInspector, space: str | None = None) -> str:
     Raises:
         ToolError: It is not set.
     """
+    return as_document(get_parameter(graph, space or names.namespace_of(graph.caller)))
+
+
+def as_document(value: Any) -> str:
+    """A value as the YAML document that rosparam writes."""
     import yaml
 
-    value = get_parameter(graph, space or names.namespace_of(graph.caller))
     return str(yaml.dump(_plain(value)))
 
 

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gazelle.ros.errors import MarshalError
+from gazelle.ros.errors import MarshalError, MarshalRangeError, MarshalTypeError
 
 INT_MIN, INT_MAX = -(2**31), 2**31 - 1
 _DEEPEST = 100
@@ -113,7 +113,7 @@ def _write(value: Any, out: list[str], depth: int) -> None:
 
 def _write_int(value: int, out: list[str]) -> None:
     if not INT_MIN <= value <= INT_MAX:
-        raise MarshalError(f"int exceeds XML-RPC limits: {value} does not fit 32 bits")
+        raise MarshalRangeError(f"int exceeds XML-RPC limits: {value} does not fit 32 bits")
     out.append(f"<value><int>{int(value)}</int></value>")
 
 
@@ -128,7 +128,9 @@ def _write_struct(value: Mapping[Any, Any], out: list[str], depth: int) -> None:
     out.append("<value><struct>")
     for key, item in value.items():
         if not isinstance(key, str):
-            raise MarshalError(f"dictionary key must be string, not {type(key).__name__} {key!r}")
+            raise MarshalTypeError(
+                f"dictionary key must be string, not {type(key).__name__} {key!r}"
+            )
         out.append(f"<member><name>{escape(key)}</name>")
         _write(item, out, depth + 1)
         out.append("</member>")
@@ -138,7 +140,7 @@ def _write_struct(value: Mapping[Any, Any], out: list[str], depth: int) -> None:
 def _write_other(value: Any, out: list[str], depth: int) -> None:
     """Subclasses of the plain types, bytes, dates, and numpy's numbers."""
     if value is None:
-        raise MarshalError("XML-RPC has no value for None")
+        raise MarshalTypeError("XML-RPC has no value for None")
     if isinstance(value, (bytes, bytearray, memoryview)):
         out.append(f"<value><base64>{base64.b64encode(value).decode()}</base64></value>")
     elif isinstance(value, int):
@@ -165,7 +167,7 @@ def _write_foreign(value: Any, out: list[str], depth: int) -> None:
     elif hasattr(value, "tolist"):
         _write(value.tolist(), out, depth + 1)
     else:
-        raise MarshalError(f"XML-RPC cannot carry a {type(value).__name__}")
+        raise MarshalTypeError(f"XML-RPC cannot carry a {type(value).__name__}")
 
 
 def _is_standard(value: Any, name: str) -> bool:

@@ -166,6 +166,19 @@ def test_the_master_survives_its_launcher(begun):
     until(lambda: family.master.system_state()[0].get("/rosout_agg") == ["/rosout"], 20.0)
 
 
+def test_nodes_survive_a_killed_roslaunch_as_with_ros(start, file):
+    """Who types roslaunch gets what ROS does; ``gazelle launch`` ends its nodes, see above."""
+    family = start("roslaunch", file)
+    family.ready("rosmaster", "rosout", "sleep")
+    before = family.answers()
+    family.process.kill()
+    family.process.wait()
+    time.sleep(2.0)
+    assert not gone(family.children["sleep"])
+    assert not gone(family.children["rosout"])
+    assert family.answers() == before
+
+
 HELPER = "rosout roslaunch rosmaster gzserver robot_state_publisher gzclient"
 ROBOT = "<robot name='r'><link name='base'/></robot>".replace("<", "&lt;")
 

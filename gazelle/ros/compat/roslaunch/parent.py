@@ -94,6 +94,7 @@ class ROSLaunchParent:
             run_id=run_id,
             patience=StopTimeouts(float(sigint_timeout), float(sigterm_timeout)),
             core_survives=True,
+            nodes_survive=True,
         )
         if port:
             self._options.master_uri = net.uri_of(self._options.host, port)
