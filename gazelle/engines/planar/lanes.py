@@ -232,7 +232,9 @@ class Lanes:
         x, y = self.table[LANE_X + i], self.table[LANE_Y + i]
         dx, dy = self.table[LANE_DX + i], self.table[LANE_DY + i]
         x0, y0 = self.bodies.statics[p, X0] - x, self.bodies.statics[p, Y0] - y
-        if (cython.cast(cython.int, self.bodies.statics[p, KIND]) & CIRCLE) != 0:
+        if (
+            cython.cast(cython.int, self.bodies.statics[p, KIND]) & cython.cast(cython.int, CIRCLE)
+        ) != 0:
             self.meet_disc(i, dx, dy, x0, y0, self.bodies.statics[p, X1], p + 1.0)
             return
         x1, y1 = self.bodies.statics[p, X1] - x, self.bodies.statics[p, Y1] - y
@@ -259,7 +261,10 @@ class Lanes:
                 continue
             name = NAMES * (b + 1.0) + p
             x0, y0 = self.bodies.looks[p, X0] - x, self.bodies.looks[p, Y0] - y
-            if (cython.cast(cython.int, self.bodies.looks[p, KIND]) & CIRCLE) != 0:
+            if (
+                cython.cast(cython.int, self.bodies.looks[p, KIND])
+                & cython.cast(cython.int, CIRCLE)
+            ) != 0:
                 self.meet_disc(i, dx, dy, x0, y0, self.bodies.looks[p, X1], name)
             else:
                 x1, y1 = self.bodies.looks[p, X1] - x, self.bodies.looks[p, Y1] - y

@@ -192,7 +192,10 @@ class Viewpoint:
         x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
         x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
         radius = 0.0
-        if (cython.cast(cython.int, self.bodies.statics[s, col.KIND]) & col.CIRCLE) != 0:
+        if (
+            cython.cast(cython.int, self.bodies.statics[s, col.KIND])
+            & cython.cast(cython.int, col.CIRCLE)
+        ) != 0:
             radius = bx
         if radius > 0.0:
             x1, y1, far = x0, y0, reach + radius
@@ -366,10 +369,10 @@ class Viewpoint:
             x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
             x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
             kind = cython.cast(cython.int, self.bodies.looks[p, col.KIND])
-            circle = (kind & col.CIRCLE) != 0
+            circle = (kind & cython.cast(cython.int, col.CIRCLE)) != 0
             cross = x0 * x0 + y0 * y0 - bx * bx if circle else x0 * y1 - x1 * y0
             back = cross > 0.0 and not circle
-            if cross == 0.0 or (back and away and (kind & col.OPEN) == 0):
+            if cross == 0.0 or (back and away and (kind & cython.cast(cython.int, col.OPEN)) == 0):
                 continue
             inverse = 1.0 / cross
             if circle:
