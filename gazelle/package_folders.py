@@ -8,8 +8,11 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from xml.parsers import expat
+
+from gazelle import characters
 
 IGNORED = "CATKIN_IGNORE"
 NOT_DEEPER = "rospack_nosubdirs"
@@ -37,13 +40,21 @@ def package_name(folder: Path) -> str:
 
     A search reads hundreds of these files, so each is read up to its name only.
     """
-    name = _NameReader()
     try:
         with (folder / "package.xml").open("rb") as file:
-            name.parser.Parse(file.read(_MOST_BYTES))
-    except (OSError, ValueError, expat.ExpatError, _NameFoundError):
-        pass  # what is damaged after the name does no harm, and what is before leaves none
-    return name.text.strip() or folder.name
+            data = file.read(_MOST_BYTES)
+    except (OSError, ValueError):
+        return folder.name
+    name = _name_in(data) or _name_in(characters.plain_bytes(data, characters.XML_COMMENT)[0])
+    return name or folder.name
+
+
+def _name_in(manifest: bytes) -> str:
+    """The name that a manifest says; empty where it says none, or is damaged before it."""
+    name = _NameReader()
+    with suppress(_NameFoundError, expat.ExpatError, ValueError):
+        name.parser.Parse(manifest)
+    return name.text.strip()
 
 
 class _NameFoundError(Exception):

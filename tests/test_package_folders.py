@@ -6,6 +6,7 @@ import pytest
 
 from gazelle.formats.resolve import Resolver
 from gazelle.package_folders import package_name
+from gazelle.ros.compat.rospkg.manifest import parse_manifest_file
 from gazelle.ros.messages import search
 
 BOMB = (
@@ -80,3 +81,10 @@ def test_a_thousand_manifests_are_read_in_a_moment(folder):
     for _ in range(1_000):
         package_name(folder)
     assert time.process_time() - start < 1.0
+
+
+def test_blanks_that_nobody_types_do_no_harm(folder):
+    text = "<package\u00a0format='2'>\u00a0<name>\u00a0arm\u2009</name></package>"
+    (folder / "package.xml").write_text(text, encoding="utf-8")
+    assert package_name(folder) == "arm"
+    assert parse_manifest_file(str(folder)).name == "arm"

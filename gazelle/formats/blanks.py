@@ -1,25 +1,12 @@
-"""Characters that text copied from web pages and word processors brings along."""
+"""Files whose text has characters copied from web pages and word processors."""
 
 from __future__ import annotations
 
 import re
 from typing import Literal, Protocol
 
+from gazelle import characters
 from gazelle.description import Source
-
-MESSAGE = "there is a no-break space or another unusual blank, which was taken as a space"
-
-_WIDE = "\u00a0\u1680" + "".join(map(chr, range(0x2000, 0x200B))) + "\u202f\u205f\u3000"
-_WITHOUT_WIDTH = "\u200b\u2060\ufeff"
-
-UNUSUAL = _WIDE + _WITHOUT_WIDTH
-"""Blanks that nobody types."""
-
-_BYTES = tuple(blank.encode() for blank in UNUSUAL)
-
-_BLANK = re.compile(f"[{_WIDE}]")
-_NOTHING = re.compile(f"(?<!\\A)[{_WITHOUT_WIDTH}]")
-_CURLY = re.compile("[\u2018-\u201f]")
 
 
 class Report(Protocol):
@@ -40,32 +27,7 @@ def plain_bytes(data: bytes, name: str, comment: re.Pattern[str], report: Report
         comment: What a comment looks like: nothing is said of blanks in it.
         report: Takes the warning.
     """
-    if all(blank not in data for blank in _BYTES):
-        return data
-    try:
-        text = data.decode()
-    except UnicodeDecodeError:  # another encoding, in which those bytes are something else
-        return data
-    clean, line = plain(text, comment)
+    clean, line = characters.plain_bytes(data, comment)
     if line is not None:
-        report(MESSAGE, Source(name, line), "warning")
-    return clean.encode()
-
-
-def plain(text: str, comment: re.Pattern[str]) -> tuple[str, int | None]:
-    """Text with plain blanks, and the line of the first that was not and is not in a comment.
-
-    Blanks without width are taken out.
-    """
-    clean = _NOTHING.sub("", _BLANK.sub(" ", text))
-    if clean == text:
-        return text, None
-    said = comment.sub(lambda found: "\n" * found[0].count("\n"), text)
-    at = min((found.start() for p in (_BLANK, _NOTHING) if (found := p.search(said))), default=None)
-    return clean, None if at is None else said.count("\n", 0, at) + 1
-
-
-def curly_hint(text: str) -> str | None:
-    """What to do about a curly quote in a text; None where there is none."""
-    found = _CURLY.search(text)
-    return f"{found[0]} is a curly quote: write a straight one, \" or '" if found else None
+        report(characters.MESSAGE, Source(name, line), "warning")
+    return clean

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle import characters
 from gazelle.array_types import Bytes
 from gazelle.description import Pose, Source
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
@@ -84,7 +85,7 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
     settings = _read_settings(nodes)
     picture = reading.resolver.find(settings.image, file.parent)
     if picture is None or not picture.is_file():
-        looked = blanks.curly_hint(settings.image) or reading.resolver.looked_in(settings.image)
+        looked = characters.curly_hint(settings.image) or reading.resolver.looked_in(settings.image)
         raise nodes["image"].fail(
             f"the picture '{settings.image}' is not found", ResolveError, looked
         )

@@ -14,6 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from xml.parsers import expat
 
+from gazelle import characters
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import blanks
@@ -98,7 +99,7 @@ def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:
     """The error, with a hint if it is of a line with a curly quote."""
     lines = data.decode(errors="replace").splitlines()
     at = (error.line or 1) - 1
-    hint = blanks.curly_hint(lines[at]) if at < len(lines) else None
+    hint = characters.curly_hint(lines[at]) if at < len(lines) else None
     return FormatError(
         error.message, file=error.file, line=error.line, element=error.element, hint=hint
     )

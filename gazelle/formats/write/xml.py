@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
+from gazelle import characters
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
-from gazelle.formats import blanks
 
 _NAME = re.compile(r"[^\W\d][\w.:-]*")
 _ILLEGAL = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 # raw, a reader takes these for blanks that came with text from a web page
-_UNUSUAL = {character: f"&#{ord(character)};" for character in blanks.UNUSUAL}
+_UNUSUAL = {character: f"&#{ord(character)};" for character in characters.UNUSUAL}
 _IN_TEXT = {"\r": "&#13;", **_UNUSUAL}
 _IN_ATTRIBUTE = {**_IN_TEXT, "\n": "&#10;", "\t": "&#9;", '"': "&quot;"}
 _DECLARED = {"xml", "xmlns"}

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
+from gazelle import characters
+from gazelle.errors import FormatWarning, describe
 from gazelle.ros.launch.errors import LaunchError
 
 _DEEPEST = 200
+
+_ADVICE = (
+    (re.compile(r"&(?!\w+;|#)"), "write & as &amp;"),
+    (re.compile(r"<!--.*--.*-->|^(?!.*(<!--|-->)).*--"), "-- may not stand in a comment"),
+    (re.compile(r"""<[^>]*=\s*[^"'\s>]"""), "write values in quotes"),
+    (re.compile(r"<\?xml"), 'write <?xml version="1.0"?> at the very beginning, or leave it out'),
+)
+"""What a line may hold that is not well-formed, and what to do about it."""
 
 
 @dataclass(slots=True)
@@ -83,10 +95,27 @@ def parse_document(data: bytes, name: str) -> Element:
 def parse_element(data: bytes, name: str) -> Element:
     """The root element of XML; ``name`` stands for the file in errors.
 
+    No-break spaces and the like are taken as spaces, with a warning.
+
     Raises:
         LaunchError: It is not XML.
     """
+    data, line = characters.plain_bytes(data, characters.XML_COMMENT)
+    if line is not None:
+        text = describe(characters.MESSAGE, file=name, line=line)
+        warnings.warn(text, FormatWarning, stacklevel=4)
     return _DocumentBuilder(name).parse(data)
+
+
+def _advice(data: bytes, line: int) -> str | None:
+    """What to do about a line that is not well-formed."""
+    try:
+        lines = data.decode().splitlines()
+    except UnicodeDecodeError:
+        return 'save it as UTF-8, or name its encoding: <?xml version="1.0" encoding="latin-1"?>'
+    text = lines[line - 1] if line <= len(lines) else ""
+    fitting = (advice for pattern, advice in _ADVICE if pattern.search(text))
+    return characters.curly_hint(text) or next(fitting, None)
 
 
 class _DocumentBuilder:
@@ -107,13 +136,21 @@ class _DocumentBuilder:
         try:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
-            text = expat.ErrorString(error.code)
-            raise LaunchError(
-                f"this is not well-formed XML: {text}", file=self._file, line=error.lineno
-            ) from None
+            raise self._malformed(error, data) from None
         if self._root is None:
             raise LaunchError("there is no element in it", file=self._file)
         return self._root
+
+    def _malformed(self, error: expat.ExpatError, data: bytes) -> LaunchError:
+        text = expat.ErrorString(error.code)
+        hint = None
+        unclosed = {expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS}
+        if text in unclosed and self._open:
+            last = self._open[-1]
+            hint = f"<{last.tag}> of line {last.line} is not closed"
+        message = f"this is not well-formed XML: {text}"
+        advice = hint or _advice(data, error.lineno)
+        return LaunchError(message, file=self._file, line=error.lineno, hint=advice)
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         element = Element(tag, attributes, self._file, self._parser.CurrentLineNumber)

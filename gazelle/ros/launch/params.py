@@ -116,10 +116,10 @@ def _load(
     if scope.flag(element, "subst_value"):
         text = scope.resolve(text, element)
     try:
-        data = load_yaml(text)
+        data = load_yaml(text, file) if file else load_yaml(text, element.file, element.line)
     except LaunchError as error:
         where = f"{file}: " if file else ""
-        raise element.error(where + error.message) from None
+        raise element.error(where + error.message, error.hint) from None
     data = {} if data is None else data
     if not has_name and not isinstance(data, dict):
         raise element.error("a value that is no mapping needs the attribute 'param'")

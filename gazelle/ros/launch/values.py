@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from typing import Any
 
+from gazelle import characters
+from gazelle.errors import FormatWarning, describe
 from gazelle.ros.launch.errors import LaunchError
 
 _TRUE, _FALSE = {"true", "1"}, {"false", "0"}
 KINDS = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
 _ANGLE = re.compile(r"(deg|rad)\(([^()]*)\)")
+_COMMENT = re.compile(r"(?m)(?:^|(?<=\s))#.*$")
+_CURLY_QUOTED = re.compile("(?m)(?:^|[:,{\\[-])[ \\t]*([\u2018\u201c])[^\n]*[\u2019\u201d]")
 _PLAIN_NUMBER = re.compile(r"[-+*/ .0-9eEpi]+")
 
 
@@ -83,28 +88,32 @@ def parse_yaml_documents(text: str) -> list[Any]:
     return list(yaml.load_all(text, _loader()))  # a safe loader, with angles
 
 
-def load_yaml(text: str) -> Any:
+def load_yaml(text: str, name: str = "", first: int = 1) -> Any:
     """YAML with rosparam's extras: ``!degrees 90``, ``!radians pi/2``, ``deg(90)``, ``rad(pi/2)``.
 
-    All angles come out in radians (http://wiki.ros.org/rosparam#YAML_Format).
+    All angles come out in radians (http://wiki.ros.org/rosparam#YAML_Format). No-break spaces and
+    the like are taken as spaces, with a warning.
+
+    Args:
+        text: The YAML.
+        name: The file that it is from, for warnings.
+        first: The line in that file that it begins in.
 
     Raises:
         LaunchError: It is not YAML.
     """
     import yaml
 
+    text = _plain(text, name, first)
     try:
         return parse_yaml(text)
     except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f" in line {mark.line + 1}" if mark is not None else ""
-        problem = getattr(error, "problem", None) or str(error)
-        raise LaunchError(f"this is no YAML{line}: {problem}") from None
+        raise _no_yaml(text, error) from None
     except RecursionError:
         raise LaunchError("this YAML is nested too deep") from None
 
 
-def load_yaml_documents(text: str) -> list[Any]:
+def load_yaml_documents(text: str, name: str = "") -> list[Any]:
     """All documents of YAML text, as `load_yaml` reads one.
 
     Raises:
@@ -112,10 +121,42 @@ def load_yaml_documents(text: str) -> list[Any]:
     """
     import yaml
 
+    text = _plain(text, name)
     try:
         return parse_yaml_documents(text)
     except yaml.YAMLError as error:
-        raise LaunchError(f"this is no YAML: {error}") from None
+        raise _no_yaml(text, error) from None
+
+
+def _plain(text: str, name: str, first: int = 1) -> str:
+    """Text with plain blanks; those that were not and curly quotes are a warning."""
+    clean, line = characters.plain(text, _COMMENT)
+    if line is not None:
+        _warn(characters.MESSAGE, name, line + first - 1)
+    quoted = _CURLY_QUOTED.search(_COMMENT.sub("", clean))
+    if quoted is not None:
+        line = quoted.string.count("\n", 0, quoted.start(1)) + first
+        said = f"{quoted[1]} is a curly quote, and so a part of the value: write a straight one"
+        _warn(said, name, line)
+    return clean
+
+
+def _warn(message: str, name: str, line: int) -> None:
+    said = message if name else f"line {line} of this YAML: {message}"
+    text = describe(said, file=name or None, line=line)
+    warnings.warn(text, FormatWarning, stacklevel=4)
+
+
+def _no_yaml(text: str, error: Exception) -> LaunchError:
+    mark = getattr(error, "problem_mark", None)
+    lines = text.splitlines()
+    here = lines[mark.line] if mark is not None and mark.line < len(lines) else ""
+    line = f" in line {mark.line + 1}" if mark is not None else ""
+    problem = getattr(error, "problem", None) or str(error)
+    hint = characters.curly_hint(here)
+    if here[: len(here) - len(here.lstrip())].count("\t"):
+        hint = "indent by spaces: YAML takes no tabs"
+    return LaunchError(f"this is no YAML{line}: {problem}", hint=hint)
 
 
 _loaders: list[Any] = []

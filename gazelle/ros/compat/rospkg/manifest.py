@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
+from gazelle import characters
 from gazelle.ros.compat.rospkg.common import MANIFEST_FILE, PACKAGE_FILE, STACK_FILE
 
 __all__ = [
@@ -60,7 +61,8 @@ def parse_manifest_file(dirpath: str, manifest_name: str = PACKAGE_FILE) -> Mani
     """
     path = Path(dirpath) / manifest_name
     try:
-        root = ET.parse(path).getroot()  # noqa: S314  # expat bounds how far entities may grow
+        data, _ = characters.plain_bytes(path.read_bytes(), characters.XML_COMMENT)
+        root = ET.fromstring(data)  # noqa: S314  # expat bounds how far entities may grow
     except (OSError, ET.ParseError) as error:
         raise InvalidManifest(f"[{path}] {error}") from None
 
