@@ -49,9 +49,9 @@ def test_what_stands_before_the_square_or_on_it_hides_it():
     box = still("box", Box((0.5, 0.5, 0.02)), Pose(0.0, 0.25, 0.01))
     ground = still("ground", Plane(), Pose())
     with Simulation(World(models=(ground, wall, box))) as simulation:
-        eye = SceneRenderer()
-        picture = eye.see(simulation, view, 0)
-        ranges = eye.measure(simulation, view, 0)
+        renderer = SceneRenderer()
+        picture = renderer.picture(simulation, view, 0)
+        ranges = renderer.ranges(simulation, view, 0)
     places, _ = ground_points(view)
 
     def tinted(x, y):
