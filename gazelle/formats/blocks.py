@@ -10,6 +10,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats
-from gazelle.formats.mujoco_geometry import hulls_of
+from gazelle.formats.mujoco_geometry import Solid, each_hull_of
 from gazelle.formats.surface import Surface
 from gazelle.formats.voxels import voxels_of
 
@@ -28,13 +29,15 @@ MOST_BLOCKS = 128
 _DIRECTIONS = 162
 _FACES = 32
 """Normals of the largest faces that are directions too."""
-_TRIED = 500
+_TRIED = 300
 """Points by which a cut is judged."""
-_FEWER = 3
+_FEWER = 5
 """Of so many directions one serves for that."""
 _AT_ONCE = 24
 _FEW_PLACES = 1000
 """Places in the air up to which it matters which of them are in a hull exactly."""
+_TOGETHER = 16
+"""Blocks that are cut in one go at most, so that their hulls are made together."""
 _EARLY = 32
 """Blocks after which it is asked whether there is hope."""
 _HOPELESS = 0.3
@@ -83,7 +86,7 @@ class _Block:
 
 
 def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks | None:
-    """Blocks of a surface; the worst are cut on first.
+    """Blocks of a surface; the worse half is cut on first.
 
     Args:
         surface: Any triangles.
@@ -98,41 +101,48 @@ def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks 
     done: list[_Block] = []
     number = itertools.count()
 
-    def take(block: _Block) -> None:
-        if not len(block.points):
-            return
-        _enclose(block, directions, grid.side)
-        if len(block.air):
-            heapq.heappush(queue, (-len(block.air), next(number), block))
-        else:
-            done.append(block)
+    def take(blocks: list[_Block]) -> None:
+        blocks = [block for block in blocks if len(block.points)]
+        _enclose(blocks, directions, grid.side)
+        for block in blocks:
+            if len(block.air):
+                heapq.heappush(queue, (-len(block.air), next(number), block))
+            else:
+                done.append(block)
 
-    take(_Block(grid.points.astype(_SINGLE), grid.air.astype(_SINGLE), low, high))
-    most = _HOPELESS * sum(-rank for rank, _, _ in queue)
+    take([_Block(grid.points.astype(_SINGLE), grid.air.astype(_SINGLE), low, high)])
+    most, asked = _HOPELESS * sum(-rank for rank, _, _ in queue), patient
     while queue and len(queue) + len(done) < MOST_BLOCKS:
-        early = len(queue) + len(done) == _EARLY and not patient
-        if early and sum(-rank for rank, _, _ in queue) > most:
-            return None
-        block = heapq.heappop(queue)[2]
-        parts = _cut(block, grid.side, directions)
-        for part in parts:
-            take(part)
-        if not parts:
-            done.append(block)
+        if not asked and len(queue) + len(done) >= _EARLY:
+            if sum(-rank for rank, _, _ in queue) > most:
+                return None
+            asked = True
+        room = MOST_BLOCKS - len(queue) - len(done)
+        some = min(room, _TOGETHER, (len(queue) + 1) // 2)
+        worst = [heapq.heappop(queue)[2] for _ in range(some)]
+        parts = [(block, _cut(block, grid.side, directions)) for block in worst]
+        done += [block for block, halves in parts if not halves]
+        take([half for _, halves in parts for half in halves])
     done += [block for _, _, block in queue]
     air = np.concatenate([block.air for block in done])
     return Blocks([block.hull for block in done], grid.distance(air))
 
 
-def _enclose(block: _Block, directions: Numbers, side: float) -> None:
-    """Find a block's hull, and which of its air is in there."""
-    along = directions @ block.points.T
-    top = along.argmax(axis=1)
-    low, high = block.points.min(axis=0), block.points.max(axis=0)
-    near = block.air[((block.air >= low) & (block.air <= high)).all(axis=1)]
-    near = near[_behind(near, directions, along[np.arange(len(top)), top])]
-    block.hull = _thickened(block.points[np.unique(top)].astype(np.float64), side)
-    block.air = near[_held(block.hull, near)] if len(near) <= _FEW_PLACES else near
+def _enclose(blocks: list[_Block], directions: Numbers, side: float) -> None:
+    """Find the hulls of blocks, and which of their air is in there."""
+    unsure = []
+    for block in blocks:
+        along = directions @ block.points.T
+        top = along.argmax(axis=1)
+        low, high = block.points.min(axis=0), block.points.max(axis=0)
+        near = block.air[((block.air >= low) & (block.air <= high)).all(axis=1)]
+        block.air = near[_behind(near, directions, along[np.arange(len(top)), top])]
+        block.hull = _thickened(block.points[np.unique(top)].astype(np.float64), side)
+        if 0 < len(block.air) <= _FEW_PLACES:
+            unsure.append(block)
+    hulls = each_hull_of([block.hull for block in unsure])
+    for block, hull in zip(unsure, hulls, strict=True):
+        block.air = block.air[_held(hull, block.air)]
 
 
 def _cut(block: _Block, side: float, directions: Numbers) -> list[_Block]:
@@ -140,15 +150,20 @@ def _cut(block: _Block, side: float, directions: Numbers) -> list[_Block]:
     some, points, air = directions[::_FEWER], _thinned(block.points), _thinned(block.air)
     points_along, air_along = some @ points.T, some @ air.T
     best: tuple[float, int, float] | None = None
-    for axis, level in _levels(block, side):
-        below = points[:, axis] <= level
-        if below.all() or not below.any():
-            continue
-        held = (air_along <= points_along[:, below].max(axis=1)[:, None]).all(axis=0)
-        held |= (air_along <= points_along[:, ~below].max(axis=1)[:, None]).all(axis=0)
-        cost = float(held.sum()) + _EVEN * len(air) * abs(float(below.mean()) - 0.5)
-        if best is None or cost < best[0]:
-            best = (cost, axis, level)
+    for axis, levels in _levels(block, side):
+        order = np.argsort(points[:, axis])
+        along = points_along[:, order]
+        reach = np.maximum.accumulate(along, axis=1)  # of all points below each
+        rest = np.maximum.accumulate(along[:, ::-1], axis=1)[:, ::-1]
+        counts = np.searchsorted(points[order, axis], levels, side="right")
+        for level, count in zip(levels, counts.tolist(), strict=True):
+            if count in {0, len(order)}:
+                continue
+            held = (air_along <= reach[:, count - 1, None]).all(axis=0)
+            held |= (air_along <= rest[:, count, None]).all(axis=0)
+            cost = float(held.sum()) + _EVEN * len(air) * abs(count / len(order) - 0.5)
+            if best is None or cost < best[0]:
+                best = (cost, axis, level)
     if best is None:
         return []
     _, axis, level = best
@@ -161,27 +176,26 @@ def _cut(block: _Block, side: float, directions: Numbers) -> list[_Block]:
     return parts
 
 
-def _levels(block: _Block, side: float) -> list[tuple[int, float]]:
+def _levels(block: _Block, side: float) -> Iterator[tuple[int, list[float]]]:
     """Axes and places along them where a block may be cut: beside its air, and across it."""
-    found = []
+    shares = np.quantile(block.air, (0.0, 0.25, 0.5, 0.75, 1.0), axis=0)
     for axis in range(3):
         room = block.low[axis] + _LEAST * side, block.high[axis] - _LEAST * side
         if room[0] > room[1]:
             continue
-        spread = np.quantile(block.air[:, axis], (0.0, 0.25, 0.5, 0.75, 1.0))
-        spread += side * np.array([-0.5, 0.0, 0.0, 0.0, 0.5])
-        found += [(axis, level) for level in sorted(set(np.clip(spread, *room).tolist()))]
-    return found
+        spread = shares[:, axis] + side * np.array([-0.5, 0.0, 0.0, 0.0, 0.5])
+        yield axis, sorted(set(np.clip(spread, *room).tolist()))
 
 
-def _held(points: Floats, air: Numbers) -> Bools:
-    """Which places in the air lie in the hull of points, shape (k,)."""
-    for corners, faces in hulls_of([points]) if len(air) else ():
-        a, b, c = (corners[faces[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        order = np.argsort(-np.einsum("ij,ij->i", normals, normals))
-        return _behind(air, normals[order], np.einsum("ij,ij->i", normals, a)[order])
-    return np.zeros(len(air), bool)
+def _held(hull: Solid | None, air: Numbers) -> Bools:
+    """Which places in the air lie in a hull, shape (k,)."""
+    if hull is None:
+        return np.zeros(len(air), bool)
+    corners, faces = hull
+    a, b, c = (corners[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    order = np.argsort(-np.einsum("ij,ij->i", normals, normals))
+    return _behind(air, normals[order], np.einsum("ij,ij->i", normals, a)[order])
 
 
 def _behind(air: Numbers, normals: Numbers, offsets: Numbers) -> Bools:
@@ -215,7 +229,7 @@ def _directions(surface: Surface) -> Floats:
 
 def _thickened(points: Floats, side: float) -> Floats:
     """Points, and if they lie in a plane or on a line, so many that they have a hull."""
-    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)
+    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=len(points) < 3)
     for axis in axes[1:]:
         if np.ptp(points @ axis) < _SHEET:
             shift = axis * min(_SHEET, 0.5 * side) / 2.0

@@ -15,6 +15,9 @@ from gazelle.array_types import Floats, Indices
 from gazelle.formats.hull import convex_hull
 from gazelle.formats.surface import Surface
 
+Solid = tuple[Floats, NDArray[np.int32]]
+"""Vertices, shape (n, 3), and faces, shape (m, 3)."""
+
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""
 
@@ -59,11 +62,18 @@ def first_hits(
     return found, met & (np.einsum("ij,ij->i", normal[0], directions) > 0.0)
 
 
-def hulls_of(clouds: Sequence[Floats]) -> list[tuple[Floats, NDArray[np.int32]]]:
-    """Corners and faces of the hulls of points, shapes (n, 3); those in a plane are left out.
+def hulls_of(clouds: Sequence[Floats]) -> list[Solid]:
+    """Corners and faces of the hulls of points, shapes (n, 3); those in a plane are left out."""
+    return [hull for hull in each_hull_of(clouds) if hull is not None]
+
+
+def each_hull_of(clouds: Sequence[Floats]) -> list[Solid | None]:
+    """Corners and faces of the hull of each of some points; None if they are in a plane.
 
     MuJoCo's Qhull makes them all at once; where it gives up on one, each is made here.
     """
+    if not clouds:
+        return []
     import mujoco
 
     spec = mujoco.MjSpec()
@@ -74,11 +84,11 @@ def hulls_of(clouds: Sequence[Floats]) -> list[tuple[Floats, NDArray[np.int32]]]
     try:
         model = spec.compile()
     except ValueError:
-        slow = ((points, convex_hull(points, 1e-6 * _size(points))) for points in clouds)
-        found = [(points, hull.faces) for points, hull in slow if hull is not None]
-    else:
-        found = [(points, _graph_faces(model, row)) for row, points in enumerate(clouds)]
-    return [_used(points, faces) for points, faces in found]
+        if len(clouds) > 1:  # the others need not wait for the one
+            return [each_hull_of([points])[0] for points in clouds]
+        hull = convex_hull(clouds[0], 1e-6 * _size(clouds[0]))
+        return [None if hull is None else _used(clouds[0], hull.faces)]
+    return [_used(points, _graph_faces(model, row)) for row, points in enumerate(clouds)]
 
 
 def _graph_faces(model: Any, mesh: int) -> Indices:
