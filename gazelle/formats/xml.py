@@ -29,7 +29,6 @@ _NAMED = ("name", "reference", "filename")
 _BLANK = b" \t\r\n\xef\xbb\xbf\xff\xfe\x00"
 _FIRST = {b"<"}
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-_COMMENT_TEXT = re.compile("<!--.*?-->", re.DOTALL)
 _NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
 
 
@@ -79,7 +78,7 @@ def parsed(
     """The root element, and the well-formed text that it was read from; as ``parse``."""
     data = text.encode() if isinstance(text, str) else text
     if report is not None:
-        data = blanks.plain_bytes(data, name, _COMMENT_TEXT, report)
+        data = blanks.plain_bytes(data, name, characters.XML_COMMENT, report)
     try:
         return _parsed(data, name, is_text=isinstance(text, str))
     except FormatError as error:
