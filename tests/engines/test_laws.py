@@ -73,7 +73,7 @@ def test_somebody_elses_callback_is_not_taken_away():
             make_engine("mujoco", bouncing())
         with pytest.warns(EngineWarning, match="what slides hops"):
             make_engine("mujoco", scenes.world(scenes.ground(), scenes.box()))
-        make_engine("mujoco", scenes.world(scenes.ground(0.0), scenes.box(mu=0.0)))
+        make_engine("mujoco", scenes.world(scenes.ground(0.0)))
     finally:
         mujoco.set_mjcb_control(present)
 

@@ -1,5 +1,8 @@
 """Meshes of many pieces that overlap are let out as slowly as shapes of one piece."""
 
+import math
+
+import numpy as np
 import pytest
 import scenes
 import trimesh
@@ -51,6 +54,31 @@ def test_what_overlaps_is_not_thrown_out(tmp_path, below, above, depth, x, y):
         engine.step(5)
         fastest = max(fastest, float(engine.link_motion("above::link").linear[0, 2]))
     assert fastest < 0.3
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.05, 1.0])
+@pytest.mark.parametrize(
+    ("below", "above", "pose"),
+    [
+        ("ring", "ring", Pose(0.02, 0.1, 0.15, 0.9, 0.3, 0.5)),
+        ("corner", "corner", Pose(0.1, 0.086, 0.214, 0.75, -0.88, -0.33)),
+        ("ring", "box", Pose(0.0, -0.05, 0.1)),
+        ("box", "ring", Pose(-0.13, -0.08, 0.16, -0.2, 0.98, 0.85)),
+    ],
+)
+def test_what_is_caught_in_something_gains_no_energy(tmp_path, below, above, pose, mu):
+    """They left at up to 8 m/s, and without friction at 280."""
+    base = thing(tmp_path, below, "below", Pose(z=0.1), 0.1, static=True)
+    body = thing(tmp_path, above, "above", pose, 0.1)
+    surface = Surface(Friction(mu, mu), Contact(max_vel=0.1))
+    models = (scenes.ground(mu), *(scenes.with_surface(each, surface) for each in (base, body)))
+    engine = make_engine("mujoco", scenes.world(*models))
+    fallen = 0.0
+    for _ in range(200):
+        engine.step(5)
+        fallen = max(fallen, pose.z - engine.model_placement("above").position[0, 2])
+        speed = np.linalg.norm(engine.link_motion("above::link").linear[0])
+        assert speed < 0.4 + math.sqrt(2.0 * 9.8 * fallen)
 
 
 @pytest.mark.parametrize("kind", ["corner", "ring", "box"])

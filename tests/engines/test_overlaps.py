@@ -232,3 +232,31 @@ def test_what_is_moved_on_purpose_still_pushes():
         engine.set_model_placement("wall", (-0.2 + 0.001 * i, 0.0, 0.5), UP)
         engine.step()
     assert engine.model_placement("box").position[0, 0] > 0.4
+
+
+@pytest.mark.parametrize("angle", [0.03, 0.1, 0.3])
+@pytest.mark.parametrize("mu", [0.0, 0.02])
+def test_what_is_wedged_does_not_shoot_out(angle, mu):
+    """For both sides to part at max_vel it would have to leave at max_vel / sin(angle), 3.3 m/s.
+
+    What is less deep than the surface layer is a contact's.
+    """
+    surface = Surface(Friction(mu, mu), Contact(max_vel=0.1))
+    walls = [
+        scenes.box(
+            f"wall{side}",
+            (1.0, 1.0, 1.0),
+            static=True,
+            pose=Pose(0.625 * side, 0.0, 0.5, 0.0, side * angle, 0.0),
+        )
+        for side in (-1, 1)
+    ]
+    ball = scenes.ball(radius=0.15, pose=Pose(z=0.5))
+    models = [scenes.with_surface(each, surface) for each in (*walls, ball)]
+    engine = make_engine("mujoco", scenes.world(*models, gravity=(0.0, 0.0, 0.0)))
+    fastest = 0.0
+    for _ in range(200):
+        engine.step(5)
+        if engine._overlaps.any:
+            fastest = max(fastest, float(np.linalg.norm(engine.link_motion("ball::link").linear)))
+    assert 0.05 < fastest < 0.21

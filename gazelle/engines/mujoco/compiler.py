@@ -211,7 +211,7 @@ def draft_world(recipe: Recipe) -> Draft:
         motors=motor_count(recipe.motors),
         slides=slides,
         treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
-        exits=exits_of(builder.solids, recipe.world) if slides else {},
+        exits=exits_of(builder.solids, recipe.world),
         swings=swings(recipe.world, bodies),
     )
     return Draft(

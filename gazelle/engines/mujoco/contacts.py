@@ -167,7 +167,10 @@ def may_slide(solids: Iterable[Solid]) -> bool:
 
 
 def exits_of(solids: Iterable[Solid], world: World) -> dict[str, float]:
-    """The velocities at which geoms leave what they overlap, by name [m/s]."""
+    """The velocities at which geoms leave what they overlap, by name [m/s]; none if none moves."""
+    solids = list(solids)
+    if not any(math.isfinite(each.mass) for each in solids):
+        return {}
     most = world.profile.ode.contact_max_correcting_vel
     return {each.geom: min(each.collision.surface.contact.max_vel, most) for each in solids}
 

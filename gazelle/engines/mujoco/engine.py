@@ -151,7 +151,7 @@ class MujocoEngine(ForcedSteps):
             piece = count
             if self._overlaps.any:
                 piece = min(count, self._overlaps.rise(self._batch, self.time_step))
-            failed |= self._advance(piece)
+            failed |= self._overlaps.calmly(self._state, piece, self._advance)
             count -= piece
         return failed
 

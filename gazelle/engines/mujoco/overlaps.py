@@ -9,7 +9,7 @@ loose body at run time lets overlap; what strikes or pushes is left to the conta
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 
 import mujoco
@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Contact, World
+from gazelle.engines.mujoco.calming import Calming
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
+from gazelle.engines.mujoco.views import StateViews
 
 # Physics steps between two rises of a surface, counted by the time of each world, so that
 # it does not matter how many steps are made at once.
@@ -66,6 +68,7 @@ class Overlaps:
         self._marked = np.zeros((nworld, model.ngeom), np.bool_)
         self._roots = model.body_rootid[model.geom_bodyid]
         self._moves = model.body_weldid[model.geom_bodyid] != 0
+        self._calming = Calming(model, self._speed)
         self._scratch = mujoco.MjData(model)  # to make one takes longer than all that it is for
         self.any = False
 
@@ -151,6 +154,17 @@ class Overlaps:
             self._mark(batch, due)
             self._show(batch)
         return int(_PIECE - done.max())
+
+    def calmly(self, state: StateViews, count: int, advance: Callable[[int], set[int]]) -> set[int]:
+        """Make steps in which what is let out gains no energy; returns the worlds that failed."""
+        if not (self.any and self._calming.concerns(self._marked)):
+            return advance(count)
+        failed: set[int] = set()
+        for _ in range(count):
+            before = self._calming.before(state)
+            failed |= advance(1)
+            self._calming.after(state, self._marked, before)
+        return failed
 
     def _mark(self, batch: Batch, worlds: Worlds) -> None:
         """Mark all pieces of what is let out, until nothing of it is deep in anything."""

@@ -35,7 +35,10 @@ def install(*, vital: bool) -> None:
                 hint="motors, bounces and friction by direction need it",
             )
         warnings.warn(
-            EngineWarning(f"{what}: what slides hops, and what spins gains energy"), stacklevel=2
+            EngineWarning(
+                f"{what}: what slides hops, what spins gains energy, and what overlaps is thrown out"
+            ),
+            stacklevel=2,
         )
 
 

@@ -74,7 +74,12 @@ class Extras:
     @property
     def any(self) -> bool:
         """Whether there is need of any."""
-        return self.slides or bool(self.tumbling) or self.swings or self.vital
+        return self.touches or bool(self.tumbling) or self.swings or self.vital
+
+    @property
+    def touches(self) -> bool:
+        """Whether there are contacts that slide or that leave what they overlap."""
+        return self.slides or bool(self.exits)
 
     @property
     def vital(self) -> bool:
@@ -90,7 +95,7 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
     if extras.swings:
         size += BIAS_HEAD + 3 * len(spec.joints)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
-    if extras.rubs or extras.slides:
+    if extras.rubs or extras.touches:
         spec.nuser_geom = GEOM_NUMBERS
 
 
@@ -121,7 +126,7 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         extras.motors,
         bool(extras.rubs),
         treads,
-        extras.slides,
+        extras.touches,
         len(swinging),
         spun.ctypes.data,
     )
