@@ -156,8 +156,9 @@ class BuildModules(build_ext):
             command += ["-idirafter", str(Path(sysconfig.get_path("include")).parent)]
         if compilers.is_x86():  # processors from 2009 on; Zig spells it in its own way
             command.append("-march=x86_64_v2" if zig else "-march=x86-64-v2")
-        macos = compilers.is_macos()
-        ending = ["-bundle", "-undefined", "dynamic_lookup"] if macos else ["-shared"]
+        ending = ["-shared"]
+        if compilers.is_macos():  # where Zig's linker of 0.17 crashes on bundles
+            ending = ["-shared" if zig else "-bundle", "-undefined", "dynamic_lookup"]
         self.compiler.set_executables(
             compiler_so=[*command, "-fPIC", "-fwrapv"], linker_so=[*command, *ending]
         )
