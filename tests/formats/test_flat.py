@@ -97,5 +97,5 @@ def test_a_large_curved_surface_takes_seconds_not_half_a_minute():
     mesh = trimesh.creation.torus(1.0, 0.3, major_sections=270, minor_sections=270)
     start = time.process_time()
     _, polygons, _ = joined(mesh, 0.007)
-    assert time.process_time() - start < 5.0  # 1.5 s alone on a core
+    assert time.process_time() - start < 8.0  # by loops over edges it took over ten
     assert polygons.count < 12_000
