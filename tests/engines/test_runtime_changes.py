@@ -31,6 +31,7 @@ READS = {
     "world",
     "link_names",
     "joint_names",
+    "cast_ranges",
     "cast_rays",
     "close",
     "contacts",
