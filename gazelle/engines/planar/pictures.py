@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_picture as k
+from gazelle.engines.planar import picture_columns as k
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.picture_drawing import ColoredFaces, PictureDrawing
 from gazelle.engines.planar.shapes import Point, ccw, convex
 from gazelle.errors import EngineError
 
@@ -116,20 +117,23 @@ class Painter:
         if len(scenery.bodies) != fleet.nbody:
             raise EngineError(f"{len(scenery.bodies)} looks for {fleet.nbody} bodies")
         self.fleet = fleet
-        self._still = np.ascontiguousarray(scenery.still)
-        self._floor, self._sky = np.array(scenery.floor), np.array(scenery.sky)
         firsts: dict[int, int] = {}
-        looks: list[Floats] = []
+        looks: list[Floats] = [np.zeros((0, k.FACE)), scenery.still]
         for faces in scenery.bodies:
             if id(faces) not in firsts:
                 firsts[id(faces)] = sum(map(len, looks))
                 looks.append(faces)
-        self._faces = np.vstack([np.zeros((0, k.FACE)), *looks])
         first = np.array([firsts[id(faces)] for faces in scenery.bodies], np.int64)
         count = np.array([len(faces) for faces in scenery.bodies], np.int64)
-        self._spans = np.stack((first, first + count), axis=1).reshape(-1, 2)
         sizes = {id(faces): _radius_of(faces) for faces in looks}
-        self._reach = np.array([sizes[id(faces)] for faces in scenery.bodies])
+        self._faces = ColoredFaces(
+            np.vstack(looks),
+            len(scenery.still),
+            np.stack((first, first + count), axis=1).reshape(-1, 2),
+            np.array([sizes[id(faces)] for faces in scenery.bodies], np.float64),
+            np.array(scenery.floor, np.float64),
+            np.array(scenery.sky, np.float64),
+        )
 
     def draw(self, lens: Lens, views: Sequence[View], worlds: NDArray[np.intp]) -> Pictures:
         """Pictures of all views in some worlds, shape (worlds, views, height, width, ...).
@@ -150,10 +154,8 @@ class Painter:
         row = np.array([*lens.focal, lens.near, lens.far])
 
         def work(first: int, last: int, _part: int) -> None:
-            k.draw(
-                first, last, cameras, row, self._floor, self._sky, self._still, self._faces,
-                self._spans, self._reach, self.fleet.rows, self.fleet.nbody, color, inverse,
-            )  # fmt: skip
+            scratch = PictureDrawing(self._faces, self.fleet.rows, row, cameras, color, inverse)
+            scratch.draw(first, last)
 
         self.fleet.crew.share(work, count, _SHARE)
         with np.errstate(divide="ignore"):

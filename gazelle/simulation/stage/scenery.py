@@ -17,7 +17,7 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
-from gazelle.engines.planar.kernels_picture import FACE
+from gazelle.engines.planar.picture_columns import FACE
 from gazelle.engines.planar.pictures import Rgb, Scenery, plates, prism, walls_between
 from gazelle.formats.terrain import rectangles
 from gazelle.simulation.stage.walls import bitmap_lines, blocks_of
