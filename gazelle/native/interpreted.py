@@ -35,6 +35,9 @@ def install() -> None:
     """Begin, once; it needs Cython, which has the types that sources name."""
     import cython  # noqa: F401
 
+    from gazelle.native import c_math
+
+    sys.modules["cython.cimports.libc.math"] = c_math
     cimports = sys.modules["cython.cimports"]
     cimports.__spec__ = ModuleSpec("cython.cimports", None, is_package=True)
     if not any(isinstance(finder, _Cimports) for finder in sys.meta_path):

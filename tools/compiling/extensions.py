@@ -28,7 +28,7 @@ DIRECTIVES = {
     "cdivision": True,
     "infer_types": True,
 }
-CHECKED = {"boundscheck": True, "initializedcheck": True, "nonecheck": True}
+CHECKED = {"boundscheck": True, "initializedcheck": True}
 
 # No two compilers or processors may round differently: a product and a sum are never made one
 # operation, and nothing is reordered. What is left out is only what math.h says about errno and
