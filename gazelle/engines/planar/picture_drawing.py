@@ -212,8 +212,10 @@ class PictureDrawing:
     def fill(self, n: int, f: int, count: int) -> None:
         """Draw a face, which has so many spots, where nothing nearer is yet."""
         x, y, z = self.corners[0, 0], self.corners[0, 1], self.corners[0, 2]
-        ax, ay, az = self.corners[1, 0] - x, self.corners[1, 1] - y, self.corners[1, 2] - z
-        bx, by, bz = self.corners[2, 0] - x, self.corners[2, 1] - y, self.corners[2, 2] - z
+        # Across its diagonals, as three of four corners may be on a line.
+        ax, ay, az = self.corners[2, 0] - x, self.corners[2, 1] - y, self.corners[2, 2] - z
+        bx, by = self.corners[3, 0] - self.corners[1, 0], self.corners[3, 1] - self.corners[1, 1]
+        bz = self.corners[3, 2] - self.corners[1, 2]
         nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
         off = nx * x + ny * y + nz * z
         if off >= -FLAT:
