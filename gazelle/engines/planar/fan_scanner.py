@@ -21,7 +21,7 @@ from cython.cimports.gazelle.engines.planar.scan_columns import (
     SINGLY,
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
-from cython.cimports.libc.math import cos, sin
+from cython.cimports.gazelle.native.elementary import cos, sin
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats

@@ -9,7 +9,8 @@ threads and for any other bodies. The hash is that of SplitMix64: Steele, Lea an
 from __future__ import annotations
 
 import cython
-from cython.cimports.libc.math import cos, log, sqrt
+from cython.cimports.gazelle.native.elementary import cos, log
+from cython.cimports.libc.math import sqrt
 
 PI = cython.declare(cython.double, 3.141592653589793)
 GOLDEN = cython.declare(cython.ulonglong, 0x9E3779B97F4A7C15)

@@ -66,9 +66,9 @@ from cython.cimports.gazelle.engines.planar.scan_columns import (
     TURN_SIN,
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
-from cython.cimports.libc.math import cos as cosine
+from cython.cimports.gazelle.native.elementary import cos as cosine
+from cython.cimports.gazelle.native.elementary import sin as sine
 from cython.cimports.libc.math import fabs, floor, sqrt
-from cython.cimports.libc.math import sin as sine
 
 from gazelle.array_types import Floats
 
