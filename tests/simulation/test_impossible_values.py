@@ -78,17 +78,17 @@ def test_laws_that_are_not_finite(engine, field, value):
 
 
 @pytest.mark.parametrize("seed", ["a", "1", b"a", 1.5, NAN, [1], None])
-def test_seeds_are_whole_numbers(seed):
-    refuses("seed must be a whole", lambda: gazelle.Simulation("empty", seed=seed))
-    refuses("seed must be a whole", lambda: Stream(seed, "name", 1))
-    refuses("seed must be a whole", lambda: StageSimulation("fleet.world", seed=seed))
+def test_seeds_are_ints(seed):
+    refuses("seed must be an int", lambda: gazelle.Simulation("empty", seed=seed))
+    refuses("seed must be an int", lambda: Stream(seed, "name", 1))
+    refuses("seed must be an int", lambda: StageSimulation("fleet.world", seed=seed))
     if seed is not None:
         with gazelle.Simulation("empty") as sim:
-            refuses("seed must be a whole", lambda: sim.reset(seed=seed))
+            refuses("seed must be an int", lambda: sim.reset(seed=seed))
 
 
 @pytest.mark.parametrize("seed", [0, -1, 2**80, np.int64(7), np.uint8(3)])
-def test_any_whole_number_is_a_seed(seed):
+def test_any_int_is_a_seed(seed):
     with gazelle.Simulation("empty", seed=seed) as sim:
         assert sim.seed == int(seed)
         sim.reset(seed=seed)

@@ -221,8 +221,23 @@ time.sleep(60)
 """
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_no_node_is_left_whatever_ends_the_script(package, master, tmp_path, number):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_no_node_is_left_when_the_script_is_ended(package, master, tmp_path, number):
+    pid = node_of_ended_script(master, tmp_path, number)
+    until(lambda: not alive(pid))
+
+
+def test_the_node_of_a_killed_script_is_left_as_in_ros(package, master, tmp_path):
+    pid = node_of_ended_script(master, tmp_path, signal.SIGKILL)
+    try:
+        time.sleep(0.5)
+        assert alive(pid)
+    finally:
+        os.kill(pid, signal.SIGKILL)
+
+
+def node_of_ended_script(master, tmp_path, number):
+    """Start the script, send it a signal once its node runs; the node's process."""
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
     command = "import sys; from gazelle.cli.main import main; sys.exit(main())"
@@ -237,7 +252,7 @@ def test_no_node_is_left_whatever_ends_the_script(package, master, tmp_path, num
         time.sleep(0.5)
         process.send_signal(number)
         process.wait(20)
-        until(lambda: not alive(pid))
+    return pid
 
 
 def alive(pid):
