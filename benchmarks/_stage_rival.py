@@ -14,9 +14,9 @@ import numpy as np
 from _stage_goals import Goals, shown
 from _stage_itself import Spent, Stage
 
-from gazelle.engines.native import Call
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
+from gazelle.native.system import System
 from gazelle.simulation.stage import Controller, StageSimulation, register_controller
 from gazelle.simulation.stage.layout import layout_of
 from gazelle.simulation.stage.opening import stage_of
@@ -153,15 +153,15 @@ class Roam(Controller):
     """What ``stage_probe roam`` does, in native code here as there."""
 
     def __init__(self, sim: StageSimulation) -> None:
-        self._roaming = Roaming(sim.fleet)
+        self._sim, self._law = sim, Roaming(sim.fleet).law
 
     def update(self) -> None:
         """Choose the commands of all robots."""
-        self._roaming.choose()
+        self._law.choose(self._sim.steps)
 
-    def calls(self) -> list[Call]:
+    def systems(self) -> list[System]:
         """The same, as native code does it."""
-        return self._roaming.calls()
+        return [self._law]
 
 
 def of_simulation(file: Path, threads: int) -> tuple[float, float]:

@@ -63,9 +63,6 @@ def main() -> None:
 
     goals = Goals()
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")
-    began = time.process_time()
-    roam(8, 16.0, None, 1)
-    print(f"kernels ready after {time.process_time() - began:.1f} s of processor time")
     if args.only in {None, "rival"}:
         rival(args, goals)
     if args.only in {None, "fleets"}:

@@ -11,9 +11,7 @@ PACKAGE = Path(gazelle.__file__).parent
 HOME = PACKAGE / "array_types.py"
 ALIAS = re.compile(r"^\w+ *(?:: *TypeAlias)? *= *(?:npt\.)?NDArray\[np\.(\w+)\]$", re.MULTILINE)
 
-COMPILED = re.compile(
-    r"^engines/(native/|planar/(kernels_|tables)|mujoco/laws/)|^envs/planar/tables"
-)
+COMPILED = re.compile(r"^engines/mujoco/laws/")
 """What is compiled reads the types of arguments from annotations of its own file."""
 
 

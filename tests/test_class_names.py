@@ -20,8 +20,6 @@ GIVEN_BY_ROS = frozenset(
         "ActionServer",
         "Duration",
         "Frame",
-        "Group",
-        "Machine",
         "Master",
         "MasterProxy",
         "Node",

@@ -52,7 +52,6 @@ STRANGERS = {
 HEAVY = {"gymnasium", "mujoco", "stable_baselines3", "torch", "trimesh"}
 OWNERS = {
     "gymnasium": ("gazelle.envs", "gazelle.training"),
-    "llvmlite": ("gazelle.engines.native",),
     "mujoco": ("gazelle.engines.mujoco", "gazelle.formats.mujoco_geometry"),
     "pettingzoo": ("gazelle.envs",),
     "stable_baselines3": ("gazelle.training",),
@@ -172,7 +171,6 @@ def test_no_import_points_up():
 KNOWN_CIRCLES = (
     {"gazelle.formats.sdf.model_frames", "gazelle.formats.sdf.merge"},
     {"gazelle.formats.stage.body", "gazelle.formats.stage.reader"},
-    {f"gazelle.engines.native.{name}" for name in ("function", "library", "module")},
     {
         f"gazelle.simulation.{name}"
         for name in [

@@ -17,6 +17,7 @@ from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
+from gazelle.engines.system_engine import SystemEngine
 
 __all__ = [
     "CHANGES",
@@ -29,6 +30,7 @@ __all__ = [
     "Hits",
     "Motion",
     "Placement",
+    "SystemEngine",
     "Wrench",
     "engine_names",
     "make_engine",

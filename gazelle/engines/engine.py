@@ -186,6 +186,9 @@ class Engine(Protocol):
     def model_placement(self, model: str, worlds: Worlds | None = None) -> Placement:
         """Where a model's frame is: it moves with the canonical link."""
 
+    def planar_pose(self, model: str, worlds: Worlds | None = None) -> Floats:
+        """Where a model's frame is, seen from above: x, y [m] and heading [rad], shape (n, 3)."""
+
     def set_model_placement(
         self, model: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> None:

@@ -53,7 +53,7 @@ def _require(build: str) -> None:
 
 
 def _is_built(build: str) -> bool:
-    return any((_HERE / f"_{build}" / f"schedule{end}").exists() for end in EXTENSION_SUFFIXES)
+    return any((_HERE / f"_{build}" / f"loop{end}").exists() for end in EXTENSION_SUFFIXES)
 
 
 def _has_avx2() -> bool:

@@ -1,6 +1,6 @@
 cdef class System:
     cdef readonly Py_ssize_t rows
-    cdef readonly long long period
+    cdef public double rate
     cdef readonly bint divisible
     cdef public long long due
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

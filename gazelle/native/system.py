@@ -15,27 +15,28 @@ class System:
 
     Args:
         rows: In each world.
-        period: Simulated time from one update to the next [ns]; 0: at every step.
+        rate: Updates in a simulated second [Hz], at multiples of its period counted from time zero,
+            on the first step not before; 0: at every step.
         divisible: Whether rows of one world may be updated by different threads, as they need
             nothing of each other that this update changes.
 
     Attributes:
-        due: When it is updated next [ns].
+        due: When it is updated next [ns]; 0 for at once.
 
     Raises:
-        ValueError: ``rows`` is less than 1, or ``period`` than 0.
+        ValueError: ``rows`` is less than 1, or ``rate`` than 0.
     """
 
     def __init__(
         self,
         rows: cython.Py_ssize_t = 1,
-        period: cython.longlong = 0,
+        rate: cython.double = 0.0,
         divisible: cython.bint = True,  # noqa: FBT002  # subclasses pass all three in order
         due: cython.longlong = 0,
     ) -> None:
-        if rows < 1 or period < 0:
-            raise ValueError(f"a system has {rows} rows, and is updated every {period} ns")
-        self.rows, self.period, self.divisible, self.due = rows, period, divisible, due
+        if rows < 1 or not rate >= 0.0:
+            raise ValueError(f"a system has {rows} rows, and is updated {rate} times a second")
+        self.rows, self.rate, self.divisible, self.due = rows, rate, divisible, due
 
     @cython.cfunc
     @cython.nogil
@@ -51,5 +52,5 @@ class System:
         Args:
             first: Row, counted through all worlds.
             last: The one after the last.
-            time: At the end of the step [ns].
+            time: At the beginning of the step [ns].
         """

@@ -1,1 +1,9 @@
 """What Gazebo's plugin libraries do, one module each; ``table`` has them by file name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])

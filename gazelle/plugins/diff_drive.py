@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
+from gazelle.native.system import System
 from gazelle.plugins.dead_reckoning import DeadReckoning
+from gazelle.plugins.diff_drive_law import DiffDriveLaw
 from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
@@ -24,15 +26,12 @@ from gazelle.simulation import (
     Odometry,
     Output,
     Robot,
-    Stopwatch,
     Transforms,
     TwistInput,
     absolute,
     namespace_of,
 )
-
-# The ramp acts only while both wheels are farther than this from their target [m/s].
-_RAMP_DEADBAND = 0.01
+from gazelle.simulation.clock import NANOSECONDS
 
 
 class DiffDrive(ModelPlugin):
@@ -76,11 +75,21 @@ class DiffDrive(ModelPlugin):
         for wheel in self._wheels:
             wheel.add_motor(torque)
         nworld = robot.simulation.nworld
-        self._speeds = np.zeros((nworld, 2))
-        self._settled = -1  # the command whose speeds the motors already have
         self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
-        self._watch = Stopwatch(robot.simulation.clock)
+        self._reckoned_ns = robot.simulation.clock.now_ns
         self._open_ports(robot, parameters, nworld)
+        self._law = DiffDriveLaw(
+            self._command.linear,
+            self._command.angular,
+            separation=self.separation,
+            radius=self.radius,
+            acceleration=self.acceleration,
+        )
+        self._last_ns = np.asarray(self._law.last_ns)
+        self._last_ns[:] = robot.simulation.clock.now_ns
+        self._speeds = np.asarray(self._law.speeds)
+        self._targets = np.zeros((nworld, 2))  # that the motors have [rad/s]
+        self._bound = -1  # revision of the engine whose motors the law drives by itself
 
     def _open_ports(self, robot: Robot, parameters: Parameters, nworld: int) -> None:
         namespace = namespace_of(robot, parameters, robot.name)
@@ -104,32 +113,36 @@ class DiffDrive(ModelPlugin):
             published.append(robot.outputs["joint_states"])
         self._published = tuple(published)
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
+    def system(self) -> System | None:
+        """The law alone, while nobody listens and nothing else is to be done."""
+        engine = self._robot.simulation.native
+        if engine is None or self._from_encoders or any(p.wanted for p in self._published):
+            return None
+        if self._bound != engine.revision:
+            names = [f"{self._robot.name}::{name}" for name in self.wheel_joints]
+            targets, left = engine.motor_targets(names[0])
+            self._law.send_to(targets, left, engine.motor_targets(names[1])[1])
+            self._bound = engine.revision
+        return self._law
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Drive the wheels and publish the odometry."""
-        interval = self._watch.lap()
+        now_ns = self._robot.simulation.clock.now_ns
         if self._from_encoders:
-            self._reckoning.advance(self._angles(), interval)
-        self._drive(interval)
+            self._reckoning.advance(self._angles(), (now_ns - self._reckoned_ns) / NANOSECONDS)
+            self._reckoned_ns = now_ns
+        self._drive(now_ns)
         for output in self._published:
             output.publish()
 
-    def _drive(self, interval: float) -> None:
-        if self._settled == self._command.revision:
-            return
-        forward, turning = self._command.linear[:, 0], self._command.angular[:, 2]
-        half = self.separation / 2.0
-        target = np.stack((forward - turning * half, forward + turning * half), axis=1)
-        if self.acceleration > 0.0:
-            lack = target - self._speeds
-            ramping = (np.abs(lack) >= _RAMP_DEADBAND).all(axis=1, keepdims=True)
-            most = self.acceleration * interval
-            self._speeds = np.where(ramping, self._speeds + np.clip(lack, -most, most), target)
-        else:
-            self._speeds = target
-        if (self._speeds == target).all():
-            self._settled = self._command.revision
-        for column, wheel in enumerate(self._wheels):
-            wheel.drive(self._speeds[:, column] / self.radius)
+    def _drive(self, now_ns: int) -> None:
+        wanted, self._bound = np.empty_like(self._targets), -1
+        self._law.send_to(wanted, 0, 1)
+        self._law.apply(now_ns)
+        if not np.array_equal(wanted, self._targets):
+            self._targets = wanted
+            for column, wheel in enumerate(self._wheels):
+                wheel.drive(wanted[:, column])
 
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
@@ -158,23 +171,24 @@ class DiffDrive(ModelPlugin):
         """Stand still at the origin of the odometry."""
         rows = slice(None) if worlds is None else worlds
         self._speeds[rows] = 0.0
-        self._settled = -1
+        self._targets[rows] = np.nan
         self._reckoning.reset(worlds, self._angles())
         if worlds is None:
-            self._watch.restart()
+            self._last_ns[:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Wheel speeds, odometry and time of the last update."""
+        """Wheel speeds, odometry and times of the last update."""
         rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
-        last_time = np.array(self._watch.start_ns)
-        return {"speeds": self._speeds.copy(), **rolled, "last_time": last_time}
+        times = {"last_ns": self._last_ns.copy(), "reckoned_ns": np.array(self._reckoned_ns)}
+        return {"speeds": self._speeds.copy(), **rolled, **times}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._speeds[:] = state["speeds"]
-        self._settled = -1
+        self._targets[:] = np.nan  # the motors are given their speeds anew
         self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
-        self._watch.start_ns = int(state["last_time"])
+        self._last_ns[:] = state["last_ns"]
+        self._reckoned_ns = int(state["reckoned_ns"])
 
 
 def _source(parameters: Parameters) -> str:

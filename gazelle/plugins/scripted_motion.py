@@ -19,10 +19,14 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
+from gazelle.engines.planar.paths import PathFollower
 from gazelle.errors import SimulationError
+from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
-from gazelle.rotations import multiply
+from gazelle.rotations import conjugate, multiply, yaw_of
 from gazelle.simulation import ModelPlugin, Robot
+
+_SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
 
 class ScriptedMotion(ModelPlugin):
@@ -57,6 +61,37 @@ class ScriptedMotion(ModelPlugin):
         self.start = np.asarray(start.position), np.asarray(start.quaternion)
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
         robot.simulation.engine.make_kinematic(robot.name)
+        self._path = self._plain_path()
+        self._bound = -1  # revision of the engine whose body the path carries
+
+    def _plain_path(self) -> PathFollower | None:
+        """What carries the model by itself in a plane; None if it does not stay upright."""
+        flat = not self.spin[:2].any()
+        if self.times.size:
+            flat = np.ptp(self.quaternions, axis=0).max() < _SAME and not self.spin.any()
+        if self.splines or not flat:
+            return None
+        legs = np.zeros((len(self.times), 7))
+        legs[:, 0], legs[:, 1:4] = self.times, self.positions
+        legs[:-1, 4:] = self.velocities[: max(len(legs) - 1, 0)]
+        first = self.robot.description.pose
+        lean = (Pose(yaw=-first.yaw) * first).quaternion
+        pose = self.quaternions[:1] if self.times.size else self.start[1][None]
+        heading = float(yaw_of(multiply(pose, conjugate(np.asarray(lean)[None])))[0])
+        start = np.array([*self.start[0], heading])
+        return PathFollower(
+            legs, start, spin=float(self.spin[2]), loop=self.loop, epoch=self._epoch
+        )
+
+    def system(self) -> System | None:
+        """The path alone, where it is one in the plane."""
+        engine = self.robot.simulation.native
+        if engine is None or self._path is None:
+            return None
+        if self._bound != engine.revision:
+            engine.follow(self.robot.name, self._path)
+            self._bound = engine.revision
+        return self._path
 
     def _rates(self) -> tuple[Floats, Floats]:
         """Change of position and quaternion a second on each leg, shapes (k, 3) and (k, 4)."""

@@ -99,6 +99,11 @@ class Schedule:
         self._count = value
         self.due_ns = 0 if self.rate <= 0.0 else round(value * NANOSECONDS / self.rate)
 
+    def follow(self, due_ns: int) -> None:
+        """Go on as a system that is due at a time [ns] now."""
+        if self.rate > 0.0 and due_ns != self.due_ns:
+            self.count = round(due_ns * self.rate / NANOSECONDS)
+
     def is_due(self, now_ns: int) -> bool:
         """Whether its time has come."""
         return now_ns >= self.due_ns
@@ -109,10 +114,6 @@ class Schedule:
             self.count = int(now_ns * self.rate // NANOSECONDS)
             while self.due_ns <= now_ns:
                 self.count += 1
-
-    def steps_until(self, clock: Clock) -> int:
-        """Physics steps until it is due, at least 1."""
-        return clock.steps_to(self.due_ns)
 
     def restart(self) -> None:
         """Start over at time zero."""

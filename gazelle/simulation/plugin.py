@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
+from gazelle.native.system import System
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
@@ -36,6 +37,14 @@ class Plugin:
     def active(self) -> bool:
         """Whether it needs its updates now; one that only publishes needs them when heard."""
         return True
+
+    def system(self) -> System | None:
+        """What does the same as ``on_update`` in native code; None if Python has a say in it.
+
+        It is asked before steps are made, and then updated instead of this plugin. Only engines
+        that run systems ask: ``Simulation.native``.
+        """
+        return None
 
     def on_update(self, time: float) -> None:
         """Act; called at ``update_rate``.

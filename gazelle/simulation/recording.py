@@ -71,6 +71,8 @@ class Recorder(Closeable):
         self._pending: dict[str, Any] = {}
         self._steps = 0
         self._write(first)
+        # What systems change is not called: plugins do it themselves meanwhile.
+        self._native, simulation.native = simulation.native, None
         for name in CHANGES:
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
 
@@ -80,6 +82,7 @@ class Recorder(Closeable):
             if not self._file.closed:
                 for name in CHANGES:
                     delattr(self._engine, name)
+                self._simulation.native = self._native
                 self._flush()
                 self._file.close()
 

@@ -12,7 +12,6 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.rotations import yaw_of
 from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle, orientation_of
@@ -125,12 +124,17 @@ class Robot(Ports):
     @between_steps
     def yaw(self) -> Floats:
         """Heading [rad], shape (nworld,)."""
-        return yaw_of(self.placement().quaternion)
+        return self.planar_pose()[:, 2]
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Pose of the model frame in many worlds."""
         return self.simulation.engine.model_placement(self.name, worlds)
+
+    @between_steps
+    def planar_pose(self, worlds: Worlds | None = None) -> Floats:
+        """x, y [m] and heading [rad] of the model frame in many worlds, shape (n, 3)."""
+        return self.simulation.engine.planar_pose(self.name, worlds)
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.description import Model, Plugin, Pose, World
-from gazelle.engines import Engine, make_engine
+from gazelle.engines import Engine, SystemEngine, make_engine
 from gazelle.errors import SimulationError
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
@@ -64,6 +64,7 @@ class Simulation:
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
+        native: The engine, if it updates systems between its steps; else None.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
         entities: Makes and ends models; for the thread that owns the state.
@@ -91,6 +92,7 @@ class Simulation:
         self._engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
+        self.native = self._engine if isinstance(self._engine, SystemEngine) else None
         self.seed = seed_of(seed)
         self.clock = Clock(self._engine.time_step)
         self.paused = False

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin import Plugin
@@ -35,6 +36,10 @@ class ScheduledPlugin:
         """Go on without it."""
         self.schedule, self.detached = None, True
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
+
+    def system(self) -> System | None:
+        """What is updated in its place now."""
+        return self._ask(self.plugin.system, "when asked for its system")
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Let it begin anew."""
@@ -71,6 +76,25 @@ def make_scheduled(plugin: Plugin, name: str, owner: str) -> ScheduledPlugin:
     """A plugin with the schedule it asks for, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)
     return ScheduledPlugin(plugin, name, owner, schedule)
+
+
+def with_systems(
+    plugins: Iterable[ScheduledPlugin],
+) -> tuple[list[System], list[Schedule], list[ScheduledPlugin]]:
+    """The systems that are updated in place of plugins, their schedules, and the other plugins."""
+    systems: list[System] = []
+    schedules: list[Schedule] = []
+    others: list[ScheduledPlugin] = []
+    for entry in plugins:
+        schedule = entry.schedule
+        system = None if schedule is None else entry.system()
+        if schedule is None or system is None:
+            others.append(entry)
+            continue
+        system.rate, system.due = schedule.rate, schedule.due_ns
+        systems.append(system)
+        schedules.append(schedule)
+    return systems, schedules, others
 
 
 def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) -> None:

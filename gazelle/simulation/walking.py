@@ -11,9 +11,16 @@ import numpy as np
 
 from gazelle.engines import DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.native.system import System
+from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
-from gazelle.simulation.stepping import steps_to_next, update_plugins, update_sensors
+from gazelle.simulation.stepping import (
+    steps_to_next,
+    update_plugins,
+    update_sensors,
+    with_systems,
+)
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
@@ -48,6 +55,8 @@ class StepLoop:
         self._loads = loads
         self._entities = simulation.entities
         self._faults = faults
+        self._systems: list[System] = []
+        self._schedules: list[Schedule] = []
         self._most = 1
         self.cut = False
 
@@ -91,6 +100,8 @@ class StepLoop:
         """Do what is due, then step towards the next thing that will be; returns the steps."""
         clock, entities, loads = self._simulation.clock, self._entities, self._loads
         plugins, sensors = entities.plugins, entities.sensors
+        if self._simulation.native is not None:
+            self._systems, self._schedules, plugins = with_systems(plugins)
         update_plugins(plugins, clock.now_ns, clock.now)
         if self._simulation.requests.closed:
             raise SimulationError(CLOSED)
@@ -101,7 +112,7 @@ class StepLoop:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
             if steps < self._most:
-                self._engine.step(steps)
+                self._step(steps)
                 self.cut = False
             else:
                 steps = self._step_piece(steps)
@@ -112,10 +123,20 @@ class StepLoop:
         update_sensors(sensors, clock.now_ns)
         return steps
 
+    def _step(self, count: int) -> None:
+        """Make steps, and update systems whenever they are due."""
+        native = self._simulation.native
+        if native is None or not self._systems:
+            self._engine.step(count)
+            return
+        native.run(self._systems, count, self._simulation.clock.now_ns)
+        for schedule, system in zip(self._schedules, self._systems, strict=True):
+            schedule.follow(system.due)
+
     def _step_piece(self, wanted: int) -> int:
         """Make as many steps at once as are not too long; returns how many."""
         steps, begin = self._most, time.perf_counter()
-        self._engine.step(steps)
+        self._step(steps)
         took = time.perf_counter() - begin
         # A slow piece may be chance, a fast one may be rest: double at most, halve at least.
         if took * 2.0 < _PIECE:

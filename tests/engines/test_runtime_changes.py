@@ -46,6 +46,7 @@ READS = {
     "link_motion",
     "link_placement",
     "model_placement",
+    "planar_pose",
     "parameter",
     "peek",
     "snapshot",

@@ -12,8 +12,8 @@ class Mix(System):
     others: cython.ulonglong[::1]
     beside: cython.Py_ssize_t
 
-    def __init__(self, numbers, others, beside, rows, period, divisible):
-        System.__init__(self, rows, period, divisible)
+    def __init__(self, numbers, others, beside, rows, rate, divisible):
+        System.__init__(self, rows, rate, divisible)
         self.numbers, self.others, self.beside = numbers, others, beside
 
     @cython.cfunc

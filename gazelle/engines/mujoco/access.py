@@ -24,7 +24,7 @@ from gazelle.engines.mujoco.order import (
 from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError
-from gazelle.rotations import conjugate, cross, multiply, rotate, turns
+from gazelle.rotations import conjugate, cross, multiply, rotate, turns, yaw_of
 
 SIDES = ("lower", "upper")
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
@@ -146,6 +146,11 @@ class StateAccess(ABC):
         offset = np.asarray(slot.offset.position), np.asarray(slot.offset.quaternion)
         position = link.position + rotate(link.quaternion, offset[0])
         return Placement(position, multiply(link.quaternion, offset[1]))
+
+    def planar_pose(self, model: str, worlds: Worlds | None = None) -> Floats:
+        """Where a model's frame is, seen from above: x, y [m] and heading [rad], shape (n, 3)."""
+        place = self.model_placement(model, worlds)
+        return np.column_stack((place.position[:, :2], yaw_of(place.quaternion)))
 
     def set_model_placement(
         self, model: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None

@@ -65,6 +65,10 @@ class PlanarAccess(ABC):
         """Let a model move only when told to."""
 
     @abstractmethod
+    def motor_targets(self, joint: str) -> tuple[Floats, int]:
+        """Velocities that motors hold, and a joint's column."""
+
+    @abstractmethod
     def _cut_at(self, height: float) -> None:
         """Cut shapes at one more height [m], for rays."""
 
@@ -83,6 +87,18 @@ class PlanarAccess(ABC):
         rows = self._fleet.rows[self._rows(body, worlds)]
         turned = multiply(from_yaw(rows[:, c.YAW]), np.asarray(each.tilt.quaternion)[None])
         return Placement(rows[:, [c.X, c.Y, c.Z]], turned)
+
+    def planar_pose(self, model: str, worlds: Worlds | None = None) -> Floats:
+        """Where a model's frame is, seen from above: x, y [m] and heading [rad], shape (n, 3)."""
+        each, body = self._model(model), self._layout.bodies.get(model)
+        count = self._fleet.nworld if worlds is None else len(worlds)
+        if body is None:
+            pose = each.model.pose
+            return np.tile((pose.x, pose.y, pose.yaw), (count, 1))
+        found: Floats = self._fleet.rows[self._rows(body, worlds), : c.COS].copy()
+        if each.leaning:
+            found[:, c.YAW] = yaw_of(self.model_placement(model, worlds).quaternion)
+        return found
 
     def set_model_placement(
         self, model: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
@@ -218,10 +234,8 @@ class PlanarAccess(ABC):
         self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Set the velocity that a joint's motor holds [m/s or rad/s], shape () or (n,)."""
-        column = self._axes(joint).start
-        if np.isnan(self._targets[:, column]).any():
-            raise EngineError(f"there is no motor on joint '{joint}'", hint="give it one first")
-        self._targets[rows_of(worlds), column] = velocity
+        targets, column = self.motor_targets(joint)
+        targets[rows_of(worlds), column] = velocity
 
     # -- sensing -----------------------------------------------------------------------
 

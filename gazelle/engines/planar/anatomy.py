@@ -40,6 +40,11 @@ class Anatomy:
     still: bool
     loose: bool
 
+    @property
+    def leaning(self) -> bool:
+        """Whether its frame does not stand upright."""
+        return abs(self.tilt.quaternion[3]) < 1.0 - 1e-15
+
 
 def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:
     """Look at a model.

@@ -10,4 +10,4 @@ cdef class Bodies:
     cdef public int[:, ::1] head
     cdef public signed char[::1] state
     cdef public unsigned char[::1] stalled
-    cdef public double[::1] free
+    cdef public double[::1] way

@@ -1,3 +1,5 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """The tables of a fleet, as kernels see them."""
 
 from __future__ import annotations
@@ -40,8 +42,7 @@ class Bodies:
         cell: The cell of each body, shape (nworld * nbody,).
         state: What becomes of a body in a step, shape (nworld * nbody,).
         stalled: Whether the last move was not made, shape (nworld * nbody,).
-        free: How far nothing in a world can go without meeting anything [m]; negative where that
-            is not known, shape (nworld,).
+        way: How far each body would go in this step [m], where threads share a world.
     """
 
     def __init__(self, **tables: Any) -> None:

@@ -36,7 +36,7 @@ class Recipe:
 
 
 @dataclass(frozen=True, slots=True)
-class Rolling:
+class RollingBase:
     """A base that its wheels drive.
 
     Attributes:
@@ -70,7 +70,7 @@ class Layout:
     owners: dict[str, str]
     joints: dict[str, tuple[int, int]]
     columns: dict[str, int]
-    rollings: tuple[Rolling, ...]
+    rollings: tuple[RollingBase, ...]
     levels: Levels
     limits: Floats
 
@@ -125,7 +125,7 @@ def _layout_of(
         wheels = grouped(models[name].skeleton.wheels, wanted) if models[name].loose else ()
         if wheels:
             own = np.array([joints[wheel.joint][0] for wheel in wheels])
-            rollings.append(Rolling(index, own, rolling(wheels)))
+            rollings.append(RollingBase(index, own, rolling(wheels)))
     owners = {link: name for name, each in models.items() for link in each.skeleton.bones}
     bounds = np.array(limits).reshape(-1, 2).T.copy()
     return Layout(models, bodies, owners, joints, columns, tuple(rollings), levels, bounds)

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_march as k
-from gazelle.engines.planar.kernels_grid import list_statics
+from gazelle.engines.planar import scan_columns as k
+from gazelle.engines.planar.clear_space import measure_clear
+from gazelle.engines.planar.grid_cells import list_statics
 from gazelle.engines.planar.shapes import Raster, Table
 
+LISTED = 1e-6  # by which statics are listed in cells that they do not pass [m]
 _CELLS = 12.0  # a static primitive
 _FINEST = 0.02  # side of a cell [m]
 _LEAST = 1e-4  # side of a bitmap's cell [m]
@@ -25,7 +27,7 @@ class Clearing:
     """A grid over statics alone, and how far around each cell there are none.
 
     Attributes:
-        fine: The grid, as ``kernels_march`` has it, shape (FINE,).
+        fine: The grid, as ``scan_columns`` has it, shape (FINE,).
         start: First item of each cell, shape (cells + 1,).
         items: Indices of primitives, cell by cell.
         clear: Side of the empty square from each cell on in four directions, and around it;
@@ -57,7 +59,7 @@ def clearing_of(table: Table, *, solid: bool) -> Clearing:
     fine = np.zeros(k.FINE)
     fine[[k.CORNER_U, k.CORNER_V]] = low
     fine[[k.SIDE_U, k.SIDE_V, k.COLUMNS, k.ROWS, k.TURN_COS]] = side, side, columns, rows, 1.0
-    start, items = listed(table.rows, np.array([*low, side, columns, rows]), k.LISTED)
+    start, items = listed(table.rows, np.array([*low, side, columns, rows]), LISTED)
     return _measured(fine, start, items, np.zeros(columns * rows, np.int8))
 
 
@@ -90,7 +92,7 @@ def _of_raster(table: Table, raster: Raster) -> Clearing | None:
     others[:, c.Y0] *= stretch
     others[~circle, c.Y1] *= stretch
     grid = np.array([corner[0], corner[1] * stretch, wide, columns, rows])
-    start, items = listed(others, grid, k.LISTED * max(1.0, stretch))
+    start, items = listed(others, grid, LISTED * max(1.0, stretch))
     fine = np.array(
         [*corner, wide, deep, columns, rows, cos, sin, raster.z[0], raster.z[1], raster.first + 1.0]
     )
@@ -112,7 +114,7 @@ def turned(rows: Floats, cos: float, sin: float, x: float, y: float) -> None:
 
 def _measured(fine: Floats, start: Ints32, items: Ints32, solid: NDArray[np.int8]) -> Clearing:
     clear = np.zeros(5 * len(solid), np.int8)
-    k.measure_clear(solid, start, int(fine[k.COLUMNS]), clear)
+    measure_clear(solid, start, int(fine[k.COLUMNS]), clear)
     return Clearing(fine, start, items, clear)
 
 

@@ -19,10 +19,10 @@ GLOW: Final = 6  # what a laser gets back; negative: invisible
 KIND: Final = 7
 PRIMITIVE: Final = 8
 
-SEGMENT: Final = 0.0
-CIRCLE: Final = 1.0
-GHOST: Final = 2.0  # added to KIND where nothing bumps into it
-OPEN: Final = 4.0  # added to the KIND of lines that enclose nothing: seen from both sides
+SEGMENT: Final = 0
+CIRCLE: Final = 1
+GHOST: Final = 2  # added to KIND where nothing bumps into it
+OPEN: Final = 4  # added to the KIND of lines that enclose nothing: seen from both sides
 
 # Lanes, for worlds with few statics: the same, one row a value and one column a primitive, so
 # that many are handled at once. X1 and Y1 of a circle are those of its middle.
@@ -61,10 +61,10 @@ BRAKE: Final = 8
 PUSH: Final = 11
 DRIVE: Final = 14
 
-PASSIVE: Final = -1.0
-DIFFERENTIAL: Final = 0.0
-OMNIDIRECTIONAL: Final = 1.0
-CAR: Final = 2.0
+PASSIVE: Final = -1
+DIFFERENTIAL: Final = 0
+OMNIDIRECTIONAL: Final = 1
+CAR: Final = 2
 
 # What a body is, the same in all worlds: its family, whose members ignore each other, its
 # primitives and its pieces, from the first to before the last.
@@ -95,7 +95,7 @@ SLACK: Final = 4
 
 # What a beam met: 0 for nothing; 1 + index of a static primitive; NAMES * (1 + body) + index
 # of its primitive. Negative if met from inside.
-NAMES: Final = 67108864.0
+NAMES: Final = 67108864
 
 # What becomes of a body in a step.
 STILL: Final = 0

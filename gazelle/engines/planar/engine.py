@@ -13,15 +13,20 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.engine import Call
 from gazelle.engines.laws import with_profile
-from gazelle.engines.limits import check_world, physics_step
+from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.access import PlanarAccess, rows_of
 from gazelle.engines.planar.build import Layout, Recipe, build
 from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.refusals import Refusals
+from gazelle.engines.planar.rolling import Joints, Rolling, Turning
 from gazelle.errors import EngineError, did_you_mean
-from gazelle.rotations import apply_matrix
+from gazelle.native.loop import SystemLoop
+from gazelle.native.system import System
+
+NANOSECONDS = 1_000_000_000
 
 # Columns of a snapshot for each body: its row, command, velocity, stall. The row holds the cosine
 # and sine of the heading too, which steps advance by themselves.
@@ -64,12 +69,38 @@ class PlanarEngine(Refusals, PlanarAccess):
     def _run(self, recipe: Recipe, fleet: Fleet, layout: Layout) -> None:
         """Go on with a fleet, from its initial state."""
         self._recipe, self._fleet, self._layout = recipe, fleet, layout
+        self._revision = getattr(self, "_revision", 0) + 1
         shape = (fleet.nworld, layout.axes)
         self._angles, self._rates = np.zeros(shape), np.zeros(shape)
         self._targets = np.full(shape, math.nan)
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
         self._casters, self._recent = {}, {}
+        self._joints = self._joints_of(layout)
+        self._loops: tuple[Sequence[System], SystemLoop] | None = None
+
+    def _joints_of(self, layout: Layout) -> Joints:
+        """Joints and rolling bases as kernels see them."""
+        bases = layout.rollings
+        return Joints(
+            angles=self._angles,
+            rates=self._rates,
+            targets=self._targets,
+            limits=layout.limits,
+            base=np.array([each.body for each in bases], np.intp),
+            first=np.cumsum([0, *(len(each.columns) for each in bases)], dtype=np.intp),
+            column=np.concatenate([np.zeros(0, np.intp), *(each.columns for each in bases)]),
+            matrix=np.vstack([np.zeros((0, 3)), *(each.matrix.T for each in bases)]),
+        )
+
+    def _loop_of(self, systems: Sequence[System]) -> SystemLoop:
+        """What makes steps with these systems; kept for the next time."""
+        if self._loops is None or self._loops[0] != systems:
+            fleet, joints = self._fleet, self._joints
+            last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
+            made = [*systems, Rolling(fleet.bodies, joints), *fleet.systems(), *last]
+            self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.crew)
+        return self._loops[1]
 
     @property
     def nworld(self) -> int:
@@ -107,6 +138,26 @@ class PlanarEngine(Refusals, PlanarAccess):
         return self._layout
 
     @property
+    def revision(self) -> int:
+        """Counts changes of models: systems then have to be bound to the state anew."""
+        return self._revision
+
+    def motor_targets(self, joint: str) -> tuple[Floats, int]:
+        """Velocities that motors hold, shape (nworld, axes), to be written, and a joint's column.
+
+        Raises:
+            EngineError: There is no motor on the joint.
+        """
+        column = self._axes(joint).start
+        if np.isnan(self._targets[:, column]).any():
+            raise EngineError(f"there is no motor on joint '{joint}'", hint="give it one first")
+        return self._targets, column
+
+    def follow(self, model: str, path: PathFollower) -> None:
+        """Let a path carry a model, which has to be kinematic."""
+        path.carry(self._fleet.bodies, self._layout.bodies[model])
+
+    @property
     def bodies(self) -> dict[str, int]:
         """Index in the fleet of each model that can move."""
         return dict(self._layout.bodies)
@@ -115,27 +166,23 @@ class PlanarEngine(Refusals, PlanarAccess):
 
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` physics steps."""
-        driven = ~np.isnan(self._targets)
-        np.copyto(self._rates, self._targets, where=driven)
-        command = self._fleet.command
-        for each in self._layout.rollings:
-            command[:, each.body] = apply_matrix(each.matrix, self._targets[:, each.columns])
-        self._fleet.step(count)
-        if self._layout.axes:
-            self._turn(count)
-            lower, upper = self._layout.limits
-            np.maximum(self._angles, lower, out=self._angles)
-            np.minimum(self._angles, upper, out=self._angles)
+        self.run((), count, 0)
 
-    def _turn(self, count: int) -> None:
-        """Turn the wheels, one step after another: it must not matter how many are made at once."""
-        if count == 1:
-            self._angles += self._rates * self.time_step
+    def run(self, systems: Sequence[System], count: int, now_ns: int) -> None:
+        """The same, with systems that are updated whenever they are due, in this order.
+
+        Args:
+            systems: They may write commands, motors' velocities and poses in their own worlds.
+            count: Of steps.
+            now_ns: Time [ns].
+        """
+        count = whole_number("the number of steps", count, 0)
+        if not count:
             return
-        turned = np.empty((count + 1, *self._angles.shape))
-        turned[0], turned[1:] = self._angles, self._rates * self.time_step
-        np.add.accumulate(turned, axis=0, out=turned)
-        self._angles[:] = turned[-1]
+        loop = self._loop_of(systems)
+        loop.step = round(self._fleet.time_step * NANOSECONDS)
+        loop.time = now_ns
+        loop.run(now_ns + count * loop.step, self._fleet.threads)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""
@@ -196,6 +243,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._recipe = replace(self._recipe, world=replace(world, models=models), time_step=step)
         self._fleet.time_step = step
         self._fleet.sweep = bool(world.profile.speculative_contacts)
+        self._loops = None
 
     def _cut_at(self, height: float) -> None:
         """Cut shapes at one more height [m], for rays."""

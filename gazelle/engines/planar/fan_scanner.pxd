@@ -7,9 +7,10 @@ from gazelle.engines.planar.bodies cimport Bodies
 from gazelle.engines.planar.front_faces cimport FrontFaces
 from gazelle.engines.planar.lanes cimport Lanes
 from gazelle.engines.planar.viewpoint cimport Viewpoint
+from gazelle.native.system cimport System
 
 
-cdef class FanScanner:
+cdef class FanScanner(System):
     cdef public FanScanner next
     cdef readonly Bodies bodies
     cdef readonly Beams beams
@@ -28,7 +29,7 @@ cdef class FanScanner:
     cdef public long long seed, tick
     cdef PyThread_type_lock lock
 
-    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long now) noexcept nogil
+    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
     cdef void work(
         self, long long[::1] owners, Py_ssize_t first, Py_ssize_t last, long long tick,
         Py_ssize_t part) noexcept nogil

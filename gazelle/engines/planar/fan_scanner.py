@@ -1,4 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
+# mypy: disable-error-code="misc, name-defined"
 """Scan with the same fan on some bodies of all worlds, in the way that is fastest there."""
 
 # ruff: noqa: F821  # locks are names of the .pxd
@@ -22,6 +23,7 @@ from cython.cimports.gazelle.engines.planar.scan_columns import (
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
 from cython.cimports.gazelle.native.elementary import cos, sin
+from cython.cimports.gazelle.native.system import System
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
@@ -30,7 +32,7 @@ MANY = cython.declare(cython.int, 256)  # statics in view from which hidden ones
 PLACES = cython.declare(cython.longlong, 1 << 40)  # of numbers for angles, after those of ranges
 
 
-class FanScanner:
+class FanScanner(System):
     """The same fan on some bodies, and what one thread needs to scan with it.
 
     Args:
@@ -59,11 +61,11 @@ class FanScanner:
     """
 
     def __cinit__(self) -> None:
-        self.lock = PyThread_allocate_lock()  # type: ignore[name-defined]
+        self.lock = PyThread_allocate_lock()
 
     def __dealloc__(self) -> None:
         if self.lock != cython.NULL:
-            PyThread_free_lock(self.lock)  # type: ignore[name-defined]
+            PyThread_free_lock(self.lock)
 
     def __init__(
         self,
@@ -74,6 +76,7 @@ class FanScanner:
         mounts: Floats,
         middles: Floats,
     ) -> None:
+        System.__init__(self, max(1, len(mounts)))
         self.beams, self.at, self.bodies, self.lanes = beams, at, at.bodies, lanes
         self.front, self.mounts, self.middles = front, mounts, middles
         self.next: Any = None
@@ -103,20 +106,22 @@ class FanScanner:
         with cython.nogil:
             self.work(rows, begin, end, when, which)
 
-    def update(self, first: int, last: int, now: int) -> None:
-        """Scan in the worlds first to last; any number of threads may, each in its own worlds."""
-        sensors = self.mounts.shape[0]
+    def update(self, first: int, last: int, time: int) -> None:
+        """Scan with the sensors first to last; any number of threads may, each with its own.
+
+        ``time`` counts scans: noise depends on it.
+        """
         if not cython.compiled:
-            self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
-        elif PyThread_acquire_lock(self.lock, 0):  # type: ignore[name-defined]
-            self.work(self.owners, first * sensors, last * sensors, self.tick, 0)
-            PyThread_release_lock(self.lock)  # type: ignore[name-defined]
+            self.work(self.owners, first, last, time, 0)
+        elif PyThread_acquire_lock(self.lock, 0):  # of the .pxd
+            self.work(self.owners, first, last, time, 0)
+            PyThread_release_lock(self.lock)
         elif self.next is not None:
-            self.next.update(first, last, now)
+            self.next.update(first, last, time)
         else:
-            PyThread_acquire_lock(self.lock, 1)  # type: ignore[name-defined]
-            PyThread_release_lock(self.lock)  # type: ignore[name-defined]
-            self.update(first, last, now)
+            PyThread_acquire_lock(self.lock, 1)
+            PyThread_release_lock(self.lock)
+            self.update(first, last, time)
 
     def work(self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int) -> None:
         """See ``scan``."""

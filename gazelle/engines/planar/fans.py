@@ -12,19 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.beams import Beams
-from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.clear_space import ClearSpace
 from gazelle.engines.planar.fan_scanner import FanScanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.lanes import Lanes
 from gazelle.engines.planar.scan_columns import ALL, CROWDED, SINGLY
 from gazelle.engines.planar.small_scene import front_faces_of
-from gazelle.engines.planar.taped_scans import TapedScan
 from gazelle.engines.planar.viewpoint import Viewpoint
 from gazelle.errors import EngineError
+from gazelle.native.system import System
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
 _SIDE_BY_SIDE = 32  # beams of a bundle
@@ -175,7 +173,7 @@ class Scanner:
         if way != ALL:
             clear = fleet.scene.clearing(solid=solid and fan.begin == 0.0)
             there = ClearSpace(clear.fine, clear.start, clear.items, clear.clear)
-        tables, made = tables_of(fleet), None
+        tables, made = fleet.bodies, None
         for _ in range(fleet.crew.size):
             beams = Beams(fan.angles, fan.step, fan.reach, fan.begin, _ANGLES)
             front = None if way != ALL or len(self.names) else front_faces_of(fleet)
@@ -227,29 +225,10 @@ class Scanner:
         self.tick += 1
         return self.ranges if worlds is None else self.ranges[:count]
 
-    # -- tapes -------------------------------------------------------------------------
-
-    def call(self) -> Call | None:
-        """What scans everywhere where one thread does all; None if that is not all there is."""
-        if not self._alone or self.noise is not None:
-            return None
-        return self._taped.call()
-
-    def surroundings(self) -> tuple[Any, ...]:
-        """What ``kernels_scan.scan`` works on of the fleet, but for the largest radius."""
-        return self._taped.surroundings()
-
-    def arguments(self, part: int) -> tuple[Any, ...]:
-        """What ``kernels_scan.scan`` works on for one thread, but for the fleet and results."""
-        return self._taped.arguments(part)
-
-    @cached_property
-    def _taped(self) -> TapedScan:
-        fan, results = self.fan, (self.owners, self._flat, self.names)
-        begin = 1.0 / fan.begin if fan.begin > 0.0 else math.inf
-        row = np.array([fan.start, 1.0 / fan.step, fan.reach, begin, _ANGLES])
-        own = (self._outline, self._middles, self._mounts)
-        return TapedScan(self.fleet, fan.angles, results, row, *own)
+    @property
+    def system(self) -> System:
+        """What scans everywhere; its time counts scans, on which noise depends."""
+        return self._native
 
     # -- what was met ------------------------------------------------------------------
 
@@ -282,26 +261,6 @@ class Scanner:
     def _owners_in(self, worlds: Worlds) -> NDArray[np.int64]:
         rows = worlds[:, None] * self.fleet.nbody + self._carriers
         return np.ascontiguousarray(rows.ravel(), np.int64)
-
-
-def tables_of(fleet: Fleet) -> Bodies:
-    """The tables of a fleet, as native scanners see them; what is in them may change."""
-    scene = fleet.scene
-    return Bodies(
-        nbody=fleet.nbody,
-        nworld=fleet.nworld,
-        widest=fleet.widest,
-        rows=fleet.rows,
-        kinds=fleet.kinds,
-        looks=fleet.looks,
-        statics=scene.table.rows,
-        lanes=scene.lanes,
-        grid=scene.grid,
-        start=scene.start,
-        items=scene.items,
-        head=fleet.head,
-        follow=fleet.follow,
-    )
 
 
 def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:

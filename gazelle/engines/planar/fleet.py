@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -12,14 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats
 from gazelle.engines.limits import physics_step, whole_number
-from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import kernels_step
+from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.crew import Crew
-from gazelle.engines.planar.kernels_grid import relink
+from gazelle.engines.planar.grid_cells import relink, relink_some
+from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
 from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
 from gazelle.errors import EngineError
+from gazelle.native.loop import SystemLoop
+from gazelle.native.system import System
 
 DriveKind = Literal["diff", "omni", "car"]
 
@@ -108,7 +110,7 @@ class Fleet:
         nworld, time_step = whole_number("nworld", nworld), physics_step(time_step)
         threads = None if threads is None else whole_number("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
-        self.time_step, self.euler, self.sweep = time_step, euler, sweep
+        self.euler = euler
         self.crew = Crew(threads)
         self._describe(bodies)
         first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
@@ -120,6 +122,9 @@ class Fleet:
         side = max(cell, 2.0 * self._widest)
         self.scene = scene_of(statics, extent, side, nbody=self.nbody, nworld=nworld)
         self._make_state()
+        self.bodies: Any = self._tables(time_step, sweep=sweep)
+        self._loop: SystemLoop | None = None
+        self._relink(slice(None))
 
     def _describe(self, bodies: Sequence[Body]) -> None:
         """Fill the tables of what the bodies are; equal parts are stored once."""
@@ -167,7 +172,38 @@ class Fleet:
         self.head = np.full((self.nworld, self.scene.cells), -1, np.int32)
         self.follow = np.full(total, -1, np.int32)
         self.cell = np.full(total, -1, np.int32)
-        self._relink(slice(None))
+
+    def _tables(self, time_step: float, *, sweep: bool) -> Bodies:
+        """All of this as kernels see it."""
+        scene = self.scene
+        return Bodies(
+            nbody=self.nbody, nworld=self.nworld, dt=time_step, widest=self._widest,
+            euler=self.euler, sweep=sweep, rows=self.rows, goal=self.goal, command=self._command,
+            velocity=self._velocity, kinds=self.kinds, drives=self.drives, pieces=self.pieces,
+            corners=self.corners, looks=self.looks, statics=scene.table.rows, lanes=scene.lanes,
+            grid=scene.grid, start=scene.start, items=scene.items, head=self.head,
+            follow=self.follow, cell=self.cell, state=self._state,
+            stalled=self._stalled.view(np.uint8), way=np.zeros(len(self.rows)),
+        )  # fmt: skip
+
+    @property
+    def time_step(self) -> float:
+        """Of a step [s]; settable."""
+        return float(self.bodies.dt)
+
+    @time_step.setter
+    def time_step(self, seconds: float) -> None:
+        self.bodies.dt = seconds
+
+    @property
+    def sweep(self) -> bool:
+        """Whether to look for what is in the way within a step too; settable."""
+        return bool(self.bodies.sweep)
+
+    @sweep.setter
+    def sweep(self, wanted: bool) -> None:
+        self.bodies.sweep = wanted
+        self._loop = None
 
     @property
     def initial(self) -> Floats:
@@ -276,17 +312,14 @@ class Fleet:
         self._relink(rows)
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:
-        """Keep the lists of the grid right for some bodies."""
+        """Keep the lists of the grid right for some bodies, which were put somewhere."""
         which = np.arange(len(self.rows))[rows]
-        if len(which) == len(self.rows):
-            relink(0, len(self.rows), self.nbody, *self.lists())
+        if not len(which):
             return
-        for b in which.tolist():
-            relink(b, b + 1, self.nbody, *self.lists())
-
-    def lists(self) -> tuple[Any, ...]:
-        """What ``kernels_grid.relink`` works on, after the range and the number of bodies."""
-        return self.scene.grid, self.rows, self.head, self.follow, self.cell
+        if len(which) == len(self.rows):
+            relink(self.bodies, 0, len(which))
+        else:
+            relink_some(self.bodies, np.ascontiguousarray(which))
 
     # -- time --------------------------------------------------------------------------
 
@@ -297,69 +330,29 @@ class Fleet:
             EngineError: It is no number of steps.
         """
         count = whole_number("the number of steps", count, 0)
-        if self.alone:
-            self._advance(0, self.nworld, count)
-            return
-        if self.nworld > 1:
-            least = max(1, -(-_SHARE // max(self.nbody, 1)))
-            self.crew.share(lambda a, b, _: self._advance(a, b, count), self.nworld, least)
-            return
-        for _ in range(count):
-            parts = self._looks() if self.sweep else 1
-            for _ in range(parts):
-                self._step_together(self.time_step / parts)
+        if self._loop is None:
+            self._loop = SystemLoop(self.systems(), self.nworld, 1, self.crew)
+        self._loop.time = 0
+        self._loop.run(count, self.threads)
+
+    def systems(self) -> list[System]:
+        """What makes a step: to be updated in this order.
+
+        Large worlds are shared among threads, each of many worlds is stepped by one.
+        """
+        if self.nworld >= 2 * self.crew.size or self.alone or self.sweep:
+            return [Moving(self.bodies)]
+        return [Planning(self.bodies), Screening(self.bodies), Settling(self.bodies)]
+
+    @property
+    def threads(self) -> int:
+        """How many threads are worth it; 0 for all."""
+        return 1 if self.alone else 0
 
     @property
     def alone(self) -> bool:
         """Whether one thread does all of a step."""
         return self.crew.size == 1 or self.nworld * self.nbody < 2 * _SHARE
-
-    def call(self) -> Call:
-        """What makes a step where one thread does all."""
-        return self._kernel, (0, self.nworld * self.nbody, 1, *self.arguments())
-
-    @property
-    def _kernel(self) -> Callable[..., None]:
-        return kernels_step.advance_swept if self.sweep else kernels_step.advance
-
-    def _advance(self, first: int, last: int, count: int) -> None:
-        self._kernel(first * self.nbody, last * self.nbody, count, *self.arguments())
-
-    def _looks(self) -> int:
-        """Into how many parts the step of one world is cut."""
-        own = (self.drives, self._command, self._velocity, self.kinds, self.time_step)
-        return int(kernels_step.looks(0, self.nbody, *own))
-
-    def arguments(self) -> tuple[Any, ...]:
-        """What ``kernels_step.advance`` works on, after the range and the count."""
-        return (
-            self._widest, self.drives, self._command, self._velocity, self.rows, self.goal,
-            self._state, self._stalled, self.time_step, self.euler, self.kinds, self.pieces,
-            self.corners, *self._statics(), self.head, self.follow, self.cell,
-        )  # fmt: skip
-
-    def _step_together(self, dt: float) -> None:
-        """A step [s] of one large world, by several threads."""
-        ways = self.crew.share(
-            lambda a, b, _: kernels_step.plan(
-                a, b, self.drives, self._command, self._velocity, self.rows, self.goal,
-                self._state, dt, self.euler, self.kinds, self.pieces, self.corners,
-                *self._statics(),
-            ),
-            self.nbody,
-            _SHARE,
-        )  # fmt: skip
-        reach = self._widest + max(ways)
-        bodies = (self.kinds, self.pieces, self.corners, self.rows, self.goal, self._state)
-        lists = (self.scene.grid, self.head, self.follow)
-        self.crew.share(
-            lambda a, b, _: kernels_step.screen(a, b, reach, *bodies, *lists), self.nbody, _SHARE
-        )
-        kernels_step.settle(0, self.nbody, reach, *bodies, self._stalled, *lists, self.cell)
-
-    def _statics(self) -> tuple[Any, ...]:
-        scene = self.scene
-        return scene.table.rows, scene.grid, scene.start, scene.items, scene.lanes
 
     def close(self) -> None:
         """End the threads."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import cython
 from cython.cimports.gazelle.engines.planar.beams import Candidates
 from cython.cimports.gazelle.engines.planar.columns import FAMILY, RADIUS, X, Y
+from cython.cimports.gazelle.engines.planar.grid_cells import place_in
 from cython.cimports.gazelle.engines.planar.lanes import Lanes
 from cython.cimports.gazelle.engines.planar.scan_columns import (
     C_FIRST,
@@ -22,7 +23,6 @@ from cython.cimports.gazelle.engines.planar.scan_columns import (
     LANE_X,
     LANE_Y,
 )  # fmt: skip
-from cython.cimports.gazelle.engines.planar.viewpoint import place_in
 
 INF = cython.declare(cython.double, float("inf"))
 CROWD = cython.declare(cython.int, 128)  # bodies that are met at once

@@ -126,7 +126,7 @@ def primitives_of(parts: Iterable[Part]) -> Table:
             ends = np.roll(ring, -1, axis=0) if part.closed else ring[1:]
             lines = np.hstack((ring if part.closed else ring[:-1], ends))
         kind = c.CIRCLE if part.radius > 0.0 else c.SEGMENT
-        kind += (0.0 if part.solid else c.GHOST) + (0.0 if part.closed else c.OPEN)
+        kind += (0 if part.solid else c.GHOST) + (0 if part.closed else c.OPEN)
         same = np.tile([part.low, part.high, part.glow, kind], (len(lines), 1))
         found.rows.append(np.hstack((lines, same)))
         found.tags.append(np.full(len(lines), part.tag))

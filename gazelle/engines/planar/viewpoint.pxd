@@ -3,7 +3,6 @@ from gazelle.engines.planar.beams cimport Beams, Candidates
 from gazelle.engines.planar.bodies cimport Bodies
 
 
-cdef Py_ssize_t place_in(double value, double corner, double side, double count) noexcept nogil
 
 
 @cython.final

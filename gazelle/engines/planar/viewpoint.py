@@ -15,7 +15,8 @@ from cython.cimports.gazelle.engines.planar import columns as col
 from cython.cimports.gazelle.engines.planar import scan_columns as scan
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.libc.math import floor, sqrt
+from cython.cimports.gazelle.engines.planar.grid_cells import place_in
+from cython.cimports.libc.math import sqrt
 
 from gazelle.array_types import Floats
 
@@ -24,13 +25,6 @@ RINGS = cython.declare(cython.int, 16)  # by which bodies are sorted
 FEW = cython.declare(cython.int, 48)  # beams from which it pays to find out which ones are missed
 BLOCK = cython.declare(cython.int, 64)  # primitives that are prepared at once
 CROWD = cython.declare(cython.int, 128)  # bodies that are sorted at once
-
-
-def place_in(value: float, corner: float, side: float, count: float) -> int:
-    """Column or row of a coordinate in a grid."""
-    f = floor((value - corner) / side)
-    cell: int = cython.cast(cython.Py_ssize_t, min(max(f, 0.0), count - 1.0))
-    return cell
 
 
 class Viewpoint:

@@ -14,7 +14,7 @@ from gazelle.envs.options import (
     read_options,
 )
 from gazelle.envs.single_env import TaskEnv
-from gazelle.envs.turtlebot3.swift_task import make_task
+from gazelle.envs.turtlebot3.task import TurtleBot3Task
 from gazelle.envs.vector_env import TaskVectorEnv
 
 
@@ -171,7 +171,7 @@ class TurtleBot3Env(TaskEnv):
 
     def __init__(self, stage: int = 1, **options: Unpack[NavigationOptions]) -> None:
         settings = read_options(NavigationSettings, options)
-        task = make_task(stage, 1, continuous=self.continuous, settings=settings)
+        task = TurtleBot3Task(stage, 1, continuous=self.continuous, settings=settings)
         super().__init__(task, seed=settings.seed, render_mode=settings.render_mode)
 
 
@@ -240,7 +240,7 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
     ) -> None:
         check_whole("num_envs", num_envs, 1)
         settings = read_options(NavigationSettings, options)
-        task = make_task(stage, num_envs, continuous=self.continuous, settings=settings)
+        task = TurtleBot3Task(stage, num_envs, continuous=self.continuous, settings=settings)
         super().__init__(
             task,
             seed=settings.seed,

@@ -23,16 +23,20 @@ class Sight:
     Attributes:
         ranges: Cleaned ranges [m], shape (n, samples), numbers of single precision.
         nearest: Shortest of them [m], shape (n,).
+        rounded: The same, rounded to 0.01 m, shape (n,).
         ray: Its index, shape (n,).
         distance: To the goal, rounded to 0.01 m, shape (n,).
         heading: Of the goal, rounded to 0.01 rad, shape (n,).
+        position: Of the robots in the world frame [m], shape (n, 2).
     """
 
     ranges: Floats
     nearest: Floats
+    rounded: Floats
     ray: NDArray[np.intp]
     distance: Floats
     heading: Floats
+    position: Floats
 
 
 def sight(
@@ -40,8 +44,7 @@ def sight(
     *,
     ranges: Floats,
     range_min: float,
-    position: Floats,
-    yaw: Floats,
+    pose: Floats,
     goal: Floats,
 ) -> Sight:
     """Work out what the robots see.
@@ -50,8 +53,7 @@ def sight(
         rules: Of the stage.
         ranges: As the lidar reports them [m], shape (n, samples).
         range_min: The lidar's nearest distance [m].
-        position: Of the robots in the world frame [m], shape (n, 3).
-        yaw: Of the robots [rad], shape (n,).
+        pose: Of the robots in the world frame: x, y [m] and heading [rad], shape (n, 3).
         goal: In the world frame [m], shape (n, 2).
     """
     cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
@@ -59,13 +61,9 @@ def sight(
     # ranges here comes out the same from those.
     cleaned = cleaned.astype(np.float32).astype(np.float64)
     nearest, ray = nearest_obstacle(cleaned)
-    return Sight(
-        ranges=cleaned,
-        nearest=nearest,
-        ray=ray,
-        distance=round2(distance_to(position, goal)),
-        heading=round2(heading_to(position, yaw, goal)),
-    )
+    heading = heading_to(pose, pose[:, 2], goal)
+    rounded, distance, heading = round2(np.stack((nearest, distance_to(pose, goal), heading)))
+    return Sight(cleaned, nearest, rounded, ray, distance, heading, pose[:, :2])
 
 
 def observation(rules: Rules, seen: Sight) -> Floats32:
@@ -76,7 +74,7 @@ def observation(rules: Rules, seen: Sight) -> Floats32:
     """
     columns: list[NDArray[Any]] = [seen.ranges, seen.heading[:, None], seen.distance[:, None]]
     if rules.sees_obstacle:
-        columns += [round2(seen.nearest)[:, None], seen.ray[:, None]]
+        columns += [seen.rounded[:, None], seen.ray[:, None]]
     return np.concatenate(columns, axis=1, dtype=np.float32)
 
 

@@ -46,8 +46,7 @@ def travelling_reward(
         index: Of the action, see ``turn_index``, shape (n,).
         distance: To the goal, rounded [m], shape (n,).
         start_distance: To this goal when it was set, rounded [m], shape (n,).
-        nearest: Shortest range [m], shape (n,); it is rounded to 0.01 m here, as in the published
-            state.
+        nearest: Shortest range, rounded as in the published state [m], shape (n,).
 
     Returns:
         ``round(5 * turning_reward, 2) * 2 ** (distance / start_distance)`` plus the obstacle
@@ -55,7 +54,7 @@ def travelling_reward(
     """
     turning = round2(turning_reward(heading, index) * 5.0)
     rate = np.exp2(distance / start_distance)
-    near = np.where(round2(nearest) < rules.obstacle_range, rules.obstacle_reward, 0.0)
+    near = np.where(nearest < rules.obstacle_range, rules.obstacle_reward, 0.0)
     reward: Floats = turning * rate + near
     return reward
 

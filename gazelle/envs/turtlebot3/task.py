@@ -29,7 +29,6 @@ from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules
 from gazelle.envs.turtlebot3.scene import COMMAND, Scene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.errors import TaskError
-from gazelle.rotations import yaw_of
 from gazelle.sensors import SensorModel, View, look_at
 from gazelle.simulation.scene_renderer import SceneRenderer
 from gazelle.streams import Stream
@@ -176,7 +175,7 @@ class TurtleBot3Task(BatchedTask):
             index=turn_index(angular),
             distance=seen.distance,
             start_distance=self._start_distance,
-            nearest=seen.nearest,
+            nearest=seen.rounded,
         )
         reward = overrule(self.rules, reward, collided=crashed, reached=arrived)
         self._goals_reached += arrived
@@ -198,20 +197,18 @@ class TurtleBot3Task(BatchedTask):
 
     def _see(self, worlds: Worlds | None) -> Sight:
         scene = self.scene
-        place = scene.robot.placement(worlds)
         rows = slice(None) if worlds is None else worlds
         return sight(
             self.rules,
             ranges=scene.robot.sensors[scene.lidar.sensor].measure(worlds),
             range_min=scene.lidar.lidar.range_min,
-            position=place.position,
-            yaw=yaw_of(place.quaternion),
+            pose=scene.robot.planar_pose(worlds),
             goal=self.goals.points[self._goal[rows]],
         )
 
     def _next_goals(self, worlds: Worlds) -> None:
         self._goal[worlds] = self.goals.after(self._goal[worlds], self._draw(worlds))
-        position, goal = self.scene.robot.placement(worlds).position, self._goal[worlds]
+        position, goal = self.scene.robot.planar_pose(worlds), self._goal[worlds]
         self._set_start(worlds, round2(distance_to(position, self.goals.points[goal])))
 
     def _set_start(self, worlds: Worlds, distance: NDArray[np.float64]) -> None:
@@ -228,7 +225,7 @@ class TurtleBot3Task(BatchedTask):
             "distance": seen.distance,
             "heading": seen.heading,
             "goal": self.goals.points[self._goal[worlds]],
-            "position": self.scene.robot.placement(worlds).position[:, :2],
+            "position": seen.position,
             "goals_reached": self._goals_reached[worlds],
         }
 

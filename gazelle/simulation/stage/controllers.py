@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.native import Call
-from gazelle.engines.planar.kernels_clock import tally
-from gazelle.engines.planar.kernels_wander import FEW, wander
+from gazelle.engines.planar.wandering import Wandering
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
+from gazelle.native.system import System
 from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.streams import Stream
 
@@ -30,6 +29,7 @@ TURN = 0.5  # [rad/s]
 FRONT = 1.0  # distance ahead at which it turns away [m]
 STOP = 0.3  # distance at which it stands [m]
 PATIENCE = 10  # least updates that it turns for, and how many more it may
+FEW: Final = 8  # samples with which Stage's own does not run
 DEVIATION = 0.05  # of lasernoise [m]
 _SHARE = 64  # robots that are worth a thread
 
@@ -40,8 +40,8 @@ class Controller(Protocol):
     def update(self) -> None:
         """Act on the state between two steps: read scans, write commands."""
 
-    def calls(self) -> list[Call] | None:
-        """What ``update`` does in native code; None if it does more."""
+    def systems(self) -> list[System] | None:
+        """What ``update`` does in native code, step by step; None if it does more."""
         return None
 
     def reset(self) -> None:
@@ -106,43 +106,46 @@ class Wander:
         self._bodies = (worlds * fleet.nbody + own).ravel()
         self._sensors = (worlds * len(simulation.mounts[scanner]) + places).ravel()
         self._mood = np.zeros((len(self._bodies), 2), np.int64)
-        self._manner = np.array([CRUISE, CREEP, TURN, FRONT, STOP, PATIENCE], np.float64)
-        self._command = fleet.command.reshape(-1, 3)
-        self._ranges = self._flat = np.zeros((0, 0))
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
-        self._seed, self._clock = int(key >> np.uint64(1)), np.zeros(1, np.int64)
+        self._seed = int(key >> np.uint64(1))
+        self._made: tuple[Floats, Wandering] | None = None
 
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
-        ranges = self._simulation.scan(self._scanner)
-        if ranges is not self._ranges:
-            self._ranges, self._flat = ranges, ranges.reshape(-1, ranges.shape[-1])
-        own = self._own(self._flat)
+        law, steps = self._law(self._simulation.scan(self._scanner)), self._simulation.steps
         self._simulation.fleet.crew.share(
-            lambda first, last, _: wander(first, last, *own), len(self._bodies), _SHARE
+            lambda first, last, _: law.choose(first, last, steps), len(self._bodies), _SHARE
         )
-        tally(self._clock)
 
-    def calls(self) -> list[Call] | None:
-        """See `Controller.calls`."""
-        scan = self._simulation.scan_call(self._scanner)
-        if scan is None:
-            return None
-        look, ranges = scan
-        own = (0, len(self._bodies), *self._own(ranges))
-        return [look, (wander, own), (tally, (self._clock,))]
+    def systems(self) -> list[System] | None:
+        """See `Controller.systems`."""
+        looking = self._simulation.scan_system(self._scanner)
+        return None if looking is None else [looking[0], self._law(looking[1])]
 
     def reset(self) -> None:
         """Start over."""
         self._mood[:] = 0
-        self._clock[:] = 0
 
-    def _own(self, ranges: Floats) -> tuple[Any, ...]:
-        """What ``wander`` takes after the range, for what is seen, a row a sensor."""
-        return (
-            self._manner, self._seed, self._clock, self._sensors, self._bodies, ranges,
-            self._command, self._mood,
-        )  # fmt: skip
+    def _law(self, ranges: Floats) -> Wandering:
+        """What chooses by what is seen; kept while that is written to the same place."""
+        if self._made is None or self._made[0] is not ranges:
+            law = Wandering(
+                self._simulation.fleet.bodies,
+                ranges.reshape(-1, ranges.shape[-1]),
+                self._sensors,
+                self._bodies,
+                self._mood,
+                nworld=self._simulation.nworld,
+                seed=self._seed,
+                cruise=CRUISE,
+                creep=CREEP,
+                turn=TURN,
+                front=FRONT,
+                stop=STOP,
+                patience=PATIENCE,
+            )
+            self._made = ranges, law
+        return self._made[1]
 
 
 class LaserNoise:
@@ -158,7 +161,7 @@ class LaserNoise:
     def update(self) -> None:
         """Nothing: the noise is in the scans."""
 
-    def calls(self) -> list[Call]:
+    def systems(self) -> list[System]:
         """None: as ``update``."""
         return []
 

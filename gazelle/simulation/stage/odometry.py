@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.native import Call
-from gazelle.engines.planar.kernels_odometry import reckon
+from gazelle.engines.planar.reckoning import Reckoning
 from gazelle.simulation.stage.layout import StageRobot
 from gazelle.streams import Stream
 
@@ -51,15 +50,14 @@ class Odometry:
         self.share = np.zeros_like(self.pose)
         self._draw(None)
 
-    def call(self, velocity: Floats, dt: float) -> Call:
+    def system(self, velocity: Floats, dt: float) -> Reckoning:
         """What adds a step of ``dt`` at body velocities, shape (nworld, n, 3).
 
         Of the n the first are the robots; the array is contiguous.
         """
-        nworld, count, _ = self.pose.shape
         rows = (velocity.reshape(-1, 3), self.share.reshape(-1, 3), self.pose.reshape(-1, 3))
-        own = (0, nworld * count, count, velocity.shape[1], *rows, dt, self._euler)
-        return reckon, own
+        size = {"count": self.pose.shape[1], "stride": velocity.shape[1]}
+        return Reckoning(*rows, **size, dt=dt, euler=self._euler)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over; robots draw again, or the same as at first if it is for all worlds."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.native import Call
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError
+from gazelle.native.system import System
 from gazelle.simulation.stage.layout import Layout
 from gazelle.simulation.stage.scans import Eyes, RangeNoise
 
@@ -46,13 +46,15 @@ class Rangers:
             self._seen[scanner] = self._eye(scanner).scan()
         return self._seen[scanner]
 
-    def call(self, scanner: int) -> tuple[Call, Floats] | None:
-        """See `Eyes.call`.
+    def system(self, scanner: int) -> tuple[System, Floats] | None:
+        """What scans in native code, and where it writes, a row a sensor; None if that is not all.
 
         Raises:
             SimulationError: There is no such scanner.
         """
-        return self._eye(scanner).call()
+        eye = self._eye(scanner)
+        system = eye.system()
+        return None if system is None else (system, eye.flat_ranges)
 
     def returns(self, scanner: int, place: int, world: int) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.native import Call
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.astray import AstrayScanner
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.native.system import System
 from gazelle.streams import Stream
 
 
@@ -76,10 +76,15 @@ class Eyes:
         measured: Floats = np.where(ranges < self.fan.reach, ranges + off, ranges)
         return np.clip(measured, 0.0, self.fan.reach, out=measured)
 
-    def call(self) -> tuple[Call, Floats] | None:
-        """What scans in native code, and where it writes, a row a sensor; None if that is not all."""
-        made = None if any(self._noisy) else self._scanner.call()
-        return None if made is None else (made, self._scanner.flat_ranges)
+    def system(self) -> System | None:
+        """What scans in native code; None if that is not all."""
+        noisy = any(self._noisy) or bool(self._noise.angle.any())
+        return None if noisy else self._scanner.system
+
+    @property
+    def flat_ranges(self) -> Floats:
+        """Where it writes, a row a sensor."""
+        return self._scanner.flat_ranges
 
     def returns(self, sensor: int, world: int = 0) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.

@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageWorld, World
-from gazelle.engines.native import Call, Tape
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage.building import no_garbage
+from gazelle.native.loop import SystemLoop
+from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import Controller, make_controllers
@@ -111,7 +112,11 @@ class StageSimulation(Senses):
         self.devices = Devices(self)
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
-        self._tape = Tape()
+        self._moving = self.fleet.systems()
+        self._reckoning: System | None = None
+        if self._odometry.needed:
+            self._reckoning = self._odometry.system(self.fleet.velocity, self.time_step)
+        self._loop: SystemLoop | None = None
         self._closed = False
 
     # -- what there is -----------------------------------------------------------------
@@ -125,6 +130,11 @@ class StageSimulation(Senses):
     def time(self) -> float:
         """Simulated time [s]."""
         return self.clock.now
+
+    @property
+    def steps(self) -> int:
+        """Number of steps since the start."""
+        return self.clock.now_ns // self.clock.step_ns
 
     def robot(self, name: str) -> StageRobot:
         """A robot by the name that the file gives it.
@@ -206,13 +216,13 @@ class StageSimulation(Senses):
         """
         return self._rangers.scan(scanner)
 
-    def scan_call(self, scanner: int) -> tuple[Call, Floats] | None:
+    def scan_system(self, scanner: int) -> tuple[System, Floats] | None:
         """What scans in native code, and where it writes, a row a sensor; None if that is not all.
 
         Raises:
             SimulationError: There is no such scanner.
         """
-        return self._rangers.call(scanner)
+        return self._rangers.system(scanner)
 
     def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
         """What one sensor of a robot measures now [m], shape (samples,).
@@ -281,8 +291,7 @@ class StageSimulation(Senses):
         self.fleet.step()
         if self._odometry.needed:
             velocity = self.velocities if self._steering.needed else self.fleet.velocity
-            reckon, own = self._odometry.call(velocity, self.time_step)
-            reckon(*own)
+            self._odometry.system(velocity, self.time_step).reckon()
         if self.devices:
             self.devices.update(self.time_step)
         self.clock.advance(leapt + 1)
@@ -299,27 +308,28 @@ class StageSimulation(Senses):
         if not self._controllers and not self._odometry.needed:
             self.fleet.step(count)
             return count
-        calls = self._calls()
-        if calls is None:
+        systems = self._systems()
+        if systems is None:
             return 0
-        self._tape.play(calls, count)
+        if self._loop is None or self._loop.systems != systems:
+            self._loop = SystemLoop(systems, self.nworld, 1, self.fleet.crew)
+        self._loop.time = self.steps
+        self._loop.run(self.steps + count, self.fleet.threads)
         self._forget()
         return count
 
-    def _calls(self) -> list[Call] | None:
+    def _systems(self) -> list[System] | None:
         """What a step comes to in native code; None if that is not all."""
-        if not self.fleet.alone or (self._odometry.needed and self._steering.needed):
+        if self._odometry.needed and self._steering.needed:
             return None
-        calls: list[Call] = []
+        systems: list[System] = []
         for controller in self._controllers:
-            its = controller.calls()
+            its = controller.systems()
             if its is None:
                 return None
-            calls += its
-        calls.append(self.fleet.call())
-        if self._odometry.needed:
-            calls.append(self._odometry.call(self.fleet.velocity, self.time_step))
-        return calls
+            systems += its
+        systems += self._moving
+        return systems if self._reckoning is None else [*systems, self._reckoning]
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time.

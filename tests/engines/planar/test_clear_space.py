@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
 from gazelle.engines.planar import Body, Fan, Fleet, Mount, Part, Scanner
-from gazelle.engines.planar import kernels_march as k
+from gazelle.engines.planar import scan_columns as k
+from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clearing import clearing_of
 from gazelle.engines.planar.shapes import Table
 from gazelle.simulation.stage.sight import distances, outlines_of
@@ -122,7 +123,7 @@ def test_squares_are_the_largest_that_are_empty(seed):
     full, there = rng.random((2, rows, columns)) < 0.12
     start = np.concatenate(([0], np.cumsum(there.ravel()))).astype(np.int32)
     clear = np.zeros(5 * rows * columns, np.int8)
-    k.measure_clear(full.ravel().astype(np.int8), start, int(columns), clear)
+    measure_clear(full.ravel().astype(np.int8), start, int(columns), clear)
     squares = clear.reshape(5, rows, columns)
     taken = np.pad(full | there, 20)
     for row in range(rows):

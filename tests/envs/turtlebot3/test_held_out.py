@@ -14,7 +14,6 @@ from gazelle.description import Pose
 from gazelle.envs.options import NavigationSettings, held_out_options
 from gazelle.envs.turtlebot3.layout import Layout
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
-from gazelle.envs.turtlebot3.swift_task import SwiftTurtleBot3Task
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
 from gazelle.errors import TaskError
 from gazelle.plugins.scripted_motion import ScriptedMotion
@@ -102,11 +101,11 @@ def test_both_engines_have_the_same_episodes():
 
 def test_obstacles_stand_where_their_phase_says():
     settings = NavigationSettings(engine="planar", seed=2, **HELD_OUT)
-    task = SwiftTurtleBot3Task(3, 8, continuous=False, settings=settings)
+    task = TurtleBot3Task(3, 8, continuous=False, settings=settings)
     task.begin(np.arange(8))
     phases = task.scenario(np.arange(8))[:, 5]
-    plugins = [entry.plugin for entry in task.scene.simulation.plugins]
-    script = next(plugin for plugin in plugins if isinstance(plugin, ScriptedMotion))
+    loaded = [entry.plugin for entry in task.scene.simulation.plugins]
+    script = next(plugin for plugin in loaded if isinstance(plugin, ScriptedMotion))
     for _ in range(3):
         turn = np.angle(np.exp(1j * (script.robot.yaw - script.spin[2] * phases)))
         np.testing.assert_allclose(turn, turn[0], atol=1e-9)
@@ -115,22 +114,23 @@ def test_obstacles_stand_where_their_phase_says():
 
 
 @pytest.mark.parametrize("stage", [3, 4])
-def test_the_swift_task_begins_as_the_slow_one(stage):
+def test_a_task_on_systems_begins_as_one_on_plugins(stage):
     settings = NavigationSettings(
         engine="planar", seed=5, threads=1, respawn=False, max_episode_steps=25, **HELD_OUT
     )
-    slow, swift = (
-        kind(stage, 16, continuous=False, settings=settings)
-        for kind in (TurtleBot3Task, SwiftTurtleBot3Task)
+    plugins, systems = (
+        TurtleBot3Task(stage, 16, continuous=False, settings=settings) for _ in range(2)
     )
-    assert swift.swift is not None
+    plugins.scene.simulation.native = None  # plugins then act themselves
     everywhere = np.arange(16)
-    np.testing.assert_allclose(swift.begin(everywhere)[0], slow.begin(everywhere)[0], atol=1e-5)
+    np.testing.assert_allclose(
+        systems.begin(everywhere)[0], plugins.begin(everywhere)[0], atol=1e-5
+    )
     generator = np.random.default_rng(stage)
     begun = 0
     for _ in range(60):
         actions = generator.integers(0, 5, 16)
-        wanted, got = slow.step(actions), swift.step(actions)
+        wanted, got = plugins.step(actions), systems.step(actions)
         np.testing.assert_allclose(
             got.transition.observation, wanted.transition.observation, atol=1e-5
         )
@@ -139,7 +139,7 @@ def test_the_swift_task_begins_as_the_slow_one(stage):
             np.testing.assert_allclose(got.transition.info[name], values, atol=1e-9)
         begun += 0 if wanted.finals is None else len(wanted.finals.worlds)
     assert begun >= 32
-    for task in (slow, swift):
+    for task in (plugins, systems):
         task.close()
 
 

@@ -14,8 +14,7 @@ def state(stage, ranges):
         STAGES[stage],
         ranges=np.array([ranges]),
         range_min=0.12,
-        position=np.array([[0.1, 0.2, 0.0]]),
-        yaw=np.array([0.5]),
+        pose=np.array([[0.1, 0.2, 0.5]]),
         goal=np.array([[1.0, 1.0]]),
     )
     return observation(STAGES[stage], seen)

@@ -16,7 +16,7 @@ from gazelle.envs.options import NavigationSettings
 from gazelle.envs.turtlebot3.observations import observation, sight
 from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
 from gazelle.envs.turtlebot3.rules import STAGES
-from gazelle.envs.turtlebot3.swift_task import make_task
+from gazelle.envs.turtlebot3.task import TurtleBot3Task
 from gazelle.envs.turtlebot3.terminations import collided, reached
 
 lengths = st.floats(0.0, 3.5, width=32)
@@ -33,8 +33,7 @@ def judged(stage, ranges, position, yaw, goal, action, start_distance):
         rules,
         ranges=np.array([ranges], np.float64),
         range_min=node.TOO_NEAR,
-        position=np.array([[*position, 0.0]]),
-        yaw=np.array([yaw]),
+        pose=np.array([[*position, yaw]]),
         goal=np.array([goal]),
     )
     crashed, arrived = collided(rules, view.nearest), reached(rules, view.distance)
@@ -44,7 +43,7 @@ def judged(stage, ranges, position, yaw, goal, action, start_distance):
         index=np.array([float(action)]),
         distance=view.distance,
         start_distance=np.array([start_distance]),
-        nearest=view.nearest,
+        nearest=view.rounded,
     )
     reward = overrule(rules, reward, collided=crashed, reached=arrived)
     return observation(rules, view)[0], reward[0], crashed[0], arrived[0]
@@ -75,7 +74,7 @@ def test_a_step_is_the_nodes(stage, ranges, position, yaw, goal, action, cents):
 def test_what_an_environment_pays_is_what_the_node_pays_for_its_observation(stage, engine):
     nworld, rays = 32, 24
     settings = NavigationSettings(engine=engine, seed=3, threads=1, lidar_samples=rays)
-    task = make_task(stage, nworld, continuous=False, settings=settings)
+    task = TurtleBot3Task(stage, nworld, continuous=False, settings=settings)
     first, _ = task.begin(np.arange(nworld))
     start = first[:, rays + 1].astype(float).round(2)
     generator = np.random.default_rng(stage)

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from stage_samples import write
 
-from gazelle.engines.native import Tape
-from gazelle.engines.planar.kernels_wander import wander
+from gazelle.engines.planar.bodies import Bodies
+from gazelle.engines.planar.wandering import Wandering
+from gazelle.native.loop import SystemLoop
 from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation.stage import simulation as running
 
 SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"
 ROBOT = 'position ( size [.1 .1 .1] ctrl "wander" ' + SCANNER + " pose [{} {} 0 {}] )"
@@ -60,13 +62,15 @@ def stages_answer(ranges):
 @pytest.mark.parametrize("samples", [9, 10, 11, 180, 181])
 def test_it_answers_any_scan_as_stage_does(samples):
     random = np.random.default_rng(samples)
-    manner = np.array([0.4, 0.05, 0.5, 1.0, 0.3, 10])
+    manner = {"cruise": 0.4, "creep": 0.05, "turn": 0.5, "front": 1.0, "stop": 0.3, "patience": 10}
     for _ in range(200):
         nearest = random.choice([0.1, 0.5, 1.5])
         ranges = random.uniform(nearest, 8.0, (1, samples)) ** random.choice([1.0, 2.0])
         command, mood = np.zeros((1, 3)), np.zeros((1, 2), np.int64)
         zero = np.zeros(1, np.int64)
-        wander(0, 1, manner, 5, zero, zero, zero, ranges, command, mood)
+        bodies = Bodies(command=command)
+        law = Wandering(bodies, ranges, zero, zero, mood, nworld=1, seed=5, **manner)
+        law.choose(0, 1, 0)
         assert tuple(command[0, [0, 2]]) == stages_answer(ranges[0])
 
 
@@ -138,13 +142,13 @@ def test_many_steps_at_once_are_the_same_as_one_by_one(start, monkeypatch, what,
         for i in range(20)
     ) + wall(3.5, 3.5)
     played = []
-    play = Tape.play
 
-    def counted(tape, calls, count):
-        played.append(count)
-        play(tape, calls, count)
+    class Counted(SystemLoop):
+        def run(self, until, threads=0):
+            played.append(until - self.time)
+            super().run(until, threads)
 
-    monkeypatch.setattr(Tape, "play", counted)
+    monkeypatch.setattr(running, "SystemLoop", Counted)
     whole, single = start(text, seed=3, nworld=2), start(text, seed=3, nworld=2)
     whole.step(200)
     for _ in range(200):

@@ -1,0 +1,167 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
+"""Where bodies would go in a step: limits, drives and the way along an arc."""
+
+from __future__ import annotations
+
+import cython
+from cython.cimports.gazelle.engines.planar.bodies import Bodies
+from cython.cimports.gazelle.engines.planar.columns import (
+    BLOCKED,
+    BRAKE,
+    CAR,
+    COS,
+    DIFFERENTIAL,
+    DRIVE_KIND,
+    FASTEST,
+    MOVING,
+    PASSIVE,
+    PUSH,
+    RADIUS,
+    SIN,
+    SLOWEST,
+    STILL,
+    STRIDE,
+    WHEELBASE,
+    YAW,
+    X,
+    Y,
+    Z,
+)
+from cython.cimports.gazelle.native.elementary import cos, sin
+from cython.cimports.libc.math import ceil, floor, isfinite, sqrt
+
+MOST_LOOKS = 1000.0
+PI = 3.141592653589793
+
+
+def bounded(w: Bodies, value: float, k: int, axis: int) -> float:
+    """A velocity along an axis within the bounds of a drive."""
+    return min(max(value, w.drives[k, SLOWEST + axis]), w.drives[k, FASTEST + axis])
+
+
+def toward(w: Bodies, now: float, wanted: float, k: int, axis: int, dt: float) -> float:
+    """The velocity along an axis after a step, within a drive's bounds of acceleration."""
+    change = wanted - now
+    least, most = w.drives[k, BRAKE + axis] * dt, w.drives[k, PUSH + axis] * dt
+    return wanted if least <= change <= most else now + min(max(change, least), most)
+
+
+def turned(angle: float) -> tuple[float, float, float, float]:
+    """sin(a), cos(a), sin(a) / a and (1 - cos(a)) / a; by their series where a is small."""
+    if abs(angle) > 0.5:
+        s, c = sin(angle), cos(angle)
+        return s, c, s / angle, (1.0 - c) / angle
+    q = angle * angle
+    sine = 1.0 - q * (1.0 / 6.0) * (
+        1.0 - q * (1.0 / 20.0) * (
+            1.0 - q * (1.0 / 42.0) * (1.0 - q * (1.0 / 72.0) * (1.0 - q * (1.0 / 110.0) * (1.0 - q * (1.0 / 156.0))))
+        )
+    )  # fmt: skip
+    versed = 0.5 * (
+        1.0 - q * (1.0 / 12.0) * (
+            1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0) * (1.0 - q * (1.0 / 90.0) * (1.0 - q * (1.0 / 132.0))))
+        )
+    )  # fmt: skip
+    return angle * sine, 1.0 - q * versed, sine, angle * versed
+
+
+def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
+    """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
+
+    With ``euler`` the body slides along its old heading and then turns, as Stage has it; else
+    it goes along the arc, which is exact.
+    """
+    angle = turn * dt
+    sine, cosine, ahead, across = turned(angle)
+    forward, aside = vx * dt, vy * dt
+    if not w.euler:
+        forward, aside = ahead * forward - across * aside, across * forward + ahead * aside
+    c, s = w.rows[b, COS], w.rows[b, SIN]
+    w.goal[b, X] = w.rows[b, X] + c * forward - s * aside
+    w.goal[b, Y] = w.rows[b, Y] + s * forward + c * aside
+    w.goal[b, Z] = w.rows[b, Z]
+    yaw = w.rows[b, YAW] + angle
+    if abs(yaw) > PI:
+        yaw -= 2.0 * PI * floor(yaw / (2.0 * PI) + 0.5)
+    c, s = c * cosine - s * sine, s * cosine + c * sine
+    unit = 1.5 - 0.5 * (c * c + s * s)  # rounding errors would add up
+    w.goal[b, YAW], w.goal[b, COS], w.goal[b, SIN] = yaw, c * unit, s * unit
+
+
+def propose(w: Bodies, first: int, last: int, dt: float) -> float:
+    """Decide where the bodies first to last would go; returns the longest way of one [m].
+
+    They are counted through all worlds. A state becomes STILL, MOVING, or BLOCKED if the command
+    is no number.
+    """
+    kinds = w.drives.shape[0]
+    longest = 0.0
+    for b in range(first, last):
+        k = b % kinds
+        kind = cython.cast(cython.int, w.drives[k, DRIVE_KIND])
+        w.state[b] = STILL
+        if kind == PASSIVE:
+            continue
+        for axis in range(3):
+            wanted = w.command[b, axis]
+            if kind != CAR:
+                wanted = bounded(w, wanted, k, axis)
+            w.velocity[b, axis] = toward(w, w.velocity[b, axis], wanted, k, axis, dt)
+        vx, vy, turn = w.velocity[b, 0], w.velocity[b, 1], w.velocity[b, 2]
+        if kind in (DIFFERENTIAL, CAR):
+            vy = w.velocity[b, 1] = 0.0
+        if kind == CAR:
+            vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
+            vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
+        if vx == 0.0 and vy == 0.0 and turn == 0.0:
+            continue
+        go(w, b, vx, vy, turn, dt)
+        if not isfinite(w.goal[b, X] + w.goal[b, Y] + w.goal[b, YAW]):
+            w.state[b] = BLOCKED  # a command that is no number leads nowhere
+            w.velocity[b, 0] = w.velocity[b, 1] = w.velocity[b, 2] = 0.0
+            continue
+        w.state[b] = MOVING
+        longest = max(longest, vx * vx + vy * vy)
+    return sqrt(longest) * dt
+
+
+def fastest(w: Bodies, b: int, k: int, axis: int) -> float:
+    """How fast a body may go along an axis in this step."""
+    wanted = w.command[b, axis]
+    if w.drives[k, DRIVE_KIND] != CAR:
+        wanted = bounded(w, wanted, k, axis)
+    return max(abs(w.velocity[b, axis]), abs(wanted))
+
+
+def looks_on_the_way(w: Bodies, first: int, last: int) -> int:
+    """Into how many equal parts a step is cut so that no body goes farther than its stride.
+
+    At most 1,000: a command may be anything, and what goes farther than that jumps.
+    """
+    most = 1.0
+    for b in range(first, last):
+        k, d = b % w.nbody, b % w.drives.shape[0]
+        kind = cython.cast(cython.int, w.drives[d, DRIVE_KIND])
+        if kind == PASSIVE:
+            continue
+        ahead, aside, turn = fastest(w, b, d, 0), fastest(w, b, d, 1), fastest(w, b, d, 2)
+        if kind == CAR:
+            turn = ahead / w.drives[d, WHEELBASE]
+        way = (ahead + aside + turn * w.kinds[k, RADIUS]) * w.dt
+        most = max(most, ceil(min(way / w.kinds[k, STRIDE], MOST_LOOKS)))
+    return cython.cast(cython.Py_ssize_t, most)
+
+
+def commit(w: Bodies, first: int, last: int) -> int:
+    """Let the bodies first to last be where they may go; remember who could not."""
+    moved = 0
+    for b in range(first, last):
+        if w.state[b] == MOVING:
+            for c in range(6):
+                w.rows[b, c] = w.goal[b, c]
+            w.stalled[b] = 0
+            moved += 1
+        elif w.state[b] == BLOCKED:
+            w.stalled[b] = 1
+    return moved

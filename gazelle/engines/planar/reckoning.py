@@ -1,0 +1,68 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc"
+"""Where bodies believe they are, from what their wheels say."""
+
+from __future__ import annotations
+
+import cython
+from cython.cimports.gazelle.native.elementary import cos, sin
+from cython.cimports.gazelle.native.system import System
+from cython.cimports.libc.math import floor
+
+from gazelle.array_types import Floats
+
+PI = cython.declare(cython.double, 3.141592653589793)
+
+
+@cython.cclass
+class Reckoning(System):
+    """Those who reckon, a row each.
+
+    Args:
+        velocity: In the bodies' own frames: x, y [m/s], yaw [rad/s], shape (nworld * stride, 3).
+        share: By which they are wrong, shape (nworld * count, 3).
+        pose: Where they believe they are: x, y [m], heading [rad], shape (nworld * count, 3).
+        count: Of a world.
+        stride: Rows of ``velocity`` of a world, of which the first ``count`` are theirs.
+        dt: Of a step [s].
+        euler: Turn first and then go straight on, as Stage's odometry does, not along the arc.
+    """
+
+    def __init__(
+        self,
+        velocity: Floats,
+        share: Floats,
+        pose: Floats,
+        *,
+        count: int,
+        stride: int,
+        dt: float,
+        euler: bool,
+    ) -> None:
+        System.__init__(self, count)
+        self.velocity, self.share, self.pose = velocity, share, pose
+        self.count, self.stride, self.dt, self.euler = count, stride, dt, euler
+
+    def reckon(self) -> None:
+        """``update`` of all rows."""
+        self.update(0, self.pose.shape[0], 0)
+
+    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
+        """Add what a step comes to."""
+        for i in range(first, last):
+            b = i // self.count * self.stride + i % self.count
+            x = self.velocity[b, 0] * (self.dt * (1.0 + self.share[i, 0]))
+            y = self.velocity[b, 1] * (self.dt * (1.0 + self.share[i, 1]))
+            turn = self.velocity[b, 2] * (self.dt * (1.0 + self.share[i, 2]))
+            heading, chord = self.pose[i, 2] + turn, 1.0
+            if not self.euler:
+                half = 0.5 * turn
+                heading -= half
+                chord = sin(half) / half if half != 0.0 else 1.0
+            c, s = chord * cos(heading), chord * sin(heading)
+            self.pose[i, 0] += c * x - s * y
+            self.pose[i, 1] += s * x + c * y
+            yaw = self.pose[i, 2] + turn
+            if abs(yaw) > PI:
+                yaw -= 2.0 * PI * floor(yaw / (2.0 * PI) + 0.5)
+            self.pose[i, 2] = yaw

@@ -1,0 +1,100 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
+"""A controller in native code: roam about, turn away from what is near, back off when stuck."""
+
+from __future__ import annotations
+
+import cython
+from cython.cimports.gazelle.engines.planar.bodies import Bodies
+from cython.cimports.gazelle.engines.planar.hashed_noise import stream, uniform
+from cython.cimports.gazelle.native.system import System
+
+from gazelle.array_types import Floats, Ints64
+
+
+@cython.cclass
+class RoamingLaw(System):
+    """Bodies that roam, a row each.
+
+    Args:
+        bodies: Of all worlds.
+        ranges: What sensors measured [m], a row a sensor.
+        sensor: The sensor of each body; -1 for none.
+        mood: Steps for which each still backs off, and for which it keeps its turn, shape (n, 2).
+        seed: Of the turns.
+        cruise: Speed ahead [m/s].
+        turning: Fastest turn [rad/s].
+        shy: Distance at which to turn away from something [m].
+        keep: Steps for which a turn is kept.
+        back: Steps for which to back off.
+    """
+
+    def __init__(
+        self,
+        bodies: Bodies,
+        ranges: Floats,
+        sensor: Ints64,
+        mood: Ints64,
+        *,
+        seed: int,
+        cruise: float,
+        turning: float,
+        shy: float,
+        keep: int,
+        back: int,
+    ) -> None:
+        System.__init__(self, bodies.nbody)
+        self.bodies, self.ranges, self.sensor, self.mood = bodies, ranges, sensor, mood
+        self.cruise, self.turning, self.shy = cruise, turning, shy
+        self.keep, self.back, self.seed = keep, back, seed
+
+    def choose(self, time: int) -> None:
+        """``update`` of all bodies."""
+        self.update(0, self.mood.shape[0], time)
+
+    def update(self, first: int, last: int, time: int) -> None:
+        """Choose the commands of bodies first to last; ``time`` counts steps."""
+        for b in range(first, last):
+            if self.bodies.stalled[b] and self.mood[b, 0] == 0:
+                self.mood[b, 0], self.mood[b, 1] = self.back, 0
+            if self.mood[b, 0] > 0:
+                self.back_off(b, time)
+                continue
+            if self.sensor[b] >= 0 and self.turns_away(b):
+                continue
+            if self.mood[b, 1] <= 0:
+                drawn = 2.0 * uniform(stream(self.seed, b, time), 1) - 1.0
+                self.bodies.command[b, 0] = self.cruise
+                self.bodies.command[b, 2] = 0.5 * drawn * self.turning
+                self.mood[b, 1] = self.keep
+            self.mood[b, 1] -= 1
+
+    def back_off(self, b: int, time: int) -> None:
+        """Let a body go on backing off from what stopped it."""
+        self.mood[b, 0] -= 1
+        if self.mood[b, 1] != -1:
+            dice = stream(self.seed, b, time)
+            way = -0.5 if uniform(dice, 2) < 0.8 else 0.5  # behind it may be as tight
+            self.bodies.command[b, 0] = way * self.cruise
+            self.bodies.command[b, 2] = (2.0 * uniform(dice, 0) - 1.0) * self.turning
+            self.mood[b, 1] = -1
+
+    def turns_away(self, b: int) -> bool:
+        """Turn a body away from what is near, if anything is."""
+        right, left = sides(self.ranges, self.sensor[b])
+        if min(right, left) >= self.shy:
+            return False
+        self.bodies.command[b, 0] = 0.25 * self.cruise
+        self.bodies.command[b, 2] = self.turning if right < left else -self.turning
+        self.mood[b, 1] = 0
+        return True
+
+
+def sides(ranges: Floats, m: int) -> tuple[float, float]:
+    """The shortest range on the right half and on the left half of a fan; the middle is left."""
+    count = ranges.shape[1]
+    right, left = ranges[m, 0], ranges[m, count - 1]
+    for k in range(count // 2):
+        right = min(right, ranges[m, k])
+        left = min(left, ranges[m, count - 1 - k])
+    return right, min(left, ranges[m, count // 2])

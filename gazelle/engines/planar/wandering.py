@@ -1,0 +1,103 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
+"""A controller in native code: go ahead until something is near, then turn away for a while."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cython
+from cython.cimports.gazelle.engines.planar.bodies import Bodies
+from cython.cimports.gazelle.engines.planar.hashed_noise import stream, uniform
+from cython.cimports.gazelle.native.system import System
+
+from gazelle.array_types import Floats, Ints64
+
+FEW = 8  # samples with which Stage's own does not run
+
+
+@cython.cclass
+class Wandering(System):
+    """Robots that wander, a row each.
+
+    Args:
+        bodies: Of all worlds.
+        ranges: What sensors measured [m], a row a sensor.
+        sensors: The sensor of each robot, shape (nworld * robots,).
+        owners: Its body, counted through all worlds, likewise.
+        nworld: Number of worlds.
+        seed: Of how long they turn.
+        manner: ``cruise``, the speed ahead [m/s]; ``creep``, that while it turns [m/s]; ``turn``,
+            how fast [rad/s]; ``front``, the distance ahead at which it turns away [m]; ``stop``,
+            the distance of anything at which it stands [m]; ``patience``, for how many steps it
+            turns at least.
+
+    Attributes:
+        mood: Steps for which each still turns, and 1 or -1 for the way.
+    """
+
+    def __init__(
+        self,
+        bodies: Bodies,
+        ranges: Floats,
+        sensors: Ints64,
+        owners: Ints64,
+        mood: Ints64,
+        *,
+        nworld: int,
+        seed: int,
+        **manner: Any,
+    ) -> None:
+        System.__init__(self, max(1, len(owners) // nworld))
+        self.bodies, self.ranges, self.sensors, self.owners = bodies, ranges, sensors, owners
+        self.mood, self.seed = mood, seed
+        self.cruise, self.creep, self.turn = manner["cruise"], manner["creep"], manner["turn"]
+        self.front, self.stop = manner["front"], manner["stop"]
+        self.patience = manner["patience"]
+
+    def choose(self, first: int, last: int, time: int) -> None:
+        """``update`` from Python, without the interpreter's lock."""
+        with cython.nogil:
+            self.update(first, last, time)
+
+    def update(self, first: int, last: int, time: int) -> None:
+        """Choose the commands of robots first to last; ``time`` counts steps."""
+        for i in range(first, last):
+            b = self.owners[i]
+            ahead, right, left = room(self.ranges, self.sensors[i])
+            halt = min(right, left) < self.stop
+            near = halt or ahead < self.front
+            if near and self.mood[i, 0] < 1:
+                drawn = uniform(stream(self.seed, i, time), 0) * self.patience
+                self.mood[i, 0] = self.patience + cython.cast(cython.longlong, drawn)
+                self.mood[i, 1] = -1 if left < right else 1
+            self.bodies.command[b, 1] = 0.0
+            if near or self.mood[i, 0] > 0:
+                self.bodies.command[b, 0] = 0.0 if halt else self.creep
+                self.bodies.command[b, 2] = self.turn * self.mood[i, 1]
+                self.mood[i, 0] -= 1
+            else:
+                self.bodies.command[b, 0], self.bodies.command[b, 2] = self.cruise, 0.0
+                self.mood[i, 0] = 0
+
+
+def room(ranges: Floats, m: int) -> tuple[float, float, float]:
+    """The shortest range in the middle third, in the right half and in the left one.
+
+    The middle third begins after a third of the samples, and the middle one is of the right
+    half, as in Stage.
+    """
+    count = ranges.shape[1]
+    third, half = count // 3, count // 2
+    begin = third if count <= FEW else third + 1
+    end = max(count - third, begin + 1)
+    ahead = right = left = 1e300
+    for k in range(count):
+        found = ranges[m, k]
+        if begin <= k < end:
+            ahead = min(ahead, found)
+        if k > half:
+            left = min(left, found)
+        else:
+            right = min(right, found)
+    return ahead, right, left

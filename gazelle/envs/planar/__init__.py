@@ -1,1 +1,0 @@
-"""Tasks on the planar engine, stepped by native kernels from action to observation."""

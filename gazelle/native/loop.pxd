@@ -1,0 +1,31 @@
+cdef extern from "threads.h":
+    long long gazelle_fetch_add(long long *counter, long long amount) noexcept nogil
+    void gazelle_wait_for_all(long long *places, long long threads) noexcept nogil
+
+
+cdef enum:
+    BLOCKS_A_THREAD = 4  # a thread that is slow, or begins late, leaves some to the others
+    APART = 16  # so many numbers apart, threads do not fight for a line of a cache
+
+
+cdef long long moment(long long count, double rate) noexcept nogil
+
+
+cdef class SystemLoop:
+    cdef readonly list systems
+    cdef readonly Py_ssize_t nworld
+    cdef public long long step
+    cdef public long long time
+    cdef object _pool
+    cdef long long[:, ::1] _table
+    cdef double[::1] _rates
+    cdef long long[:, ::1] _due
+    cdef long long[::1] _shared
+    cdef void _play_worlds(self, Py_ssize_t part, Py_ssize_t blocks, long long until) noexcept nogil
+    cdef void _play_together(self, Py_ssize_t part, Py_ssize_t threads, long long until) noexcept nogil
+    cdef long long _next_block(self) noexcept nogil
+    cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
+    cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil
+    cdef void _begin(self, Py_ssize_t part) noexcept nogil
+    cdef bint _is_due(self, Py_ssize_t part, Py_ssize_t index, long long time) noexcept nogil
+    cdef void _update(self, Py_ssize_t index, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

@@ -1,0 +1,238 @@
+"""Update systems in order, step by step, on all threads, without Python between."""
+
+# mypy: disallow-untyped-decorators=False
+
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import cython
+import numpy as np
+from cython.cimports.gazelle.native.system import System
+from cython.cimports.libc.math import floor, rint
+
+if not cython.compiled:
+    BLOCKS_A_THREAD, APART = 4, 16  # in a compiled module, what loop.pxd says
+
+
+class Pool(Protocol):
+    """Threads that work at once."""
+
+    size: int
+
+    def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
+        """Call ``work(part)`` for each part, all at the same time."""
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def moment(count: cython.longlong, rate: cython.double) -> cython.longlong:
+    """When something with a rate [Hz] is due for the count-th time [ns]."""
+    return cython.cast(cython.longlong, rint(cython.cast(cython.double, count * 1000000000) / rate))
+
+
+@cython.cclass
+class SystemLoop:
+    """Systems that are updated one after another in every step in which they are due.
+
+    Worlds know nothing of each other. So where there are enough of them, a thread takes a block
+    of worlds through all steps by itself, and then the next block. Where there are few, each
+    system is shared out among the threads, which wait for each other after every update.
+
+    Args:
+        systems: In the order in which they are updated.
+        nworld: How many worlds.
+        step: Simulated time of a step [ns].
+        pool: Threads to share the work among; None: the calling one works alone.
+        time: When it begins [ns].
+
+    Attributes:
+        time: Of the next step [ns].
+
+    Raises:
+        ValueError: There is no world, or a step takes no time.
+    """
+
+    def __init__(
+        self,
+        systems: Sequence[System],
+        nworld: cython.Py_ssize_t,
+        step: cython.longlong,
+        pool: Pool | None = None,
+        time: cython.longlong = 0,
+    ) -> None:
+        if nworld < 1 or step < 1:
+            raise ValueError(f"there are {nworld} worlds and steps of {step} ns")
+        self.systems = list(systems)
+        if not all(isinstance(each, System) for each in self.systems):
+            raise TypeError("a loop is of objects of System")
+        self.nworld, self.step, self.time, self._pool = nworld, step, time, pool
+        size = 1 if pool is None or not cython.compiled else pool.size
+        self._table = np.array(
+            [[id(each), each.rows, each.divisible] for each in self.systems], np.int64
+        ).reshape(-1, 3)
+        self._rates = np.array([each.rate for each in self.systems], np.float64)
+        self._due = np.zeros((size + 1, len(self.systems)), np.int64)  # the last: at the beginning
+        self._shared = np.zeros(APART + 2, np.int64)
+
+    def run(self, until: cython.longlong, threads: cython.Py_ssize_t = 0) -> None:
+        """Make steps as long as they begin before a time.
+
+        Args:
+            until: Simulated time [ns].
+            threads: At most so many; 0: as many as the pool has.
+        """
+        most: cython.Py_ssize_t = self._due.shape[0] - 1
+        threads = most if threads < 1 else min(threads, most)
+        blocks: cython.Py_ssize_t = min(self.nworld, threads * BLOCKS_A_THREAD)
+        alone: cython.bint = threads == 1 or self.nworld >= 2 * threads
+        for index, system in enumerate(self.systems):
+            self._due[most, index] = system.due
+        self._shared[0] = self._shared[APART] = self._shared[APART + 1] = 0
+
+        def work(part: int) -> None:
+            if alone:
+                self.play_worlds(part, 1 if threads == 1 else blocks, until)
+            else:
+                self.play_together(part, threads, until)
+
+        if threads == 1 or self._pool is None:
+            work(0)
+        else:
+            self._pool.call(work, threads)
+        self._pass(most, until)
+        for index, system in enumerate(self.systems):
+            system.due = self._due[most, index]
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _pass(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.void:
+        """Go on with the time, and with when systems are due after it."""
+        index: cython.Py_ssize_t
+        while self.time < until:
+            for index in range(self._table.shape[0]):
+                self._is_due(row, index, self.time)
+            self.time += self.step
+
+    def play_worlds(
+        self, part: cython.Py_ssize_t, blocks: cython.Py_ssize_t, until: cython.longlong
+    ) -> None:
+        """What a thread does where worlds are shared out; ``run`` calls it."""
+        with cython.nogil:
+            self._play_worlds(part, blocks, until)
+
+    def play_together(
+        self, part: cython.Py_ssize_t, threads: cython.Py_ssize_t, until: cython.longlong
+    ) -> None:
+        """What a thread does where systems are shared out; ``run`` calls it."""
+        with cython.nogil:
+            self._play_together(part, threads, until)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _play_worlds(
+        self, part: cython.Py_ssize_t, blocks: cython.Py_ssize_t, until: cython.longlong
+    ) -> cython.void:
+        """Take blocks of worlds through all steps, as long as there are any left."""
+        time: cython.longlong
+        block: cython.longlong
+        index: cython.Py_ssize_t
+        self._begin(part)
+        while True:
+            block = self._next_block()
+            if block >= blocks:
+                return
+            first: cython.Py_ssize_t = self.nworld * block // blocks
+            last: cython.Py_ssize_t = self.nworld * (block + 1) // blocks
+            self._begin(part)
+            time = self.time
+            while time < until:
+                for index in range(self._table.shape[0]):
+                    if self._is_due(part, index, time):
+                        rows: cython.longlong = self._table[index, 1]
+                        self._update(index, first * rows, last * rows, time)
+                time += self.step
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _play_together(
+        self, part: cython.Py_ssize_t, threads: cython.Py_ssize_t, until: cython.longlong
+    ) -> cython.void:
+        """Take a share of every system, and wait for the others after each."""
+        index: cython.Py_ssize_t
+        self._begin(part)
+        time: cython.longlong = self.time
+        while time < until:
+            for index in range(self._table.shape[0]):
+                if self._is_due(part, index, time):
+                    rows: cython.longlong = self._table[index, 1]
+                    unit: cython.longlong = 1 if self._table[index, 2] else rows
+                    count: cython.longlong = self.nworld * rows // unit
+                    first: cython.longlong = count * part // threads
+                    last: cython.longlong = count * (part + 1) // threads
+                    if first < last:
+                        self._update(index, first * unit, last * unit, time)
+                    self._wait_for_all(threads)
+            time += self.step
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _next_block(self) -> cython.longlong:
+        """The number of a block that no thread has taken."""
+        if cython.compiled:
+            return gazelle_fetch_add(cython.address(self._shared[0]), 1)  # type: ignore[name-defined]  # noqa: F821
+        self._shared[0] += 1
+        return self._shared[0] - 1
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _wait_for_all(self, threads: cython.Py_ssize_t) -> cython.void:
+        """Return when all threads have called it."""
+        if cython.compiled:
+            gazelle_wait_for_all(cython.address(self._shared[APART]), threads)  # type: ignore[name-defined]  # noqa: F821
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _begin(self, part: cython.Py_ssize_t) -> cython.void:
+        """Let systems be due for a thread when they were at the beginning of the run."""
+        index: cython.Py_ssize_t
+        for index in range(self._due.shape[1]):
+            self._due[part, index] = self._due[self._due.shape[0] - 1, index]
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _is_due(
+        self, part: cython.Py_ssize_t, index: cython.Py_ssize_t, time: cython.longlong
+    ) -> cython.bint:
+        """Whether a system is due in a step, after which it is at the next multiple of its period."""
+        if self._due[part, index] > time:
+            return False
+        rate: cython.double = self._rates[index]
+        if rate > 0.0:
+            count: cython.longlong = cython.cast(cython.longlong, floor(time * rate / 1e9))
+            due: cython.longlong = moment(count, rate)
+            while due <= time:
+                count += 1
+                due = moment(count, rate)
+            self._due[part, index] = due
+        return True
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _update(
+        self, index: cython.Py_ssize_t, first: cython.Py_ssize_t, last: cython.Py_ssize_t,
+        time: cython.longlong,
+    ) -> cython.void:  # fmt: skip
+        if cython.compiled:
+            place: cython.p_void = cython.cast(cython.p_void, self._table[index, 0])
+            cython.cast(System, place).update(first, last, time)
+        else:
+            self.systems[index].update(first, last, time)
