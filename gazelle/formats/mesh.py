@@ -23,6 +23,8 @@ from gazelle.formats import collada, stl, wavefront
 MAX_BYTES = 512 * 2**20
 CACHED = 256
 
+_LFS_POINTER = b"version https://git-lfs"
+
 
 @dataclass(frozen=True, slots=True)
 class Part:
@@ -127,6 +129,16 @@ class _Content:
 def _parse_cached(_: str, content: _Content) -> tuple[Part, ...]:
     data, path = content.data or b"", content.path
     content.data = None  # the cache keeps the key, and need not keep the file
+    if not data:
+        raise FormatError(
+            "the file is empty", file=str(path), hint="export or download the file again"
+        )
+    if data.startswith(_LFS_POINTER):
+        raise FormatError(
+            "the file is a pointer of Git LFS, not the mesh",
+            file=str(path),
+            hint="run 'git lfs pull' in its repository",
+        )
     try:
         parts = [part for part in _parse(data, path) if len(part.faces)]
     except FormatError:

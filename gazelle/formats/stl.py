@@ -1,6 +1,11 @@
-"""STL files, binary and text."""
+"""STL files, binary and text.
+
+Not by trimesh: ``docs/decisions/008-own-stl-and-obj.md``.
+"""
 
 from __future__ import annotations
+
+import re
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +13,12 @@ from numpy.typing import NDArray
 from gazelle.errors import FormatError
 
 _HEADER = 84
+_START = 4096
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# The name of a solid, which may say anything, also "vertex"; not a whole file on one line.
+_NAME = re.compile(rb"solid(?!.*\bfacet\b).*")
+_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
+_AGAIN = "export or download the file again"
 
 Triangles = tuple[NDArray[np.float64], NDArray[np.int32]]
 
@@ -20,18 +30,27 @@ def parse(data: bytes) -> Triangles:
     ``solid``, which is meant to mark text. Corners at the same place become one vertex.
 
     Raises:
-        FormatError: The file is neither.
+        FormatError: The file is neither, or was cut short.
     """
     count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
-    room = (len(data) - _HEADER) // _TRIANGLE.itemsize
-    text = data[:512].lstrip().lower().startswith(b"solid")
-    if count > 0 and (count == room or (not text and count <= room)):
-        return _weld(_binary(data, count))
-    if text and b"facet" in data[:4096]:
+    room = max(0, (len(data) - _HEADER) // _TRIANGLE.itemsize)
+    if _is_text(data) and not 0 < count == room:
         return _weld(_text(data))
-    if room > 0 and not text:
-        return _weld(_binary(data, room))  # cut short: what is there is used
-    raise FormatError("this is no STL file")
+    count = count or room  # some programs never fill it in
+    if 0 < count <= room:
+        return _weld(_binary(data, count))
+    if len(data) <= _HEADER:
+        raise FormatError("this is no STL file", hint=_AGAIN)
+    raise FormatError(
+        f"this is no STL file, or one that was cut short: its header says {count:,} triangles, "
+        f"there are {room:,}",
+        hint=_AGAIN,
+    )
+
+
+def _is_text(data: bytes) -> bool:
+    start = data[:_START].lower()
+    return start.lstrip().startswith(b"solid") and (b"facet" in start or b"endsolid" in start)
 
 
 def _binary(data: bytes, count: int) -> NDArray[np.float64]:
@@ -40,17 +59,16 @@ def _binary(data: bytes, count: int) -> NDArray[np.float64]:
 
 
 def _text(data: bytes) -> NDArray[np.float64]:
-    words = data.lower().split()
-    numbers: list[bytes] = []
-    for at, word in enumerate(words):
-        if word == b"vertex":
-            numbers.extend(words[at + 1 : at + 4])
+    data = _NAME.sub(b"solid", data.lower())
     try:
-        corners = np.array(numbers, dtype=np.float64).reshape(-1, 3)
+        corners = np.array(_VERTEX.findall(data), dtype=np.float64).reshape(-1, 3)
     except ValueError as error:
-        raise FormatError(f"a vertex of the STL file is wrong: {error}") from None
-    if len(corners) % 3:
-        raise FormatError("a facet of the STL file has not three vertices")
+        raise FormatError(f"a vertex of the STL file is wrong: {error}", hint=_AGAIN) from None
+    tail = data.rpartition(b"end")[2]  # "solid", "facet" or "loop"
+    if len(corners) % 3 or (not tail.startswith(b"solid") and len(tail.split()) > 2):
+        raise FormatError(
+            "a facet of the STL file has not three vertices, or the file was cut short", hint=_AGAIN
+        )
     return corners
 
 

@@ -1,8 +1,12 @@
-"""Wavefront OBJ files: positions and faces; materials do not matter here."""
+"""Wavefront OBJ files: positions and faces; materials do not matter here, and are not opened.
+
+Not by trimesh: ``docs/decisions/008-own-stl-and-obj.md``.
+"""
 
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +19,16 @@ Piece = tuple[str, NDArray[np.float64], NDArray[np.int32]]
 def parse(data: bytes) -> list[Piece]:
     """Name, vertices (n, 3) and faces (m, 3) of each object; polygons become fans.
 
+    Negative indices count back from the last vertex above their line, as the format has it;
+    positive ones may name a vertex below.
+
     Raises:
         FormatError: A line is wrong; it is named.
     """
     vertices: list[tuple[float, float, float]] = []
     groups: dict[str, list[tuple[int, int, int]]] = {}
     faces = groups.setdefault("", [])
-    text = data.decode("utf-8", errors="replace").replace("\\\n", " ")
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in _lines(data):
         words = line.split()
         if not words:
             continue
@@ -30,31 +36,67 @@ def parse(data: bytes) -> list[Piece]:
             if words[0] == "v":
                 vertices.append((float(words[1]), float(words[2]), float(words[3])))
             elif words[0] == "f":
-                corners = [_corner(word, len(vertices)) for word in words[1:]]
-                faces.extend((corners[0], b, c) for b, c in itertools.pairwise(corners[1:]))
+                corners = _corners(line, words, len(vertices))
+                faces += [(corners[0], b, c) for b, c in itertools.pairwise(corners[1:])]
             elif words[0] in {"o", "g"}:
                 faces = groups.setdefault(" ".join(words[1:]), [])
         except (ValueError, IndexError):
-            raise FormatError(f"line {number} of the OBJ file is wrong: '{line.strip()}'") from None
+            raise _wrong(number, line) from None
     positions = np.array(vertices, np.float64).reshape(-1, 3)
-    return [
-        (name, *_used(positions, np.array(found, np.int32)))
-        for name, found in groups.items()
-        if found
-    ]
+    pieces = [(name, np.array(found)) for name, found in groups.items() if found]
+    if any(found.max() > len(positions) for _, found in pieces):
+        raise _beyond(data, len(positions))
+    return [(name, *_used(positions, found - 1)) for name, found in pieces]
 
 
-def _corner(word: str, count: int) -> int:
-    """Index from 0 of ``7``, ``7/1``, ``7/1/2`` or ``-1``, which counts from the end."""
-    index = int(word.split("/", maxsplit=1)[0])
-    corner = index - 1 if index > 0 else count + index
-    if not 0 <= corner < count:
-        raise ValueError(word)
-    return corner
+def _lines(data: bytes) -> Iterator[tuple[int, str]]:
+    """Lines with their numbers; those that end with a backslash go on, but comments do not."""
+    lines = enumerate(data.decode("utf-8", errors="replace").splitlines(), start=1)
+    if b"\\" not in data:
+        yield from lines
+        return
+    start, begun = 1, ""
+    for number, line in lines:
+        if line.endswith("\\") and not (begun or line).lstrip().startswith("#"):
+            begun += line[:-1] + " "
+            continue
+        yield start, begun + line
+        start, begun = number + 1, ""
+    yield start, begun
+
+
+def _wrong(number: int, line: str, why: str = "") -> FormatError:
+    return FormatError(
+        f"line {number} of the OBJ file is wrong: '{line.strip()}'{why}",
+        hint="mend the line, or export or download the file again",
+    )
+
+
+def _beyond(data: bytes, count: int) -> FormatError:
+    """The first face that names more than the ``count`` vertices there are."""
+    number, line = next(
+        (number, line)
+        for number, line in _lines(data)
+        if (words := line.split())[:1] == ["f"]
+        and max(_corners(line, words, count), default=0) > count
+    )
+    return _wrong(number, line, f"; the file has {count} vertices")
+
+
+def _corners(line: str, words: list[str], count: int) -> list[int]:
+    """Indices from 1 of a face with ``7``, ``7/1``, ``7/1/2`` or ``-1``, the last of ``count``."""
+    if "#" in line:
+        words = line.partition("#")[0].split()
+    corners = [int(word.split("/", 1)[0]) for word in words[1:]]
+    if corners and min(corners) < 1:
+        if 0 in corners or -min(corners) > count:
+            raise ValueError(line)
+        return [corner if corner > 0 else count + 1 + corner for corner in corners]
+    return corners
 
 
 def _used(
-    positions: NDArray[np.float64], faces: NDArray[np.int32]
+    positions: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Only the vertices that the faces name."""
     used, inverse = np.unique(faces, return_inverse=True)
