@@ -1,6 +1,7 @@
 """Control steps a second of TurtleBot3Stage4, beside IR-SIM's in the same run.
 
-Both simulate the same robot, room and beams, 0.2 s a control step, with random commands.
+Both simulate the same robot, room and beams, 0.2 s a control step, with random commands. Beside
+it a task and a drive that a user wrote from the docs, of as many beams and as long a step.
 IR-SIM moves a disc; Gazelle simulates wheels, contacts and friction in MuJoCo, or wheels that
 roll in the plane with the planar engine.
 """
@@ -18,6 +19,7 @@ from pathlib import Path
 
 import gymnasium
 import numpy as np
+import user_task
 
 import gazelle.envs  # noqa: F401  registers the environments
 
@@ -55,6 +57,9 @@ def main() -> None:
             for worlds in (1, 64, 1024):
                 rate = best(gazelle_stepper(rays, worlds, engine), worlds, args)
                 show(f"Gazelle (engine {engine})", rays, worlds, rate)
+                if rays == user_task.RAYS:
+                    rate = best(user_stepper(worlds, engine), worlds, args)
+                    show(f"  a user's task and drive ({engine})", rays, worlds, rate)
         stepper = irsim_stepper(rays)
         if stepper is None:
             print("IR-SIM is not installed; get it with: pip install 'gazelle[bench]'")
@@ -104,6 +109,13 @@ def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
     )
     vector.reset(seed=0)
     return lambda: vector.step(generator.integers(5, size=worlds)) and None
+
+
+def user_stepper(worlds: int, engine: str) -> Callable[[], None]:
+    """One step of a task and a drive that are a user's: ``user_task.py`` beside this file."""
+    env, generator = user_task.make(worlds, engine), np.random.default_rng(0)
+    env.reset(seed=0)
+    return lambda: env.step(generator.uniform(-1.0, 1.0, (worlds, 2))) and None
 
 
 def irsim_stepper(rays: int) -> Callable[[], None] | None:
