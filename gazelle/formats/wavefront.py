@@ -1,6 +1,6 @@
 """Wavefront OBJ files: positions and faces; materials do not matter here, and are not opened.
 
-Not by trimesh: ``docs/decisions/008-own-stl-and-obj.md``.
+Not by trimesh: ``docs/decisions/009-own-stl-and-obj.md``.
 """
 
 from __future__ import annotations
