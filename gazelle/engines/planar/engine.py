@@ -99,7 +99,7 @@ class PlanarEngine(Refusals, PlanarAccess):
             fleet, joints = self._fleet, self._joints
             last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
             made = [*systems, Rolling(fleet.bodies, joints), *fleet.systems(), *last]
-            self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.crew)
+            self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.pool)
         return self._loops[1]
 
     @property

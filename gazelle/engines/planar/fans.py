@@ -150,7 +150,7 @@ class Scanner:
         self.owners = self._owners_in(np.arange(fleet.nworld))
         self._outline, self._middles = _outline(fan), _middles_of(fan)
         least = 2 * max(1, _SHARE // fan.count)
-        self._alone = fleet.crew.size == 1 or len(self.owners) < least
+        self._alone = fleet.pool.size == 1 or len(self.owners) < least
         total = fleet.nworld * len(mounts)
         self.ranges = np.zeros((fleet.nworld, len(mounts), fan.count))
         self._flat = self.ranges.reshape(-1, fan.count)
@@ -174,7 +174,7 @@ class Scanner:
             clear = fleet.scene.clearing(solid=solid and fan.begin == 0.0)
             there = ClearSpace(clear.fine, clear.start, clear.items, clear.clear)
         tables, made = fleet.bodies, None
-        for _ in range(fleet.crew.size):
+        for _ in range(fleet.pool.size):
             beams = Beams(fan.angles, fan.step, fan.reach, fan.begin, _ANGLES)
             front = None if way != ALL or len(self.names) else front_faces_of(fleet)
             own = FanScanner(
@@ -219,7 +219,7 @@ class Scanner:
             self._native.scan(owners, 0, len(owners), self.tick, 0)
         else:
             least, native, tick = max(1, self._share // self.fan.count), self._native, self.tick
-            self.fleet.crew.share(
+            self.fleet.pool.share(
                 lambda a, b, part: native.scan(owners, a, b, tick, part), len(owners), least
             )
         self.tick += 1

@@ -14,11 +14,11 @@ from gazelle.array_types import Floats
 from gazelle.engines.limits import physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
-from gazelle.engines.planar.crew import Crew
 from gazelle.engines.planar.grid_cells import relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
 from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
+from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
@@ -111,7 +111,7 @@ class Fleet:
         threads = None if threads is None else whole_number("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
         self.euler = euler
-        self.crew = Crew(threads)
+        self.pool = WorkerPool(threads)
         self._describe(bodies)
         first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
         heights = np.array([body.z for body in bodies], np.float64)
@@ -331,7 +331,7 @@ class Fleet:
         """
         count = whole_number("the number of steps", count, 0)
         if self._loop is None:
-            self._loop = SystemLoop(self.systems(), self.nworld, 1, self.crew)
+            self._loop = SystemLoop(self.systems(), self.nworld, 1, self.pool)
         self._loop.time = 0
         self._loop.run(count, self.threads)
 
@@ -340,7 +340,7 @@ class Fleet:
 
         Large worlds are shared among threads, each of many worlds is stepped by one.
         """
-        if self.nworld >= 2 * self.crew.size or self.alone or self.sweep:
+        if self.nworld >= 2 * self.pool.size or self.alone or self.sweep:
             return [Moving(self.bodies)]
         return [Planning(self.bodies), Screening(self.bodies), Settling(self.bodies)]
 
@@ -352,11 +352,11 @@ class Fleet:
     @property
     def alone(self) -> bool:
         """Whether one thread does all of a step."""
-        return self.crew.size == 1 or self.nworld * self.nbody < 2 * _SHARE
+        return self.pool.size == 1 or self.nworld * self.nbody < 2 * _SHARE
 
     def close(self) -> None:
         """End the threads."""
-        self.crew.close()
+        self.pool.close()
 
 
 def _rows_of(placed: Floats) -> Floats:

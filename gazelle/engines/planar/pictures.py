@@ -157,7 +157,7 @@ class Painter:
             scratch = PictureDrawing(self._faces, self.fleet.rows, row, cameras, color, inverse)
             scratch.draw(first, last)
 
-        self.fleet.crew.share(work, count, _SHARE)
+        self.fleet.pool.share(work, count, _SHARE)
         with np.errstate(divide="ignore"):
             depth = (1.0 / inverse).astype(np.float32)
         lead = (len(worlds), len(views), *shape)

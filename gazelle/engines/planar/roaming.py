@@ -73,7 +73,7 @@ class Roaming:
         )
         looking = [] if scanner is None else [scanner.system]
         self._loop = SystemLoop(
-            [self.law, *fleet.systems(), *looking], fleet.nworld, 1, fleet.crew, 1
+            [self.law, *fleet.systems(), *looking], fleet.nworld, 1, fleet.pool, 1
         )
 
     def run(self, count: int) -> None:

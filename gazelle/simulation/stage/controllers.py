@@ -113,7 +113,7 @@ class Wander:
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
         law, steps = self._law(self._simulation.scan(self._scanner)), self._simulation.steps
-        self._simulation.fleet.crew.share(
+        self._simulation.fleet.pool.share(
             lambda first, last, _: law.choose(first, last, steps), len(self._bodies), _SHARE
         )
 

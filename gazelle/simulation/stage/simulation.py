@@ -312,7 +312,7 @@ class StageSimulation(Senses):
         if systems is None:
             return 0
         if self._loop is None or self._loop.systems != systems:
-            self._loop = SystemLoop(systems, self.nworld, 1, self.fleet.crew)
+            self._loop = SystemLoop(systems, self.nworld, 1, self.fleet.pool)
         self._loop.time = self.steps
         self._loop.run(self.steps + count, self.fleet.threads)
         self._forget()

@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from gazelle.engines.planar.crew import Crew
+from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
 
 
@@ -14,15 +14,15 @@ def planar_threads():
 
 
 @pytest.fixture
-def crew():
-    made = Crew(3)
+def pool():
+    made = WorkerPool(3)
     yield made
     made.close()
 
 
-def test_every_part_is_done_once_by_a_thread_of_its_own(crew):
+def test_every_part_is_done_once_by_a_thread_of_its_own(pool):
     for count in (30, 31, 1000):
-        seen = crew.share(
+        seen = pool.share(
             lambda first, last, part: (first, last, part, threading.get_ident()), count, 10
         )
         assert [each[0] for each in seen] == [0, *(each[1] for each in seen[:-1])]
@@ -31,13 +31,13 @@ def test_every_part_is_done_once_by_a_thread_of_its_own(crew):
         assert len({each[3] for each in seen}) == 3
 
 
-def test_little_work_is_done_at_once(crew):
-    assert crew.share(lambda *part: part, 19, 10) == [(0, 19, 0)]
-    assert not crew._hands
+def test_little_work_is_done_at_once(pool):
+    assert pool.share(lambda *part: part, 19, 10) == [(0, 19, 0)]
+    assert not pool._workers
 
 
 @pytest.mark.parametrize("who", [0, 1, 2])
-def test_an_error_comes_after_all_have_ended_and_harms_nobody(crew, who):
+def test_an_error_comes_after_all_have_ended_and_harms_nobody(pool, who):
     ended = []
 
     def work(first, last, part):
@@ -46,25 +46,25 @@ def test_an_error_comes_after_all_have_ended_and_harms_nobody(crew, who):
         ended.append(part)
 
     with pytest.raises(ValueError, match=f"part {who}"):
-        crew.share(work, 30, 10)
+        pool.share(work, 30, 10)
     assert sorted([*ended, who]) == [0, 1, 2]
-    assert crew.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
+    assert pool.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
 
 
 def test_threads_end_when_it_is_closed_or_forgotten():
     before = len(planar_threads())
     for closed in (True, False):
-        crew = Crew(3)
-        crew.share(lambda *part: part, 30, 10)
+        pool = WorkerPool(3)
+        pool.share(lambda *part: part, 30, 10)
         assert len(planar_threads()) == before + 2
         if closed:
-            crew.close()
-            assert crew.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
-        del crew
+            pool.close()
+            assert pool.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
+        del pool
         gc.collect()
         assert len(planar_threads()) == before
 
 
 def test_nobody_is_no_crew():
     with pytest.raises(EngineError, match="at least 1"):
-        Crew(0)
+        WorkerPool(0)

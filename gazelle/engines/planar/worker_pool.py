@@ -19,7 +19,7 @@ def processors() -> int:
     return min(available or 1, int(wanted)) if wanted.isdigit() and int(wanted) else available or 1
 
 
-class _Hand:
+class _Worker:
     """A thread that waits for work, with two locks: executors take some 20 us longer a call."""
 
     def __init__(self, name: str) -> None:
@@ -68,7 +68,7 @@ class _Hand:
             self._done.release()
 
 
-class Crew:
+class WorkerPool:
     """Some threads, started when there is enough to do for more than one.
 
     Args:
@@ -82,9 +82,9 @@ class Crew:
         if size is not None and size < 1:
             raise EngineError(f"threads must be at least 1, not {size}")
         self.size = processors() if size is None else size
-        self._hands: list[_Hand] = []
+        self._workers: list[_Worker] = []
         self._busy = threading.Lock()
-        weakref.finalize(self, _end, self._hands)
+        weakref.finalize(self, _end, self._workers)
 
     def share(self, work: Callable[[int, int, int], Any], count: int, least: int) -> list[Any]:
         """Call ``work(first, last, part)`` for parts of ``range(count)``; what they return.
@@ -109,25 +109,25 @@ class Crew:
         if parts <= 1:
             return [work(0)]
         with self._busy:
-            hands = self._at_hand(parts - 1)
-            for part, hand in enumerate(hands, 1):
-                hand.start(functools.partial(work, part))
+            workers = self._ready(parts - 1)
+            for part, worker in enumerate(workers, 1):
+                worker.start(functools.partial(work, part))
             try:
                 first = work(0)
             finally:  # whoever works is waited for, also when something went wrong
-                others = [hand.outcome() for hand in hands]
+                others = [worker.outcome() for worker in workers]
             return [first, *(_value(*outcome) for outcome in others)]
 
-    def _at_hand(self, count: int) -> list[_Hand]:
+    def _ready(self, count: int) -> list[_Worker]:
         """So many threads, started if they are not there yet."""
-        while len(self._hands) < count:
-            self._hands.append(_Hand(f"planar_{len(self._hands)}"))
-        return self._hands[:count]
+        while len(self._workers) < count:
+            self._workers.append(_Worker(f"planar_{len(self._workers)}"))
+        return self._workers[:count]
 
     def close(self) -> None:
         """End the threads."""
         with self._busy:
-            _end(self._hands)
+            _end(self._workers)
 
 
 def _value(value: Any, error: BaseException | None) -> Any:
@@ -136,6 +136,6 @@ def _value(value: Any, error: BaseException | None) -> Any:
     return value
 
 
-def _end(hands: list[_Hand]) -> None:
-    while hands:
-        hands.pop().end()
+def _end(workers: list[_Worker]) -> None:
+    while workers:
+        workers.pop().end()
