@@ -5,8 +5,8 @@ cdef class Bodies:
     cdef public double[:, ::1] rows, goal, command, velocity
     cdef public double[:, ::1] kinds, drives, pieces, corners, looks
     cdef public double[:, ::1] statics, lanes
-    cdef public double[::1] grid
-    cdef public int[::1] start, items, follow, cell
+    cdef public double[::1] grid, near_grid
+    cdef public int[::1] start, items, near_start, near_items, follow, cell
     cdef public int[:, ::1] head
     cdef public signed char[::1] state
     cdef public unsigned char[::1] stalled

@@ -37,6 +37,9 @@ class Bodies:
         grid: See ``grid_cells``.
         start: First item of each cell.
         items: Statics in the cells.
+        near_grid: A finer one over statics alone.
+        near_start: First item of each of its cells.
+        near_items: Statics in the cells.
         head: First body in each cell of each world, shape (nworld, cells).
         follow: The next body in the same cell, shape (nworld * nbody,).
         cell: The cell of each body, shape (nworld * nbody,).

@@ -157,14 +157,14 @@ def statics_meet(w: Bodies, b: int, k: int) -> bool:
     x, y, r = w.goal[b, X], w.goal[b, Y], w.kinds[k, RADIUS]
     if w.lanes.shape[1] > 0 and not any_near(w, x, y, r):
         return False
-    left = place_in(x - r, w.grid[0], w.grid[2], w.grid[3])
-    right = place_in(x + r, w.grid[0], w.grid[2], w.grid[3])
-    low = place_in(y - r, w.grid[1], w.grid[2], w.grid[4])
-    high = place_in(y + r, w.grid[1], w.grid[2], w.grid[4])
+    left = place_in(x - r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
+    right = place_in(x + r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
+    low = place_in(y - r, w.near_grid[1], w.near_grid[2], w.near_grid[4])
+    high = place_in(y + r, w.near_grid[1], w.near_grid[2], w.near_grid[4])
     for row in range(low, high + 1):
-        base = row * cython.cast(cython.Py_ssize_t, w.grid[3])
-        for i in range(w.start[base + left], w.start[base + right + 1]):
-            if static_meets(w, b, k, w.items[i]):
+        base = row * cython.cast(cython.Py_ssize_t, w.near_grid[3])
+        for i in range(w.near_start[base + left], w.near_start[base + right + 1]):
+            if static_meets(w, b, k, w.near_items[i]):
                 return True
     return False
 

@@ -181,7 +181,8 @@ class Fleet:
             euler=self.euler, sweep=sweep, rows=self.rows, goal=self.goal, command=self._command,
             velocity=self._velocity, kinds=self.kinds, drives=self.drives, pieces=self.pieces,
             corners=self.corners, looks=self.looks, statics=scene.table.rows, lanes=scene.lanes,
-            grid=scene.grid, start=scene.start, items=scene.items, head=self.head,
+            grid=scene.grid, start=scene.start, items=scene.items, near_grid=scene.near_grid,
+            near_start=scene.near_start, near_items=scene.near_items, head=self.head,
             follow=self.follow, cell=self.cell, state=self._state,
             stalled=self._stalled.view(np.uint8), way=np.zeros(len(self.rows)),
         )  # fmt: skip

@@ -16,6 +16,8 @@ from gazelle.engines.planar.shapes import Part, Table, primitives_of
 _FEW = 48  # primitives up to which all in one cell are drawn faster than they are looked for
 _MARGIN = 1e-9  # by which cells are larger than they are [m]
 _MOST_CELLS = 1 << 24  # of all worlds together
+_NEAR = 0.25  # side of the finer grid's cells [m]
+_MOST_NEAR = 1 << 21  # cells
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +30,9 @@ class Scene:
         start: First item of each cell, shape (cells + 1,).
         items: Indices of primitives, cell by cell.
         lanes: The primitives once more, one column each, where there are few; else none.
+        near_grid: A finer grid over the primitives alone, for what is near a point; as ``grid``.
+        near_start: First item of each of its cells.
+        near_items: Indices of primitives, cell by cell.
     """
 
     table: Table
@@ -35,6 +40,9 @@ class Scene:
     start: Ints32
     items: Ints32
     lanes: Floats
+    near_grid: Floats
+    near_start: Ints32
+    near_items: Ints32
     _clearings: dict[bool, Clearing] = field(default_factory=dict, init=False)
 
     @property
@@ -76,7 +84,18 @@ def scene_of(
         columns, rows = math.ceil(width / side), math.ceil(height / side)
     grid = np.array([*low, side, columns, rows])
     start, items = listed(table.rows, grid, _MARGIN)
-    return Scene(table, grid, start, items, _lanes_of(table.rows, columns * rows))
+    lanes = _lanes_of(table.rows, columns * rows)
+    return Scene(table, grid, start, items, lanes, *_near(table.rows))
+
+
+def _near(rows: Floats) -> tuple[Floats, Ints32, Ints32]:
+    """A grid over primitives, with small cells."""
+    corners = corners_of(rows) if len(rows) else np.zeros((1, 2))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    width, height = np.maximum(high - low, 1e-3)
+    side = max(_NEAR, math.sqrt(width * height / _MOST_NEAR))
+    grid = np.array([*low, side, math.ceil(width / side), math.ceil(height / side)])
+    return grid, *listed(rows, grid, _MARGIN)
 
 
 def _lanes_of(rows: Floats, cells: int) -> Floats:
