@@ -71,7 +71,7 @@ class Roaming:
             keep=round(manner.keep / fleet.time_step),
             back=round(manner.back / fleet.time_step),
         )
-        looking = [] if scanner is None else [scanner.system]
+        looking = [] if scanner is None or not len(scanner.owners) else [scanner.system]
         self._loop = SystemLoop(
             [self.law, *fleet.systems(), *looking], fleet.nworld, 1, fleet.pool, 1
         )
