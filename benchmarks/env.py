@@ -12,6 +12,7 @@ import argparse
 import contextlib
 import io
 import os
+import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -19,11 +20,11 @@ from pathlib import Path
 
 import gymnasium
 import numpy as np
-import user_task
 
 import gazelle.envs  # noqa: F401  registers the environments
 
 ENVIRONMENT = "gazelle/TurtleBot3Stage4-v0"
+USERS_RAYS = 24  # of the robot in user_task.py
 
 # Stage 4: (x, y, yaw, length) of the walls, all 0.15 m thick, and (x, y) of the posts.
 WALLS = (
@@ -50,6 +51,7 @@ def main() -> None:
     parser.add_argument("--windows", type=int, default=12, help="of which the best (default 12)")
     parser.add_argument("--engine", action="append", help="mujoco or planar (default both)")
     args = parser.parse_args()
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
     print(f"{ENVIRONMENT}, random actions, {os.cpu_count()} processors, best of {args.windows}")
     print(f"{'simulator':<34}{'rays':>6}{'worlds':>8}{'control steps/s':>18}")
     for rays in (24, 360):
@@ -57,7 +59,7 @@ def main() -> None:
             for worlds in (1, 64, 1024):
                 rate = best(gazelle_stepper(rays, worlds, engine), worlds, args)
                 show(f"Gazelle (engine {engine})", rays, worlds, rate)
-                if rays == user_task.RAYS:
+                if rays == USERS_RAYS:
                     rate = best(user_stepper(worlds, engine), worlds, args)
                     show(f"  a user's task and drive ({engine})", rays, worlds, rate)
         stepper = irsim_stepper(rays)
@@ -113,6 +115,8 @@ def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
 
 def user_stepper(worlds: int, engine: str) -> Callable[[], None]:
     """One step of a task and a drive that are a user's: ``user_task.py`` beside this file."""
+    import user_task
+
     env, generator = user_task.make(worlds, engine), np.random.default_rng(0)
     env.reset(seed=0)
     return lambda: env.step(generator.uniform(-1.0, 1.0, (worlds, 2))) and None

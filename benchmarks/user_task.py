@@ -31,7 +31,6 @@ CART = f"""<sdf version='1.7'><model name='cart'><link name='base'><pose>0 0 .1 
 <range><min>.05</min><max>4</max></range><noise><type>gaussian</type><stddev>.01</stddev></noise></ray></sensor>
 </link>{WHEEL.format("left", 0.12)}{WHEEL.format("right", -0.12)}
 <plugin name='drive' filename='libcart_drive.so'/></model></sdf>"""
-RAYS = 24
 
 
 class CartDrive(ModelPlugin):
