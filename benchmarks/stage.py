@@ -44,8 +44,7 @@ SIZES = (
 )
 RIVALS = 1_000  # robots up to which Stage itself runs, unless it is asked for alone
 BATCHES = (64, 1024, 4096)
-TASK_STEPS = 500
-PARTS = ("rival", "fleets", "growth", "batches", "worlds", "graph", "task")
+PARTS = ("rival", "fleets", "growth", "batches", "worlds", "graph")
 
 
 def main() -> None:
@@ -80,8 +79,6 @@ def main() -> None:
             _stage_worlds.worlds(args.threads, args.worlds, goals)
         if args.only != "worlds":
             _stage_worlds.graph(goals)
-    if args.only in {None, "task"}:
-        task(args, goals)
     goals.show()
 
 
@@ -183,19 +180,6 @@ def batches(args: argparse.Namespace, goals: Goals) -> None:
             )
         goals.least(f"robot steps/s with {beams} beams", slowest, wanted)
     goals.most("error of a beam [m]", worst, 1e-5)
-
-
-def task(args: argparse.Namespace, goals: Goals) -> None:
-    """The whole environment of TurtleBot3Stage4: what two processors make in their time."""
-    import env
-
-    print(f"\n{env.ENVIRONMENT}, engine planar, 1,024 worlds")
-    for rays, wanted in ((24, 1.5e6), (360, 1.5e5)):
-        step = env.gazelle_stepper(rays, 1024, "planar")
-        spent = best(lambda s=step: [s() for _ in range(TASK_STEPS)], args.windows)
-        rate = 1024 * TASK_STEPS / spent
-        print(f"{rays:>5} rays{rate:>13,.0f} control steps a processor second")
-        goals.least(f"control steps/s of 2 processors, {rays} rays", 2.0 * rate, wanted)
 
 
 def clutter(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
