@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from threading import get_ident
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle import formats
 from gazelle.array_types import Worlds
+from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import Engine, SystemEngine, make_engine
 from gazelle.errors import SimulationError
@@ -40,7 +40,7 @@ from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
 
 
-class Simulation:
+class Simulation(Closeable):
     """A world that runs, or many copies of it in step.
 
     One thread at a time owns the state: the one that steps, or that reads or changes something.
@@ -344,17 +344,6 @@ class Simulation:
         if not self.requests.closed:
             self.requests.close(CLOSED)
             self._engine.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def _never() -> bool:

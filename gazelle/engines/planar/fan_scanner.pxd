@@ -26,7 +26,7 @@ cdef class FanScanner(System):
     cdef public double missing, constant, share, step
     cdef public bint signed
     cdef public int way
-    cdef public long long seed, tick
+    cdef public long long seed
     cdef PyThread_type_lock lock
 
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

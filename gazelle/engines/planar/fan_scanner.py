@@ -57,7 +57,6 @@ class FanScanner(System):
         constant: Standard deviation of normal noise on ranges [m].
         share: The same, as a share of the range.
         seed: Of noise.
-        tick: Number of scans so far, on which noise depends.
     """
 
     def __cinit__(self) -> None:
@@ -81,7 +80,7 @@ class FanScanner(System):
         self.front, self.mounts, self.middles = front, mounts, middles
         self.next: Any = None
         self.way, self.step, self.missing, self.signed = 0, 1.0, beams.reach, False
-        self.constant, self.share, self.seed, self.tick = 0.0, 0.0, 0, 0
+        self.constant, self.share, self.seed = 0.0, 0.0, 0
         self.spread = np.zeros(len(mounts))
         self.owners = np.zeros(0, np.int64)
         self.ranges = self.names = np.zeros((0, beams.count))

@@ -5,15 +5,15 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.closing import Closeable
 from gazelle.description import StageWorld, World
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.reckoning import Reckoning
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.formats.stage.building import no_garbage
 from gazelle.native.loop import SystemLoop
@@ -36,7 +36,7 @@ _PIECE = 16_384
 """Moves of robots made without a look at what other threads want."""
 
 
-class StageSimulation(Senses):
+class StageSimulation(Senses, Closeable):
     """Stage's robots in the planar engine: commands in, poses, odometry and scans out.
 
     Robots are the top-level position models in file order; all arrays have the axes
@@ -113,8 +113,8 @@ class StageSimulation(Senses):
         self._controllers: list[Controller] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
         self._moving = self.fleet.systems()
-        self._reckoning: System | None = None
-        if self._odometry.needed:
+        self._reckoning: Reckoning | None = None
+        if self._odometry.needed and not self._steering.needed:
             self._reckoning = self._odometry.system(self.fleet.velocity, self.time_step)
         self._loop: SystemLoop | None = None
         self._closed = False
@@ -290,8 +290,7 @@ class StageSimulation(Senses):
         np.copyto(self._before, self._now)
         self.fleet.step()
         if self._odometry.needed:
-            velocity = self.velocities if self._steering.needed else self.fleet.velocity
-            self._odometry.system(velocity, self.time_step).reckon()
+            self._reckon()
         if self.devices:
             self.devices.update(self.time_step)
         self.clock.advance(leapt + 1)
@@ -300,6 +299,13 @@ class StageSimulation(Senses):
             for listener in tuple(self._listeners):
                 listener()
         return leapt + 1
+
+    def _reckon(self) -> None:
+        """Let robots add what their wheels say of a step to where they believe they are."""
+        reckoning = self._reckoning
+        if reckoning is None:  # where cars steer, velocities are worked out anew for each step
+            reckoning = self._odometry.system(self.velocities, self.time_step)
+        reckoning.reckon()
 
     def _leap(self, count: int) -> int:
         """Make so many steps without Python, or none if it has a part in each; how many."""
@@ -414,17 +420,6 @@ class StageSimulation(Senses):
         """End the threads of the engine."""
         self._closed = True
         self.fleet.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     @property
     def named(self) -> Mapping[str, StageRobot]:
