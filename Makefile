@@ -11,7 +11,7 @@ export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
 STAMP := $(VENV)/.installed
 # Tests run in so many processes, a file in one.
 WORKERS ?= 2
-PYTEST := $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile
+PYTEST := $(VENV)/bin/python tools/run_tests.py -q -n $(WORKERS) --dist loadfile
 ALL := $(STAMP)-$(EXTRAS)
 # What is compiled when the package is installed, and with what.
 KERNELS := $(shell grep -rl --include='*.py' '^import cython$$' gazelle) \
