@@ -118,6 +118,10 @@ class SimulationWarning(GazelleWarning):
     """A plugin, sensor or request is ignored or done differently."""
 
 
+class ControlWarning(GazelleWarning):
+    """A controller, or something it was told, is ignored or done differently."""
+
+
 class PluginWarning(SimulationWarning):
     """A plugin failed; the simulation goes on without it."""
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.control import ControllerManager
 from gazelle.description import Joint, Model, Pose
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
@@ -75,6 +76,7 @@ class Robot(Ports):
         links: By name within the robot (``arm::hand`` for a nested model's), its own before it or not.
         joints: Those that move, by name within the robot.
         sensors: By name.
+        managers: Of its controllers, by namespace; one for each ``libgazebo_ros_control.so`` that it has.
     """
 
     def __init__(self, simulation: Simulation, model: Model, namespace: str = "") -> None:
@@ -84,6 +86,7 @@ class Robot(Ports):
         self.name = model.name
         self.namespace = namespace
         self.description = model
+        self.managers: dict[str, ControllerManager] = {}
         self._links = _link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)

@@ -3,7 +3,7 @@
 from gazelle.engines.planar.pictures import Pictures
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import Camera, cameras_of
-from gazelle.simulation.stage.controllers import Controller, register_controller
+from gazelle.simulation.stage.controllers import FleetController, register_controller
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
 from gazelle.simulation.stage.layout import Ranger, StageRobot
@@ -14,8 +14,8 @@ __all__ = [
     "Actuator",
     "Blob",
     "Camera",
-    "Controller",
     "Fiducial",
+    "FleetController",
     "Gripper",
     "GripperState",
     "Pictures",

@@ -34,7 +34,7 @@ DEVIATION = 0.05  # of lasernoise [m]
 _SHARE = 64  # robots that are worth a thread
 
 
-class Controller(Protocol):
+class FleetController(Protocol):
     """Drives robots, or changes what they see."""
 
     def update(self) -> None:
@@ -51,7 +51,7 @@ class Controller(Protocol):
 Wanted = list[tuple[StageRobot, str]]
 """The robots whose ``ctrl`` names a controller, each with what comes after the name."""
 
-Maker = Callable[["StageSimulation", Wanted], list[Controller]]
+Maker = Callable[["StageSimulation", Wanted], list[FleetController]]
 
 
 def register_controller(name: str, make: Maker) -> None:
@@ -71,14 +71,14 @@ def register_controller(name: str, make: Maker) -> None:
     known_controllers.add(name)
 
 
-def make_controllers(simulation: StageSimulation) -> list[Controller]:
+def make_controllers(simulation: StageSimulation) -> list[FleetController]:
     """Those that the world's robots name; others have been warned of when it was loaded."""
     named: dict[str, Wanted] = {}
     for robot in simulation.robots:
         models = [robot.model, *(ranger.model for ranger in robot.rangers)]
         for controller in (each for model in models for each in model.controllers):
             named.setdefault(controller.name, []).append((robot, controller.arguments))
-    made: list[Controller] = []
+    made: list[FleetController] = []
     for name, wanted in named.items():
         maker = _makers.get(name)
         if maker is not None:
@@ -118,7 +118,7 @@ class Wander:
         )
 
     def systems(self) -> list[System] | None:
-        """See `Controller.systems`."""
+        """See `FleetController.systems`."""
         looking = self._simulation.scan_system(self._scanner)
         return None if looking is None else [looking[0], self._law(looking[1])]
 
@@ -176,7 +176,7 @@ def _number(text: str, default: float) -> float:
         return default
 
 
-def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:
+def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[FleetController]:
     groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
     for robot, _ in wanted:
@@ -201,7 +201,7 @@ def _looked_at(robot: StageRobot) -> Ranger | None:
     return next(iter(fine or rangers), None)
 
 
-def _make_noise(simulation: StageSimulation, wanted: Wanted) -> list[Controller]:
+def _make_noise(simulation: StageSimulation, wanted: Wanted) -> list[FleetController]:
     return [LaserNoise(simulation, wanted)]
 
 

@@ -20,7 +20,7 @@ from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.requests import RequestQueue
-from gazelle.simulation.stage.controllers import Controller, make_controllers
+from gazelle.simulation.stage.controllers import FleetController, make_controllers
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.layout import StageRobot, layout_of
 from gazelle.simulation.stage.odometry import Odometry
@@ -110,7 +110,7 @@ class StageSimulation(Senses, Closeable):
         self._before = self._now.copy()
         self._listeners: list[Listener] = []
         self.devices = Devices(self)
-        self._controllers: list[Controller] = make_controllers(self) if controllers else []
+        self._controllers: list[FleetController] = make_controllers(self) if controllers else []
         self._piece = max(1, _PIECE // max(1, nworld * len(self.robots)))
         self._moving = self.fleet.systems()
         self._reckoning: Reckoning | None = None

@@ -1,5 +1,15 @@
 """Plain values that ports carry. Arrays have a leading axis over worlds."""
 
+from gazelle.control.measurements import (
+    NO_VARIANCE,
+    JointStates,
+    Odometry,
+    SixNumbers,
+    Transform,
+    Transforms,
+    TruePose,
+    WrenchValue,
+)
 from gazelle.simulation.values.commands import (
     Bias,
     GeoReference,
@@ -12,16 +22,6 @@ from gazelle.simulation.values.commands import (
     Push,
     Trigger,
     TurnCommand,
-)
-from gazelle.simulation.values.motion import (
-    NO_VARIANCE,
-    JointStates,
-    Odometry,
-    SixNumbers,
-    Transform,
-    Transforms,
-    TruePose,
-    WrenchValue,
 )
 from gazelle.simulation.values.sensing import (
     AltimeterValue,

@@ -5,7 +5,7 @@ import pytest
 
 from gazelle.errors import SimulationError
 from gazelle.formats.stage.models import known_controllers
-from gazelle.simulation.stage import Controller, controllers, register_controller
+from gazelle.simulation.stage import FleetController, controllers, register_controller
 
 TEXT = """
 position ( name "a" ctrl "patrol 0.5" ) position ( name "b" pose [0 5 0 0] )
@@ -13,7 +13,7 @@ position ( name "c" pose [0 9 0 90] ctrl [ "patrol" "wander" ] ranger ( sensor (
 """
 
 
-class Patrol(Controller):
+class Patrol(FleetController):
     """Drives at the speed that the file says, and turns round every ten updates."""
 
     def __init__(self, sim, wanted):

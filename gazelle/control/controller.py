@@ -1,0 +1,255 @@
+"""What a controller is: a law between what joints do and what they are told to do.
+
+A controller of one's own is a subclass, found by its type (see ``registry``)::
+
+    class Spring(Controller):
+        interfaces = (EFFORT,)
+
+        def init(self, parameters: ControllerParameters) -> None:
+            self._joint = self.claim(EFFORT, parameters.names("joint"))
+            self._stiffness = parameters.number("stiffness", 10.0)
+
+        def update(self, time: float, period: float) -> None:
+            self._joint.set_command(-self._stiffness * self._joint.position)
+
+**How a bridge binds one.** After ``ControllerManager.load`` a controller's ports are in five tables,
+by a name that does not change: ``inputs`` (``CommandPort``: subscribe, hand each message's value to
+``send``), ``outputs`` (``StatePort``: listen with ``subscribe`` while the topic has subscribers),
+``actions`` (``ActionPort``: give each goal to ``send`` and keep the ``Goal`` it returns; its states are
+actionlib's; ``Goal.subscribe`` tells of changes and feedback, ``Goal.cancel`` takes a cancel request),
+``queries`` (``QueryPort``: a service, ``ask``; a ``ControlError`` is its failure) and ``tunings``
+(``TuningPort``: a dynamic_reconfigure server). A port's ``topic`` is relative to the manager's
+namespace (``arm_controller/command``), or begins with a slash. Its ``kind`` is the class of the values:
+see ``values`` and ``measurements``, which say which message they stand for. All ports may be used from
+any thread. Values that are published hold all worlds; a bridge shows its own. What is sent holds in the
+``worlds`` that are given. ``ControllerManager.watch`` tells of controllers that are loaded and unloaded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Worlds
+from gazelle.control.goals import ActionPort
+from gazelle.control.interfaces import JointHandles
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.ports import (
+    CommandPort,
+    QueryPort,
+    Serializer,
+    StatePort,
+    TunableValue,
+    TuningPort,
+)
+from gazelle.errors import ControlError, did_you_mean
+
+if TYPE_CHECKING:
+    from gazelle.control.hardware import RobotHardware
+    from gazelle.description import Joint, Model
+
+T = TypeVar("T")
+Q = TypeVar("Q")
+R = TypeVar("R")
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerSetup:
+    """What a controller is made with.
+
+    Attributes:
+        name: Its name.
+        type: Such as ``effort_controllers/JointPositionController``.
+        hardware: Of its robot.
+        model: The robot as its URDF describes it; None where nobody knows it.
+        call: Does work between two updates.
+    """
+
+    name: str
+    type: str
+    hardware: RobotHardware
+    model: Model | None
+    call: Serializer
+
+
+class Controller:
+    """Base class of all controllers. One object controls in all worlds: arrays have them first.
+
+    Args:
+        setup: Given by the manager.
+
+    Attributes:
+        interfaces: Interfaces of the robot that it cannot do without; set it in the class.
+        name: Its name.
+        type: Such as ``effort_controllers/JointPositionController``.
+        nworld: Number of worlds.
+        now_ns: Time of the last update [ns], kept by the manager.
+        running: Whether it is updated, kept by the manager.
+        claimed: Resources that it has for itself, by interface.
+        inputs: Commands that it takes.
+        outputs: What it publishes.
+        actions: Goals that it takes.
+        queries: Questions that it answers.
+        tunings: What can be changed while it runs.
+    """
+
+    interfaces: ClassVar[tuple[str, ...]] = ()
+
+    def __init__(self, setup: ControllerSetup) -> None:
+        self.name, self.type = setup.name, setup.type
+        self.hardware, self.nworld = setup.hardware, setup.hardware.nworld
+        self.now_ns = 0
+        self.running = False
+        self.claimed: dict[str, tuple[str, ...]] = {}
+        self.inputs: dict[str, CommandPort[Any]] = {}
+        self.outputs: dict[str, StatePort[Any]] = {}
+        self.actions: dict[str, ActionPort[Any]] = {}
+        self.queries: dict[str, QueryPort[Any, Any]] = {}
+        self.tunings: dict[str, TuningPort] = {}
+        self._setup = setup
+
+    # -- to be overridden --------------------------------------------------------------
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read the parameters, claim joints, open ports.
+
+        Raises:
+            ControlError: It cannot be; nothing of it stays then.
+        """
+
+    def starting(self, time: float) -> None:
+        """It is updated from now on [s]: command what keeps the robot as it is."""
+
+    def update(self, time: float, period: float) -> None:
+        """Control.
+
+        Args:
+            time: Now [s].
+            period: Since the last update [s].
+        """
+
+    def stopping(self, time: float) -> None:
+        """It is not updated any more from now on [s]; the last commands stay in the joints."""
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """The robot was put back to its initial state in these worlds, all if None: hold it there.
+
+        A controller that does not say otherwise starts anew, in all worlds.
+        """
+        del worlds
+        if self.running:
+            self.starting(self.now_ns * 1e-9)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+
+    # -- for subclasses ----------------------------------------------------------------
+
+    def claim(self, interface: str, names: Sequence[str]) -> JointHandles:
+        """Joints of the robot, for this controller alone if they are to be commanded.
+
+        Args:
+            interface: Such as ``hardware_interface/EffortJointInterface``.
+            names: Of the joints.
+
+        Raises:
+            ControlError: The robot has no such interface, or no such joint in it.
+        """
+        return cast("JointHandles", self.resources(interface, names))
+
+    def resources(self, interface: str, names: Sequence[str]) -> Any:
+        """The same of an interface of any kind: what its ``handles`` gives."""
+        found = self.hardware.interface(interface)
+        handles = found.handles(names)
+        if found.claims:
+            known = self.claimed.get(found.name, ())
+            self.claimed[found.name] = tuple(sorted({*known, *names}))
+        return handles
+
+    def description_of(self, joint: str) -> Joint:
+        """What the robot's URDF says about a joint.
+
+        Raises:
+            ControlError: There is no URDF, or no such joint in it.
+        """
+        if self._setup.model is None:
+            raise ControlError(
+                f"controller '{self.name}' needs the robot's URDF, and nobody knows it",
+                hint="set the parameter robot_description",
+            )
+        known = {j.name: j for placed in self._setup.model.walk() for j in placed.model.joints}
+        if joint not in known:
+            raise ControlError(
+                f"could not find joint '{joint}' in the URDF, for controller '{self.name}'",
+                hint=did_you_mean(joint, known),
+            )
+        return known[joint]
+
+    @property
+    def model(self) -> Model | None:
+        """The robot as its URDF describes it; None where nobody knows it."""
+        return self._setup.model
+
+    def topic(self, name: str) -> str:
+        """A name in this controller's namespace."""
+        return f"{self.name}/{name}"
+
+    def rows(self, worlds: Worlds | None) -> Worlds:
+        """Indices of worlds, shape (n,)."""
+        return np.arange(self.nworld) if worlds is None else np.asarray(worlds, np.intp)
+
+    def add_input(
+        self, name: str, kind: type[T], receive: Callable[[T, Worlds | None], None]
+    ) -> CommandPort[T]:
+        """Take commands of a kind in this controller's namespace."""
+        port = CommandPort(self.topic(name), kind, receive, self._setup.call)
+        self.inputs[name] = port
+        return port
+
+    def add_output(
+        self,
+        name: str,
+        kind: type[T],
+        produce: Callable[[], T],
+        *,
+        topic: str | None = None,
+        queue_size: int = 1,
+    ) -> StatePort[T]:
+        """Publish values; ``topic`` is where, if not in this controller's namespace."""
+        where = self.topic(name) if topic is None else topic
+        port = StatePort(where, kind, produce, self._setup.call, queue_size=queue_size)
+        self.outputs[name] = port
+        return port
+
+    def add_query(
+        self, name: str, request: type[Q], response: type[R], answer: Callable[[Q], R]
+    ) -> QueryPort[Q, R]:
+        """Answer questions."""
+        port = QueryPort(self.topic(name), request, response, answer, self._setup.call)
+        self.queries[name] = port
+        return port
+
+    def add_tuning(
+        self,
+        name: str,
+        tunables: Sequence[TunableValue],
+        values: Callable[[], Mapping[str, bool | float]],
+        change: Callable[[Mapping[str, Any]], None],
+    ) -> TuningPort:
+        """Let values be changed; an empty name is the controller's own namespace."""
+        where = self.topic(name).rstrip("/")
+        port = TuningPort(where, tunables, values, change, self._setup.call)
+        self.tunings[name] = port
+        return port
+
+    def add_action(self, name: str, port: Callable[[str, Serializer], ActionPort[T]]) -> None:
+        """Take goals: ``port`` makes the port for a topic."""
+        self.actions[name] = port(self.topic(name), self._setup.call)

@@ -1,0 +1,226 @@
+"""What a robot's hardware offers to controllers: joints and sensors, by interface.
+
+They are those of ros_control's ``hardware_interface``, for many worlds at once.
+
+A kind of one's own is a subclass of ``HardwareInterface``, or an object of one of these classes under a
+name of one's own, registered by ``RobotHardware.register``; controllers ask for it by that name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats, Indices
+from gazelle.errors import ControlError, did_you_mean
+
+JOINT_STATE = "hardware_interface/JointStateInterface"
+EFFORT = "hardware_interface/EffortJointInterface"
+POSITION = "hardware_interface/PositionJointInterface"
+VELOCITY = "hardware_interface/VelocityJointInterface"
+POS_VEL = "hardware_interface/PosVelJointInterface"
+POS_VEL_ACC = "hardware_interface/PosVelAccJointInterface"
+IMU = "hardware_interface/ImuSensorInterface"
+FORCE_TORQUE = "hardware_interface/ForceTorqueSensorInterface"
+
+COMMAND_FIELDS: Mapping[str, tuple[str, ...]] = {
+    EFFORT: ("effort",),
+    POSITION: ("position",),
+    VELOCITY: ("velocity",),
+    POS_VEL: ("position", "velocity"),
+    POS_VEL_ACC: ("position", "velocity", "acceleration"),
+}
+"""What each kind of command consists of."""
+
+
+def cpp_name(interface: str) -> str:
+    """An interface's name as C++ has it: ``hardware_interface::EffortJointInterface``."""
+    return interface.replace("/", "::")
+
+
+class HardwareInterface:
+    """Something that controllers read or command, resource by resource.
+
+    Args:
+        name: Such as ``hardware_interface/EffortJointInterface``.
+        resources: Names of what it is of.
+        claims: Whether a controller has a resource for itself. Commands are claimed, reading is not.
+    """
+
+    def __init__(self, name: str, resources: Sequence[str], *, claims: bool) -> None:
+        self.name, self.resources, self.claims = name, tuple(resources), claims
+
+    def check(self, names: Sequence[str]) -> None:
+        """See that there are such resources.
+
+        Raises:
+            ControlError: There is none of a name.
+        """
+        for name in names:
+            if name not in self.resources:
+                raise ControlError(
+                    f"could not find resource '{name}' in '{cpp_name(self.name)}'",
+                    hint=did_you_mean(name, self.resources),
+                )
+
+    def handles(self, names: Sequence[str]) -> Any:
+        """What a controller gets for some resources.
+
+        Raises:
+            ControlError: There is none of a name.
+        """
+        self.check(names)
+        return names
+
+
+class JointStateInterface(HardwareInterface):
+    """Positions, velocities and efforts of joints.
+
+    Args:
+        names: Of the joints.
+        nworld: Number of worlds.
+
+    Attributes:
+        position: [m or rad], shape (nworld, joints).
+        velocity: [m/s or rad/s], likewise.
+        effort: [N or N m], likewise.
+    """
+
+    def __init__(self, names: Sequence[str], nworld: int) -> None:
+        super().__init__(JOINT_STATE, names, claims=False)
+        shape = (nworld, len(self.resources))
+        self.position: Floats = np.ones(shape)
+        self.velocity: Floats = np.zeros(shape)
+        self.effort: Floats = np.ones(shape)
+
+    def columns(self, names: Sequence[str]) -> Indices:
+        """Where joints are in the arrays, shape (n,)."""
+        self.check(names)
+        return np.array([self.resources.index(name) for name in names], np.intp)
+
+    def handles(self, names: Sequence[str]) -> JointHandles:
+        """Some joints, to be read."""
+        return JointHandles(tuple(names), self, self.columns(names), {})
+
+
+class JointCommandInterface(HardwareInterface):
+    """Commands of one kind to joints.
+
+    Args:
+        name: Of the interface.
+        names: Of the joints, all of them in ``states``.
+        states: Of the joints.
+        fields: What a command consists of; what ``COMMAND_FIELDS`` says if None.
+
+    Attributes:
+        commands: By field, shape (nworld, joints): what controllers want now.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        names: Sequence[str],
+        states: JointStateInterface,
+        fields: Sequence[str] | None = None,
+    ) -> None:
+        super().__init__(name, names, claims=True)
+        self._states = states
+        nworld = len(states.position)
+        wanted = COMMAND_FIELDS[name] if fields is None else fields
+        self.commands = {field: np.zeros((nworld, len(self.resources))) for field in wanted}
+
+    def handles(self, names: Sequence[str]) -> JointHandles:
+        """Some joints, to be read and commanded."""
+        self.check(names)
+        own = np.array([self.resources.index(name) for name in names], np.intp)
+        commands = {field: (values, own) for field, values in self.commands.items()}
+        return JointHandles(tuple(names), self._states, self._states.columns(names), commands)
+
+
+class JointHandles:
+    """Some joints of a robot, in the order that a controller wants them.
+
+    Args:
+        names: Of the joints.
+        states: That hold them.
+        columns: Where.
+        commands: By field, the array of all commands and the columns in it.
+    """
+
+    def __init__(
+        self,
+        names: tuple[str, ...],
+        states: JointStateInterface,
+        columns: Indices,
+        commands: Mapping[str, tuple[Floats, Indices]],
+    ) -> None:
+        self.names = names
+        self._states, self._columns, self._commands = states, columns, commands
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    @property
+    def position(self) -> Floats:
+        """[m or rad], shape (nworld, joints)."""
+        return self._states.position[:, self._columns]
+
+    @property
+    def velocity(self) -> Floats:
+        """[m/s or rad/s], shape (nworld, joints)."""
+        return self._states.velocity[:, self._columns]
+
+    @property
+    def effort(self) -> Floats:
+        """What acts [N or N m], shape (nworld, joints)."""
+        return self._states.effort[:, self._columns]
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """What a command consists of; nothing for joints that can only be read."""
+        return tuple(self._commands)
+
+    def command(self, field: str | None = None) -> Floats:
+        """What is commanded now, shape (nworld, joints).
+
+        Args:
+            field: ``effort``, ``position``, ``velocity`` or ``acceleration``; the only one if None.
+        """
+        values, columns = self._commands[field or self.fields[0]]
+        return values[:, columns]
+
+    def set_command(
+        self, values: Floats | float, field: str | None = None, worlds: Indices | None = None
+    ) -> None:
+        """Command the joints, until something else is commanded.
+
+        Args:
+            values: Shape (n, joints), or what broadcasts to that.
+            field: As of ``command``.
+            worlds: Which worlds; all if None.
+        """
+        target, columns = self._commands[field or self.fields[0]]
+        if worlds is None:
+            target[:, columns] = values
+        else:
+            target[np.ix_(worlds, columns)] = values
+
+
+class SensorInterface(HardwareInterface):
+    """Sensors by name, to be read; see ``measurements`` for what a reading is.
+
+    Args:
+        name: ``hardware_interface/ImuSensorInterface`` or ``ForceTorqueSensorInterface``, or one's own.
+        sensors: A function for each name that measures, and returns a plain value.
+    """
+
+    def __init__(self, name: str, sensors: Mapping[str, Any]) -> None:
+        super().__init__(name, tuple(sensors), claims=False)
+        self._sensors = dict(sensors)
+
+    def handles(self, names: Sequence[str]) -> Any:
+        """The functions that measure, in this order."""
+        self.check(names)
+        return [self._sensors[name] for name in names]

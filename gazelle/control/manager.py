@@ -1,0 +1,452 @@
+"""Loads, starts, stops and updates the controllers of a robot."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, Final, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Worlds
+from gazelle.control import registry
+from gazelle.control.controller import Controller, ControllerSetup
+from gazelle.control.hardware import ControllerInfo, RobotHardware
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.ports import Serializer
+from gazelle.control.switching import Switch, conflict_of
+from gazelle.description import Model
+from gazelle.errors import ControlError, ControlWarning, did_you_mean
+
+R = TypeVar("R")
+
+BASE_CLASS: Final = "controller_interface::ControllerBase"
+"""Of all types, as list_controller_types says."""
+
+
+class Strictness(IntEnum):
+    """What a switch does with requests that cannot be met (controller_manager_msgs)."""
+
+    BEST_EFFORT = 1
+    STRICT = 2
+
+
+@dataclass(slots=True)
+class LoadedController:
+    """A controller of a manager.
+
+    Attributes:
+        controller: The law.
+        state: ``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
+    """
+
+    controller: Controller
+    state: str = "initialized"
+
+    @property
+    def info(self) -> ControllerInfo:
+        """As the robot's side sees it."""
+        own = self.controller
+        return ControllerInfo(own.name, own.type, dict(own.claimed))
+
+
+class ControllerManager:
+    """The controllers of one robot, as ros_control's controller_manager keeps them.
+
+    Its methods may be called from any thread; what they do is done between two updates. A switch is
+    made before the call returns, unless the robot itself needs time for it (``Switch``), also while
+    nothing steps.
+
+    Args:
+        hardware: The robot.
+        parameters: Of controllers by name, as YAML gives them; each has a ``type``.
+        model: The robot as its URDF describes it; None where nobody knows it.
+        call: Does work between two updates; a lock of its own if None.
+        namespace: Of the robot; before all topics that are relative.
+
+    Attributes:
+        hardware: The robot.
+        namespace: Of the robot.
+        parameters: As given. A bridge may set ``find_parameters`` instead.
+        find_parameters: Asked for the parameters of a controller that is loaded by its name alone;
+            None for one that has none.
+    """
+
+    def __init__(
+        self,
+        hardware: RobotHardware,
+        parameters: Mapping[str, Any] | None = None,
+        *,
+        model: Model | None = None,
+        call: Serializer | None = None,
+        namespace: str = "",
+    ) -> None:
+        self.hardware, self.model, self.namespace = hardware, model, namespace
+        self.parameters: dict[str, Any] = dict(parameters or {})
+        self.find_parameters: Callable[[str], Mapping[str, Any] | None] = self.parameters.get
+        self._lock = threading.RLock()
+        self.call: Serializer = call or self._locked
+        self._loaded: dict[str, LoadedController] = {}
+        self._watchers: list[tuple[Callable[[Controller], None], Callable[[Controller], None]]] = []
+        self._switch: Switch | None = None
+        self.now_ns = 0
+
+    def _locked(self, work: Callable[[], R]) -> R:
+        with self._lock:
+            return work()
+
+    # -- what services offer -----------------------------------------------------------
+
+    def load(self, name: str, parameters: Mapping[str, Any] | None = None) -> Controller:
+        """Make a controller; it does not run yet.
+
+        Args:
+            name: Its name.
+            parameters: With its ``type``; what ``find_parameters`` knows if None.
+
+        Raises:
+            ControlError: The name is taken, there is no type or none of that name, the robot lacks
+                an interface or a joint, or the parameters cannot be. Nothing stays behind.
+        """
+        return self.call(lambda: self._load(name, parameters))
+
+    def unload(self, name: str) -> None:
+        """Take a controller away.
+
+        Raises:
+            ControlError: There is none of that name, or it is running.
+        """
+        self.call(lambda: self._unload(name))
+
+    def switch(
+        self,
+        start: Sequence[str] = (),
+        stop: Sequence[str] = (),
+        strictness: int = Strictness.STRICT,
+        *,
+        start_asap: bool = False,
+        timeout: float = 0.0,
+    ) -> Switch:
+        """Stop controllers and start others, at one moment.
+
+        Args:
+            start: Names.
+            stop: Names.
+            strictness: ``STRICT``: all or nothing; ``BEST_EFFORT``: names that are unknown, running
+                or stopped already are passed over. 0 is ``BEST_EFFORT`` with a warning.
+            start_asap: Start each controller as soon as its joints have switched.
+            timeout: How long the robot may take for that, on the updates' clock [s]; 0 for ever.
+
+        Returns:
+            The switch: done already, unless the robot needs time.
+
+        Raises:
+            ControlError: It cannot be; nothing is changed.
+        """
+        return self.call(
+            lambda: self._begin_switch(
+                tuple(start), tuple(stop), strictness, timeout, asap=start_asap
+            )
+        )
+
+    def start(self, *names: str) -> None:
+        """Start controllers; ``STRICT``."""
+        self.switch(start=names)
+
+    def stop(self, *names: str) -> None:
+        """Stop controllers; ``STRICT``."""
+        self.switch(stop=names)
+
+    @property
+    def loaded(self) -> list[LoadedController]:
+        """All that are loaded, in that order."""
+        return self.call(lambda: [*self._loaded.values()])
+
+    def types(self) -> list[str]:
+        """Types that can be loaded; the base class of each is ``BASE_CLASS``."""
+        return registry.types()
+
+    def reload(self, *, force_kill: bool = False) -> bool:
+        """Read libraries of controllers anew: none is left loaded.
+
+        Args:
+            force_kill: Stop and unload what is loaded.
+
+        Returns:
+            Whether it was done: not while something is loaded, unless forced.
+        """
+        return self.call(lambda: self._reload(force_kill=force_kill))
+
+    def __getitem__(self, name: str) -> Controller:
+        """A loaded controller.
+
+        Raises:
+            ControlError: There is none of that name.
+        """
+        return self._entry(name).controller
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._loaded
+
+    def state_of(self, name: str) -> str:
+        """``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
+
+        Raises:
+            ControlError: There is none of that name.
+        """
+        return self._entry(name).state
+
+    def watch(
+        self, loaded: Callable[[Controller], None], unloaded: Callable[[Controller], None]
+    ) -> Callable[[], None]:
+        """Be told of controllers that come, at once of those there are, and of those that go.
+
+        Functions are called by the thread that loads. Returns what ends it.
+        """
+        entry = (loaded, unloaded)
+
+        def begin() -> None:
+            self._watchers.append(entry)
+            for each in self._loaded.values():
+                loaded(each.controller)
+
+        self.call(begin)
+        return lambda: self._watchers.remove(entry)
+
+    # -- the loop ----------------------------------------------------------------------
+
+    def update(self, now_ns: int, period: float, *, restart: bool = False) -> None:
+        """Let all running controllers act; for the thread that owns the robot.
+
+        Args:
+            now_ns: Time [ns].
+            period: Since the last update [s].
+            restart: Stop and start what is running first, as after an emergency stop.
+        """
+        self.now_ns, time = now_ns, now_ns * 1e-9
+        running = [each for each in self._loaded.values() if each.controller.running]
+        for entry in running:
+            controller = entry.controller
+            controller.now_ns = now_ns
+            try:
+                if restart:
+                    controller.stopping(time)
+                    controller.starting(time)
+                controller.update(time, period)
+            except Exception as error:  # noqa: BLE001  one controller's fault is not the others'
+                controller.running, entry.state = False, "aborted"
+                text = f"controller '{controller.name}' failed and is aborted: {error}"
+                warnings.warn(ControlWarning(text), stacklevel=2)
+        if self._switch is not None:
+            self._go_on(self._switch)
+
+    def reset(self, worlds: Worlds | None, *, rewind: bool = False) -> None:
+        """The robot was put back to its initial state in these worlds; all if None.
+
+        Args:
+            worlds: Which.
+            rewind: Whether time began anew too.
+        """
+        self.now_ns = 0 if rewind else self.now_ns
+        for entry in self._loaded.values():
+            entry.controller.now_ns = self.now_ns
+            entry.controller.reset(worlds)
+
+    def states(self) -> Mapping[str, NDArray[np.generic]]:
+        """Everything that changes in controllers, for a snapshot."""
+        return {
+            f"{name}/{key}": value
+            for name, entry in self._loaded.items()
+            for key, value in {
+                **entry.controller.state(),
+                "running": np.array(entry.controller.running),
+            }.items()
+        }
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``states`` gave; controllers loaded since stay as they are."""
+        for name, entry in self._loaded.items():
+            own = {
+                k.removeprefix(f"{name}/"): v for k, v in state.items() if k.startswith(f"{name}/")
+            }
+            if own:
+                running = bool(own.pop("running"))
+                entry.controller.running = running
+                if running or entry.state == "running":
+                    entry.state = "running" if running else "stopped"
+                entry.controller.restore(own)
+
+    # -- one thing at a time -----------------------------------------------------------
+
+    def _entry(self, name: str) -> LoadedController:
+        if name not in self._loaded:
+            raise ControlError(
+                f"there is no controller '{name}'", hint=did_you_mean(name, self._loaded)
+            )
+        return self._loaded[name]
+
+    def _load(self, name: str, given: Mapping[str, Any] | None) -> Controller:
+        if name in self._loaded:
+            raise ControlError(
+                f"a controller named '{name}' was already loaded inside the controller manager"
+            )
+        found = self.find_parameters(name) if given is None else given
+        parameters = ControllerParameters(found or {}, name)
+        if not isinstance(parameters.get("type"), str):
+            raise ControlError(
+                f"could not load controller '{name}' because the type was not specified",
+                hint="load its configuration first: a namespace of its name with a 'type'",
+            )
+        controller = registry.make(
+            ControllerSetup(name, parameters.text("type"), self.hardware, self.model, self.call)
+        )
+        for interface in controller.interfaces:
+            self.hardware.interface(interface)
+        try:
+            controller.init(parameters)
+        except ControlError as error:
+            raise ControlError(
+                f"initializing controller '{name}' failed: {error.message}", hint=error.hint
+            ) from error
+        except Exception as error:
+            raise ControlError(f"initializing controller '{name}' failed: {error}") from error
+        controller.now_ns = self.now_ns
+        self._loaded[name] = LoadedController(controller)
+        for loaded, _ in tuple(self._watchers):
+            loaded(controller)
+        return controller
+
+    def _unload(self, name: str) -> None:
+        entry = self._loaded.get(name)
+        if entry is None:
+            raise ControlError(
+                f"could not unload controller with name '{name}' because no controller with this "
+                "name exists",
+                hint=did_you_mean(name, self._loaded),
+            )
+        if entry.controller.running or entry.state == "waiting":
+            raise ControlError(
+                f"could not unload controller with name '{name}' because it is still running"
+            )
+        del self._loaded[name]
+        for _, unloaded in tuple(self._watchers):
+            unloaded(entry.controller)
+
+    def _reload(self, *, force_kill: bool) -> bool:
+        if self._loaded and not force_kill:
+            return False
+        running = [name for name, each in self._loaded.items() if each.controller.running]
+        if running:
+            self._begin_switch((), tuple(running), Strictness.BEST_EFFORT)
+        for name in [*self._loaded]:
+            self._unload(name)
+        return True
+
+    # -- switching ---------------------------------------------------------------------
+
+    def _begin_switch(
+        self,
+        start: tuple[str, ...],
+        stop: tuple[str, ...],
+        strictness: int,
+        timeout: float = 0.0,
+        *,
+        asap: bool = False,
+    ) -> Switch:
+        if self._switch is not None:
+            raise ControlError("a switch is going on already")
+        if strictness not in (Strictness.BEST_EFFORT, Strictness.STRICT):
+            text = f"strictness {strictness} is not known; it is taken as BEST_EFFORT (1)"
+            warnings.warn(ControlWarning(text), stacklevel=4)
+            strictness = Strictness.BEST_EFFORT
+        strict = strictness == Strictness.STRICT
+        stopping = self._chosen(stop, strict=strict, running=True)
+        starting = self._chosen(start, strict=strict, running=False, also=stopping)
+        both = [name for name in starting if name in stopping]
+        if both:
+            raise ControlError(
+                f"controller '{both[0]}' is in both the list to start and the list to stop",
+                hint="stop it, and start it in a second call",
+            )
+        after = [
+            entry.info
+            for name, entry in self._loaded.items()
+            if name in starting or (entry.controller.running and name not in stopping)
+        ]
+        conflict = conflict_of(after)
+        if starting and conflict:
+            raise ControlError(
+                f"could not switch controllers, due to resource conflict: {conflict}"
+            )
+        infos = (
+            [self._loaded[name].info for name in starting],
+            [self._loaded[name].info for name in stopping],
+        )
+        if not self.hardware.prepare_switch(*infos):
+            raise ControlError(
+                "could not switch controllers: the hardware interface combination for the requested "
+                "controllers is unfeasible"
+            )
+        switch = Switch(tuple(starting), tuple(stopping), asap, timeout, self.now_ns)
+        if starting or stopping:
+            self.hardware.do_switch(*infos)
+            for name in stopping:
+                self._stop(self._loaded[name])
+        self._go_on(switch)
+        return switch
+
+    def _chosen(
+        self,
+        names: tuple[str, ...],
+        *,
+        strict: bool,
+        running: bool,
+        also: Sequence[str] = (),
+    ) -> list[str]:
+        """Those of the names that can be stopped or started."""
+        found: list[str] = []
+        what = "stop" if running else "start"
+        for name in names:
+            entry = self._loaded.get(name)
+            if entry is None:
+                fault = (
+                    f"could not {what} controller with name '{name}' because no controller with "
+                    "this name exists"
+                )
+            elif entry.controller.running != running and name not in also:
+                fault = (
+                    f"could not stop controller with name '{name}' since it is not running"
+                    if running
+                    else f"controller '{name}' is already running"
+                )
+            else:
+                if name not in found:
+                    found.append(name)
+                continue
+            if strict:
+                hint = did_you_mean(name, self._loaded) if entry is None else None
+                raise ControlError(fault, hint=hint)
+        return found
+
+    def _go_on(self, switch: Switch) -> None:
+        """Start what can be started now."""
+        self._switch = switch
+        entries = [self._loaded[name] for name in switch.start]
+        switch.advance(self.hardware, entries, self.now_ns, self._start)
+        if switch.done:
+            self._switch = None
+
+    def _start(self, entry: LoadedController) -> None:
+        controller = entry.controller
+        controller.now_ns = self.now_ns
+        controller.starting(self.now_ns * 1e-9)
+        controller.running, entry.state = True, "running"
+
+    def _stop(self, entry: LoadedController) -> None:
+        controller = entry.controller
+        controller.running, entry.state = False, "stopped"
+        controller.stopping(self.now_ns * 1e-9)

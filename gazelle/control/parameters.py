@@ -1,0 +1,105 @@
+"""Parameters of a controller: a plain nested mapping, read with clear errors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from gazelle.errors import ControlError, did_you_mean
+
+
+class ControllerParameters(Mapping[str, Any]):
+    """What YAML gives a controller, or a part of it; paths go down with ``/``.
+
+    Args:
+        values: Nested mappings of plain values.
+        place: Where they are, for messages.
+    """
+
+    def __init__(self, values: Mapping[str, Any], place: str) -> None:
+        self._values, self.place = values, place
+
+    def __getitem__(self, path: str) -> Any:
+        found: Any = self._values
+        for name in path.strip("/").split("/"):
+            if not isinstance(found, Mapping) or name not in found:
+                raise KeyError(path)
+            found = found[name]
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def part(self, path: str) -> ControllerParameters:
+        """The parameters below a name; none if there are none.
+
+        Raises:
+            ControlError: It is a value.
+        """
+        found = self.get(path, {})
+        if not isinstance(found, Mapping):
+            raise self.wrong(path, "a namespace", found)
+        return ControllerParameters(found, f"{self.place}/{path}")
+
+    def number(self, path: str, default: float | None = None) -> float:
+        """An int or a float.
+
+        Raises:
+            ControlError: It is something else, or missing without a default.
+        """
+        found = self._find(path, default)
+        if isinstance(found, bool) or not isinstance(found, int | float):
+            raise self.wrong(path, "a number", found)
+        return float(found)
+
+    def flag(self, path: str, *, default: bool | None = None) -> bool:
+        """A bool.
+
+        Raises:
+            ControlError: As ``number``.
+        """
+        found = self._find(path, default)
+        if not isinstance(found, bool):
+            raise self.wrong(path, "true or false", found)
+        return found
+
+    def text(self, path: str, default: str | None = None) -> str:
+        """A str.
+
+        Raises:
+            ControlError: As ``number``.
+        """
+        found = self._find(path, default)
+        if not isinstance(found, str):
+            raise self.wrong(path, "a string", found)
+        return found
+
+    def names(self, path: str, default: str | tuple[str, ...] | None = None) -> tuple[str, ...]:
+        """One name or a list of names, at least one.
+
+        Raises:
+            ControlError: As ``number``, or the list is empty.
+        """
+        found = self._find(path, default)
+        listed = [found] if isinstance(found, str) else found
+        if not isinstance(listed, list | tuple) or not all(isinstance(n, str) for n in listed):
+            raise self.wrong(path, "a string or a list of strings", found)
+        if not listed:
+            raise ControlError(f"the list in the parameter '{self.place}/{path}' is empty")
+        return tuple(listed)
+
+    def wrong(self, path: str, wanted: str, found: object) -> ControlError:
+        """The error for a value of a wrong type."""
+        return ControlError(f"the parameter '{self.place}/{path}' must be {wanted}, not {found!r}")
+
+    def _find(self, path: str, default: Any) -> Any:
+        found = self.get(path, default)
+        if found is None:
+            raise ControlError(
+                f"there is no parameter '{self.place}/{path}'",
+                hint=did_you_mean(path, [str(name) for name in self._values]),
+            )
+        return found

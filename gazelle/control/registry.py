@@ -1,0 +1,88 @@
+"""Find a controller's class by its type.
+
+A type is ``package/Class``. It is looked for among what a program gave to ``register``, then among the
+entry points of other packages in the group ``gazelle.controllers`` (their names are types), then in
+Gazelle's own table, then as the attribute ``Class`` of a Python package of that name.
+``package.module:Class`` names a class itself.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from typing import TypeVar
+
+from gazelle.control.controller import Controller, ControllerSetup
+from gazelle.control.table import CONTROLLERS
+from gazelle.entry_points import entry_points_of_others
+from gazelle.errors import ControlError, did_you_mean
+
+C = TypeVar("C", bound=type[Controller])
+
+_GROUP = "gazelle.controllers"
+_registered: dict[str, type[Controller]] = {}
+
+
+def register(controller_type: str, controller: C) -> C:
+    """Let configurations name a controller class by a type, such as ``my_controllers/Spring``."""
+    _registered[controller_type] = controller
+    return controller
+
+
+def types() -> list[str]:
+    """All types that are known by name, sorted."""
+    return sorted({*_registered, *entry_points_of_others(_GROUP), *CONTROLLERS})
+
+
+def make(setup: ControllerSetup) -> Controller:
+    """A controller of the type that is asked for, not initialised yet.
+
+    Raises:
+        ControlError: There is no such type.
+    """
+    found = _find(setup.type)
+    if found is None:
+        raise ControlError(
+            f"could not load controller '{setup.name}' because controller type '{setup.type}' does "
+            "not exist",
+            hint=did_you_mean(setup.type, types()),
+        )
+    return found(setup)
+
+
+def _find(name: str) -> type[Controller] | None:
+    if name in _registered:
+        return _registered[name]
+    point = entry_points_of_others(_GROUP).get(name)
+    if point is not None:
+        return _checked(point.load(), name)
+    if name in CONTROLLERS:
+        return _own(name)
+    module, _, attribute = name.partition(":" if ":" in name else "/")
+    if not module or not attribute:
+        return None
+    try:
+        loaded = importlib.import_module(module)
+    except ImportError:
+        return None
+    found = getattr(loaded, attribute, None)
+    return None if found is None else _checked(found, name)
+
+
+@functools.cache
+def _own(name: str) -> type[Controller]:
+    """A class of the table, with the interface that the type is for."""
+    module, _, attribute = CONTROLLERS[name].code.partition(":")
+    found: type[Controller] = getattr(
+        importlib.import_module(f"gazelle.control.{module}"), attribute
+    )
+    interfaces = CONTROLLERS[name].interfaces
+    return type(attribute, (found,), {"interfaces": interfaces, "__doc__": found.__doc__})
+
+
+def _checked(found: object, name: str) -> type[Controller]:
+    if not (isinstance(found, type) and issubclass(found, Controller)):
+        raise ControlError(
+            f"'{name}' is no controller class", hint="subclass gazelle.control.Controller"
+        )
+    return found

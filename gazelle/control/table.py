@@ -1,0 +1,39 @@
+"""Every type of controller that Gazelle has: one row each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gazelle.control.interfaces import (
+    EFFORT,
+    POSITION,
+    VELOCITY,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class KnownController:
+    """A row: where the class is, and what it needs of a robot.
+
+    Attributes:
+        code: ``module:Class`` in this package.
+        interfaces: That the robot must have.
+    """
+
+    code: str
+    interfaces: tuple[str, ...]
+
+
+# fmt: off
+_FORWARD = "forward:ForwardCommandController"
+_GROUP = "forward:ForwardGroupController"
+CONTROLLERS: Mapping[str, KnownController] = {
+    "effort_controllers/JointEffortController": KnownController(_FORWARD, (EFFORT,)),
+    "position_controllers/JointPositionController": KnownController(_FORWARD, (POSITION,)),
+    "velocity_controllers/JointVelocityController": KnownController(_FORWARD, (VELOCITY,)),
+    "effort_controllers/JointGroupEffortController": KnownController(_GROUP, (EFFORT,)),
+    "position_controllers/JointGroupPositionController": KnownController(_GROUP, (POSITION,)),
+    "velocity_controllers/JointGroupVelocityController": KnownController(_GROUP, (VELOCITY,)),
+}
+# fmt: on
