@@ -44,7 +44,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     """Keep what was skipped in pytest's cache."""
     if hasattr(session.config, "workerinput"):
         return  # one of several processes: the first hears of all
-    if session.config.getoption("lf"):
+    if session.config.getoption("lf", default=False):
         return  # what failed before, run again: the run before has skipped the others
     cache = getattr(session.config, "cache", None)  # with -p no:cacheprovider there is none
     if cache is not None:

@@ -19,11 +19,11 @@ from gazelle.control.interfaces import (
     SensorInterface,
     cpp_name,
 )
-from gazelle.control.manager import BASE_CLASS, ControllerManager, LoadedController, Strictness
+from gazelle.control.manager import BASE_CLASS, ControllerManager, Strictness
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import CommandPort, QueryPort, StatePort, TunableValue, TuningPort
 from gazelle.control.registry import register, types
-from gazelle.control.switching import Switch
+from gazelle.control.switching import LoadedController, Switch
 
 __all__ = [
     "BASE_CLASS",

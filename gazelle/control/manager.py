@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Final, TypeVar
 
@@ -15,10 +14,10 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.control import registry
 from gazelle.control.controller import Controller, ControllerSetup
-from gazelle.control.hardware import ControllerInfo, RobotHardware
+from gazelle.control.hardware import RobotHardware
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import Serializer
-from gazelle.control.switching import Switch, conflict_of
+from gazelle.control.switching import LoadedController, Switch, planned
 from gazelle.description import Model
 from gazelle.errors import ControlError, ControlWarning, did_you_mean
 
@@ -33,25 +32,6 @@ class Strictness(IntEnum):
 
     BEST_EFFORT = 1
     STRICT = 2
-
-
-@dataclass(slots=True)
-class LoadedController:
-    """A controller of a manager.
-
-    Attributes:
-        controller: The law.
-        state: ``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
-    """
-
-    controller: Controller
-    state: str = "initialized"
-
-    @property
-    def info(self) -> ControllerInfo:
-        """As the robot's side sees it."""
-        own = self.controller
-        return ControllerInfo(own.name, own.type, dict(own.claimed))
 
 
 class ControllerManager:
@@ -363,25 +343,9 @@ class ControllerManager:
             text = f"strictness {strictness} is not known; it is taken as BEST_EFFORT (1)"
             warnings.warn(ControlWarning(text), stacklevel=4)
             strictness = Strictness.BEST_EFFORT
-        strict = strictness == Strictness.STRICT
-        stopping = self._chosen(stop, strict=strict, running=True)
-        starting = self._chosen(start, strict=strict, running=False, also=stopping)
-        both = [name for name in starting if name in stopping]
-        if both:
-            raise ControlError(
-                f"controller '{both[0]}' is in both the list to start and the list to stop",
-                hint="stop it, and start it in a second call",
-            )
-        after = [
-            entry.info
-            for name, entry in self._loaded.items()
-            if name in starting or (entry.controller.running and name not in stopping)
-        ]
-        conflict = conflict_of(after)
-        if starting and conflict:
-            raise ControlError(
-                f"could not switch controllers, due to resource conflict: {conflict}"
-            )
+        starting, stopping = planned(
+            self._loaded, start, stop, strict=strictness == Strictness.STRICT
+        )
         infos = (
             [self._loaded[name].info for name in starting],
             [self._loaded[name].info for name in stopping],
@@ -398,39 +362,6 @@ class ControllerManager:
                 self._stop(self._loaded[name])
         self._go_on(switch)
         return switch
-
-    def _chosen(
-        self,
-        names: tuple[str, ...],
-        *,
-        strict: bool,
-        running: bool,
-        also: Sequence[str] = (),
-    ) -> list[str]:
-        """Those of the names that can be stopped or started."""
-        found: list[str] = []
-        what = "stop" if running else "start"
-        for name in names:
-            entry = self._loaded.get(name)
-            if entry is None:
-                fault = (
-                    f"could not {what} controller with name '{name}' because no controller with "
-                    "this name exists"
-                )
-            elif entry.controller.running != running and name not in also:
-                fault = (
-                    f"could not stop controller with name '{name}' since it is not running"
-                    if running
-                    else f"controller '{name}' is already running"
-                )
-            else:
-                if name not in found:
-                    found.append(name)
-                continue
-            if strict:
-                hint = did_you_mean(name, self._loaded) if entry is None else None
-                raise ControlError(fault, hint=hint)
-        return found
 
     def _go_on(self, switch: Switch) -> None:
         """Start what can be started now."""

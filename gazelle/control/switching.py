@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol, TypeVar
 
+from gazelle.control.controller import Controller
 from gazelle.control.hardware import ControllerInfo, RobotHardware, SwitchResult
+from gazelle.errors import ControlError, did_you_mean
 
 
-class Startable(Protocol):
-    """A controller that is to be started."""
+@dataclass(slots=True)
+class LoadedController:
+    """A controller of a manager.
 
-    state: str
+    Attributes:
+        controller: The law.
+        state: ``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
+    """
+
+    controller: Controller
+    state: str = "initialized"
 
     @property
     def info(self) -> ControllerInfo:
         """As the robot's side sees it."""
-
-
-S = TypeVar("S", bound=Startable)
+        own = self.controller
+        return ControllerInfo(own.name, own.type, dict(own.claimed))
 
 
 @dataclass(slots=True)
@@ -56,9 +63,9 @@ class Switch:
     def advance(
         self,
         hardware: RobotHardware,
-        entries: Sequence[S],
+        entries: Sequence[LoadedController],
         now_ns: int,
-        start: Callable[[S], None],
+        start: Callable[[LoadedController], None],
     ) -> None:
         """Start what the robot is ready for; abort what it will not be ready for."""
         late = 0.0 < self.timeout < (now_ns - self.begun_ns) * 1e-9
@@ -91,3 +98,72 @@ def conflict_of(controllers: Iterable[ControllerInfo]) -> str:
         for resource, names in sorted(claims.items())
         if len(names) > 1
     )
+
+
+def planned(
+    loaded: Mapping[str, LoadedController],
+    start: Sequence[str],
+    stop: Sequence[str],
+    *,
+    strict: bool,
+) -> tuple[list[str], list[str]]:
+    """What a switch starts and what it stops.
+
+    Args:
+        loaded: All controllers by name.
+        start: Names that are asked for.
+        stop: Likewise.
+        strict: Whether a name that cannot be stopped or started is an error; else it is passed over.
+
+    Raises:
+        ControlError: It cannot be.
+    """
+    stopping = _possible(loaded, stop, (), strict=strict, running=True)
+    starting = _possible(loaded, start, stopping, strict=strict, running=False)
+    both = [name for name in starting if name in stopping]
+    if both:
+        raise ControlError(
+            f"controller '{both[0]}' is in both the list to start and the list to stop",
+            hint="stop it, and start it in a second call",
+        )
+    after = [
+        entry.info
+        for name, entry in loaded.items()
+        if name in starting or (entry.controller.running and name not in stopping)
+    ]
+    conflict = conflict_of(after)
+    if starting and conflict:
+        raise ControlError(f"could not switch controllers, due to resource conflict: {conflict}")
+    return starting, stopping
+
+
+def _possible(
+    loaded: Mapping[str, LoadedController],
+    names: Sequence[str],
+    also: Sequence[str],
+    *,
+    strict: bool,
+    running: bool,
+) -> list[str]:
+    """Those of the names that are running, or not running, or among some others."""
+    found: list[str] = []
+    for name in names:
+        entry = loaded.get(name)
+        if entry is not None and (entry.controller.running == running or name in also):
+            if name not in found:
+                found.append(name)
+        elif strict:
+            hint = did_you_mean(name, loaded) if entry is None else None
+            raise ControlError(_why_not(name, running=running, known=entry is not None), hint=hint)
+    return found
+
+
+def _why_not(name: str, *, running: bool, known: bool) -> str:
+    if not known:
+        return (
+            f"could not {'stop' if running else 'start'} controller with name '{name}' because no "
+            "controller with this name exists"
+        )
+    if running:
+        return f"could not stop controller with name '{name}' since it is not running"
+    return f"controller '{name}' is already running"
