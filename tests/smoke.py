@@ -111,7 +111,7 @@ def a_launch_file_runs() -> None:
             heard = _until(echo, environment, "hand")
         finally:
             process.send_signal(signal.SIGINT)
-            process.wait(20)
+            process.wait(60)
         if "hand" not in heard:
             raise SystemExit(f"no transform of the hand: {heard}")
 

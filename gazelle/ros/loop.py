@@ -119,13 +119,13 @@ class EventLoop:
             raise outcome[1]
         return outcome[1]
 
-    def stop(self) -> None:
-        """End all threads, as soon as their tasks are done, and wait for them."""
-        self._pool.stop()
+    def stop(self, timeout: float = 2.0) -> None:
+        """End all threads, as soon as their tasks are done, and wait for each so long [s]."""
+        self._pool.stop(timeout)
         self._stopping = True
         self._wake()
         if not self.is_current():
-            self._thread.join(timeout=2.0)
+            self._thread.join(timeout)
 
     # What only handlers may call ---------------------------------------------------------
 

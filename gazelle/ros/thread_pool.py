@@ -103,7 +103,7 @@ class ThreadPool:
                 self._grow(self._taken)
 
     def stop(self, timeout: float = 2.0) -> None:
-        """End the workers as soon as their tasks are done, and wait for them."""
+        """End the workers as soon as their tasks are done, and wait for each so long [s]."""
         with self._lock:
             self._stopping = True
             workers = list(self._workers)

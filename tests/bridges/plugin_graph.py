@@ -42,7 +42,7 @@ def running(*models, parameters=()):
                 thread.join()
 
 
-def wait(condition, seconds=20.0):
+def wait(condition, seconds=60.0):
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         time.sleep(0.01)

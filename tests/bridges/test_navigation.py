@@ -60,13 +60,13 @@ def test_a_goal_on_the_graph_is_driven_to(office):
     office.node.subscribe("/path", load_message("nav_msgs/Path"), paths.append, 1)
     office.node.subscribe("/odom", load_message("nav_msgs/Odometry"), places.append, 1)
     goals = office.node.advertise("/move_base_simple/goal", load_message(POSE), 1)
-    until(lambda: goals.num_connections and places, 60.0)
+    until(lambda: goals.num_connections and places)
     message = load_message(POSE)()
     message.header.frame_id = "map"
     message.pose.position.x = 0.8
     goals.publish(message)
-    until(lambda: places[-1].pose.pose.position.x > 0.65, 60.0)
-    until(lambda: any(path.poses for path in paths), 60.0)
+    until(lambda: places[-1].pose.pose.position.x > 0.65)
+    until(lambda: any(path.poses for path in paths))
     way = next(path for path in paths if path.poses)
     assert way.header.frame_id == "odom"
     assert way.poses[-1].pose.position.x == pytest.approx(0.8)

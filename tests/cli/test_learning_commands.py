@@ -101,7 +101,7 @@ def test_interrupt_saves_says_how_to_resume_and_resumes(cli, tmp_path):
         time.sleep(0.1)
     time.sleep(1.0)
     os.kill(process.pid, signal.SIGINT)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Traceback" not in err
     (folder,) = tmp_path.iterdir()

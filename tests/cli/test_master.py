@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import resource
 import signal
 import socket
 import subprocess
@@ -11,6 +12,7 @@ import sys
 import time
 
 import pytest
+from ports import free_port
 
 from gazelle.ros import Master, MasterProxy
 from gazelle.ros.errors import RosError
@@ -32,16 +34,10 @@ def start():
         process.stdout.close()
 
 
-def free_port():
-    with socket.socket() as sock:
-        sock.bind(("127.0.0.1", 0))
-        return sock.getsockname()[1]
-
-
 def test_it_answers_soon_and_ends_on_a_signal(start):
-    durations = []
+    spent = []
     for _ in range(3):
-        port = free_port()
+        port, before = free_port(), resource.getrusage(resource.RUSAGE_CHILDREN)
         begin = time.monotonic()
         process = start("--port", str(port))
         proxy = MasterProxy(f"http://127.0.0.1:{port}/", "/test")
@@ -49,15 +45,16 @@ def test_it_answers_soon_and_ends_on_a_signal(start):
             with contextlib.suppress(RosError):
                 proxy.lookup_node("/rosout")
                 break
-            assert time.monotonic() - begin < 20
+            assert time.monotonic() - begin < 60
             time.sleep(0.005)
-        durations.append(time.monotonic() - begin)
         assert proxy.get_param("/run_id")
         process.send_signal(signal.SIGTERM)
-        assert process.wait(5) == 0
+        assert process.wait(60) == 0
         assert process.stdout.readline() == f"ROS master at http://127.0.0.1:{port}/\n"
         proxy.close()
-    assert min(durations) < 0.6, "0.2 s on a quiet machine, with rosout"
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    assert min(spent) < 1.0, "0.2 s of the processor's time, with rosout"
 
 
 def test_it_listens_on_loopback_only(start):
@@ -71,7 +68,7 @@ def test_it_listens_on_loopback_only(start):
         outside = probe.getsockname()[0]
     if outside.startswith("127."):
         pytest.skip("there is no network")
-    socket.create_connection(("127.0.0.1", port), timeout=5).close()
+    socket.create_connection(("127.0.0.1", port), timeout=60).close()
     with pytest.raises(OSError, match="refused"):
         socket.create_connection((outside, port), timeout=5)
 

@@ -64,7 +64,7 @@ def test_interrupt_ends_a_run_cleanly(extra, before, number):
     assert "world" in process.stdout.readline()
     time.sleep(0.5)
     os.kill(process.pid, number)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Traceback" not in err
     assert "simulated" in err

@@ -71,7 +71,7 @@ def test_roscore_is_a_core(words, tmp_path):
         finally:
             process.send_signal(signal.SIGINT)
             process.stdout.read()
-        assert process.wait(20) == 0
+        assert process.wait(60) == 0
 
 
 def test_a_script_of_the_name_of_a_tool_is_run(tmp_path):
@@ -145,7 +145,7 @@ def test_an_interactive_shell_reads_the_users_settings_and_completes(tmp_path):
         if not data:
             break
         out += data
-    assert process.wait(20) == 0
+    assert process.wait(60) == 0
     os.close(keys)
     text = out.decode()
     assert "(gazelle) " in text

@@ -118,7 +118,7 @@ def test_it_waits_for_another_model(spawn, graph, ball):
     assert waiter.is_alive()
     assert "second" not in graph.sim.robots
     assert spawn("-sdf", "-file", ball, "-model", "first") == 0
-    waiter.join(10.0)
+    waiter.join(60.0)
     assert "second" in graph.sim.robots
 
 
@@ -130,7 +130,7 @@ def test_a_bond_takes_the_model_away_at_the_end(graph, ball):
     )
     until(lambda: "guest" in graph.sim.robots)
     process.send_signal(signal.SIGINT)
-    assert process.wait(20) == 0
+    assert process.wait(60) == 0
     assert "guest" not in graph.sim.robots
 
 

@@ -99,7 +99,7 @@ class Flag:
     _response_class = FlagResponse
 
 
-def until(condition, timeout=15.0):
+def until(condition, timeout=60.0):
     """Wait for something to become true."""
     deadline = time.monotonic() + timeout
     while not condition():
@@ -126,7 +126,7 @@ class Background:
     def end(self, *, stop=True):
         if stop:
             self.stop.set()
-        self.thread.join(10)
+        self.thread.join(60)
         assert not self.thread.is_alive()
         if self.error is not None:
             raise self.error

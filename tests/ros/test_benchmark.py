@@ -24,12 +24,12 @@ def test_without_the_real_one_ours_is_measured_alone():
     if "ratio" in out:
         pytest.skip("this interpreter finds the real rospy")
     assert "the real rospy is not installed" in out
-    assert re.search(r"String, flat out +/s +[\d,]+$", out, re.MULTILINE)
-    assert re.search(r"service calls +/s +[\d,]+$", out, re.MULTILINE)
+    assert re.search(r"String, flat out +/s +[\d,.]+$", out, re.MULTILINE)
+    assert re.search(r"service calls +/s +[\d,.]+$", out, re.MULTILINE)
 
 
 @pytest.mark.ros
 @real.needs_ros
 def test_both_are_measured_side_by_side():
     out = bench("persistent")
-    assert re.search(r"service, persistent +/s +[\d,]+ +[\d,]+ +\d+\.\d\d$", out, re.MULTILINE)
+    assert re.search(r"service, persistent +/s +[\d,.]+ +[\d,.]+ +\d+\.\d\d$", out, re.MULTILINE)

@@ -7,6 +7,7 @@ import signal
 import time
 
 import pytest
+from ports import free_port
 from ros import real
 from ros.graph import Flag, FlagResponse, Text, Word, until
 
@@ -36,7 +37,7 @@ def handle(r):
 rospy.Service("flip", SetBool, handle); say("ready"); rospy.spin()
 """
 CLIENT = """
-rospy.init_node("real_client"); rospy.wait_for_service("flip", 10)
+rospy.init_node("real_client"); rospy.wait_for_service("flip", 60)
 for persistent in (False, True):
     p = rospy.ServiceProxy("flip", SetBool, persistent=persistent)
     for v in (True, True):
@@ -94,13 +95,13 @@ def test_latched_messages_come_late_both_ways(graph, node):
     publisher.close()
     with real.RealNode(graph, TALKER, "latch"):
         time.sleep(1.0)
-        assert node.wait_for_message("chatter", Text, timeout=10).data == "latched"
+        assert node.wait_for_message("chatter", Text, timeout=60).data == "latched"
 
 
 def test_ours_calls_a_real_service(graph, node):
     with real.RealNode(graph, SERVER) as server:
         server.expect("ready")
-        node.wait_for_service("flip", timeout=10)
+        node.wait_for_service("flip", timeout=60)
         for persistent in (False, True):
             client = node.client("flip", Flag, persistent=persistent)
             for _ in range(3):
@@ -131,7 +132,7 @@ def test_parameters_are_shared(graph, node):
         graph, 'rospy.set_param("/theirs", {"x": [1, "y"]}); say(rospy.get_param("/shared"))'
     ) as reader:
         reader.expect(str(value))
-        reader.process.wait(20)
+        reader.process.wait(60)
     assert node.get_param("/theirs") == {"x": [1, "y"]}
 
 
@@ -162,7 +163,7 @@ def test_rosnode_kill_ends_our_node(graph, node):
     node.on_shutdown.append(reasons.append)
     node.advertise("chatter", Text)
     assert "killed" in real.tool(graph, "rosnode", "kill", "/ours")
-    assert node.wait_closed(10)
+    assert node.wait_closed(60)
     assert reasons
 
 
@@ -174,7 +175,7 @@ def test_a_real_node_logs_through_our_rosout():
         node.subscribe("/rosout_agg", load_message("rosgraph_msgs/Log"), got.append)
         script = 'rospy.init_node("logger"); time.sleep(1); rospy.logwarn("careful"); time.sleep(1)'
         with real.RealNode(master.uri, script) as logger:
-            logger.process.wait(20)
+            logger.process.wait(60)
         until(lambda: any(m.msg == "careful" and m.name == "/logger" for m in got))
 
 
@@ -212,7 +213,7 @@ def test_a_real_publisher_of_another_type_is_named(graph, node, caplog):
 
 
 def test_our_node_registers_again_with_a_restarted_roscore():
-    port = real.free_port()
+    port = free_port()
     with real.master(port=port) as uri:
         node = Node("ours", master_uri=uri)
         publisher = node.advertise("chatter", Text, latch=True)
@@ -220,7 +221,7 @@ def test_our_node_registers_again_with_a_restarted_roscore():
         node.serve("flip", Flag, lambda request: (True, ""))
     with real.master(port=port) as uri:
         proxy = MasterProxy(uri, "/test")
-        until(lambda: "/chatter" in dict(proxy.published_topics()), timeout=15)
+        until(lambda: "/chatter" in dict(proxy.published_topics()))
         until(lambda: "/flip" in proxy.system_state()[2])
         assert 'data: "still here"' in real.tool(uri, "rostopic", "echo", "-n1", "/chatter")
         node.close()

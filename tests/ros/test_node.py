@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 
 import pytest
+from ports import free_port
 from ros.graph import Flag, Text, Word, until
 
 from gazelle.ros import Master, Node
@@ -99,13 +100,13 @@ def test_wait_for_message(make_node):
     node = make_node("one")
     publisher = node.advertise("map", Word, latch=True)
     publisher.publish(Word(7))
-    assert node.wait_for_message("map", Word, timeout=5.0).data == 7
+    assert node.wait_for_message("map", Word, timeout=60.0).data == 7
 
 
 def test_master_closes_its_port():
-    with Master(port=0) as master:
-        port = master.port
-    Master(port=port, rosout=False).close()
+    port = free_port()
+    for _ in range(2):
+        Master(port=port, rosout=False).close()
 
 
 @pytest.mark.parametrize(("given", "told"), [("debian", "debian\n"), ("", "noetic\n")])

@@ -34,7 +34,7 @@ def test_a_worker_that_ends_while_the_connection_is_closed_leaves_no_handler(loo
 
     def answer(_request, _fields):
         asked.set()
-        let_go.wait(10)
+        let_go.wait(120)
         return b"\x01\0\0\0\0"
 
     def when_closing(_link):
@@ -45,7 +45,7 @@ def test_a_worker_that_ends_while_the_connection_is_closed_leaves_no_handler(loo
     link = ServiceConnection(loop, server, fields, answer, LIMITS, when_closing)
     loop.run(lambda: link.start(b"", b""))
     client.send(REQUEST)
-    assert asked.wait(10)
+    assert asked.wait(60)
     loop.run(link.close)
     until(lambda: server.fileno() == -1)
     assert not loop.run(lambda: loop.watches(number))

@@ -13,15 +13,15 @@ def test_what_is_posted_while_another_owns_the_state_is_done_when_that_lets_go()
 
     def hold():
         owned.set()
-        assert let_go.wait(5.0)
+        assert let_go.wait(120.0)
 
     holder = threading.Thread(target=queue.call, args=(hold,))
     holder.start()
-    assert owned.wait(5.0)
+    assert owned.wait(60.0)
     posted = queue.post(lambda: "done")
     assert not posted.done()
     let_go.set()
-    assert posted.result(timeout=5.0) == "done"
+    assert posted.result(timeout=60.0) == "done"
     holder.join()
 
 
@@ -40,8 +40,8 @@ def test_what_is_posted_while_the_owner_lets_go_waits_for_nobody():
             other.join()
 
     queue.drain = drain_and_post
-    assert queue.post(lambda: 5).result(timeout=5.0) == 5
-    assert late[1].result(timeout=5.0) == 7
+    assert queue.post(lambda: 5).result(timeout=60.0) == 5
+    assert late[1].result(timeout=60.0) == 7
 
 
 def test_work_within_work_is_done_at_once_and_what_waits_comes_after_it():
@@ -73,7 +73,7 @@ def test_many_threads_lose_nothing():
     def work(_):
         futures = [queue.post(add) for _ in range(200)]
         queue.call(add)
-        return [future.result(timeout=5.0) for future in futures]
+        return [future.result(timeout=60.0) for future in futures]
 
     with ThreadPoolExecutor(4) as pool:
         list(pool.map(work, range(8)))

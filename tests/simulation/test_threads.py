@@ -176,7 +176,7 @@ def hammer(sim, threads, least):
         finally:
             done.set()
         for future in futures:
-            future.result(timeout=30.0)
+            future.result(timeout=60.0)
     return sim.time
 
 
@@ -265,7 +265,7 @@ def write_from_threads(engine, least, pause):
             finally:
                 done.set()
             for future in futures:
-                future.result(timeout=30.0)
+                future.result(timeout=60.0)
         sim.requests.call = call
         sim.run(0.05)
         assert len(log) >= least
@@ -434,7 +434,7 @@ def test_closing_ends_all_who_wait_with_one_clear_error():
     time.sleep(0.1)
     sim.close()
     for thread in threads:
-        thread.join(timeout=10.0)
+        thread.join(timeout=60.0)
         assert not thread.is_alive()
     assert errors == ["the simulation is closed"] * len(works)
     with pytest.raises(SimulationError, match="the simulation is closed"):

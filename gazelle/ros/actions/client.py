@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger("gazelle.ros.actions")
 _QUEUE = 10
 _FOREVER = Duration(0)
+_UNKNOWN_S = 10.0
+"""So long after a goal was sent a list of the server's may still be from before it [s]."""
 
 
 class GoalMachine:
@@ -42,6 +45,9 @@ class GoalMachine:
         self.action_goal = action_goal
         self.state = CommState.WAITING_FOR_GOAL_ACK
         self.lock = threading.RLock()
+        self._sent = time.monotonic()
+        self._known = False
+        """Whether the server has spoken of it."""
         self.latest_result: Any = None
         self.latest_status: Any = load_message("actionlib_msgs/GoalStatus")(
             status=GoalStatus.PENDING
@@ -70,9 +76,10 @@ class GoalMachine:
                     CommState.WAITING_FOR_GOAL_ACK,
                     CommState.WAITING_FOR_RESULT,
                 }
-                if self.state not in known:
+                if self.state not in known and not self._on_its_way():
                     self._lose()
                 return
+            self._known = True
             self.latest_status = status
             steps = TRANSITIONS[self.state].get(status.status)
             if steps is None:
@@ -84,6 +91,10 @@ class GoalMachine:
                 return
             for state in steps:
                 self.transition_to(state)
+
+    def _on_its_way(self) -> bool:
+        """Whether a list without it may be older than it: it was cancelled before the server's answer."""
+        return not self._known and time.monotonic() - self._sent < _UNKNOWN_S
 
     def _lose(self) -> None:
         self.latest_status.status = GoalStatus.LOST

@@ -60,7 +60,7 @@ def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
         until(lambda: client.call("get_world_properties", "GetWorldProperties").sim_time > 0.0)
     finally:
         process.send_signal(signal.SIGINT)
-        assert process.wait(30) == 0
+        assert process.wait(60) == 0
         client.node.close()
 
 
@@ -156,7 +156,7 @@ def test_what_the_world_warns_of_is_on_rosout(master, world):
     flags = ["--play", "a.log", str(world), "__name:=gazebo"]
     with subprocess.Popen([*program, *flags], stderr=subprocess.PIPE, text=True) as process:
         try:
-            until(lambda: len(said()) >= 2, 60.0)
+            until(lambda: len(said()) >= 2)
             assert "/rosout" in listener.master.system_state()[0]
         finally:
             process.send_signal(signal.SIGINT)
@@ -197,8 +197,8 @@ def test_a_new_master_learns_that_time_is_simulated(monkeypatch):
         door = serve_ros(sim, uri)
     with sim, door, Master(port=port, rosout=False):
         proxy = MasterProxy(uri, "/test")
-        until(lambda: "/clock" in proxy.system_state()[0], 20.0)
-        until(lambda: proxy.has_param("/use_sim_time"), 20.0)
+        until(lambda: "/clock" in proxy.system_state()[0])
+        until(lambda: proxy.has_param("/use_sim_time"))
         assert proxy.get_param("/use_sim_time") is True
         proxy.close()
 
@@ -213,5 +213,5 @@ def test_it_waits_for_a_master(world, monkeypatch):
     time.sleep(0.3)
     assert thread.is_alive()
     with Master(port=port, rosout=False):
-        thread.join(30)
+        thread.join(60)
     assert done == [0]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import socket
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from ports import free_port
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it asks pgrep")
 SCRIPT = Path(__file__).parents[1] / "scripts" / "session.py"
@@ -28,10 +28,8 @@ core 0
 
 @pytest.mark.slow
 def test_a_script_that_starts_all_it_needs_itself_runs_unchanged(tmp_path):
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
     surroundings = {
-        "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}",
         "ROS_HOME": str(tmp_path),
         "ROS_PACKAGE_PATH": "",
     }

@@ -27,7 +27,7 @@ LAMP = '''<sdf version="1.6"><light type="point" name="lamp"><pose>0 0 3 0 0 0</
 URDF = '''<?xml version="1.0"?><robot name="r"><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>'''
 def call(name, kind, *args, **kw):
-    rospy.wait_for_service("/gazebo/" + name, 5.0)
+    rospy.wait_for_service("/gazebo/" + name, 60.0)
     answer = rospy.ServiceProxy("/gazebo/" + name, kind)(*args, **kw)
     print(name, "|", getattr(answer, "success", ""), "|", getattr(answer, "status_message", ""), flush=True)
     return answer
@@ -61,11 +61,11 @@ call("apply_joint_effort", ApplyJointEffort, "wheel_left_joint", 0.01, rospy.Tim
 call("clear_joint_forces", JointRequest, "wheel_left_joint")
 call("clear_body_wrenches", BodyRequest, "ball::core")
 call("unpause_physics", Empty)
-states = rospy.wait_for_message("/gazebo/model_states", ModelStates, 5.0)
+states = rospy.wait_for_message("/gazebo/model_states", ModelStates, 60.0)
 assert "ball" in states.name and len(states.pose) == len(states.twist) == len(states.name)
-links = rospy.wait_for_message("/gazebo/link_states", LinkStates, 5.0)
+links = rospy.wait_for_message("/gazebo/link_states", LinkStates, 60.0)
 assert "r1::base_footprint" in links.name
-rospy.wait_for_message("/gazebo/performance_metrics", PerformanceMetrics, 10.0)
+rospy.wait_for_message("/gazebo/performance_metrics", PerformanceMetrics, 60.0)
 call("delete_model", DeleteModel, "ball")
 call("delete_model", DeleteModel, "ball")
 call("reset_simulation", Empty)
@@ -117,7 +117,7 @@ from geometry_msgs.msg import *
 from std_srvs.srv import Empty
 rospy.init_node("real", anonymous=True)
 def call(name, kind, **fields):
-    rospy.wait_for_service("/gazebo/" + name, 5.0)
+    rospy.wait_for_service("/gazebo/" + name, 60.0)
     return rospy.ServiceProxy("/gazebo/" + name, getattr(services, kind))(**fields)
 def say(answer): print(answer.success, "|", answer.status_message, flush=True)
 for name, kind, fields in json.loads(sys.argv[1]):
@@ -150,11 +150,11 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 rospy.init_node("real", anonymous=True)
 def call(name, kind, **fields):
-    rospy.wait_for_service(name, 5.0)
+    rospy.wait_for_service(name, 60.0)
     return rospy.ServiceProxy(name, kind)(**fields)
 def say(answer): print(answer.success, "|", answer.status_message, flush=True)
 def x(): return call("/gazebo/get_model_state", GetModelState, model_name="r1").pose.position.x
-assert rospy.wait_for_message("/clock", Clock, 5.0).clock.to_sec() > 0.0
+assert rospy.wait_for_message("/clock", Clock, 60.0).clock.to_sec() > 0.0
 say(call("/gazelle/step", Step, steps=1))
 call("/gazebo/pause_physics", Empty)
 before = call("/gazelle/step", Step, steps=0).time

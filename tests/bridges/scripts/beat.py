@@ -37,7 +37,7 @@ if __name__ == "__main__":
     print(rospy.get_name(), rospy.get_namespace(), rospy.resolve_name("~beat"))
     while rospy.Time.now().is_zero():
         pass
-    joints = rospy.wait_for_message("joint_states", JointState, timeout=5.0)
+    joints = rospy.wait_for_message("joint_states", JointState, timeout=60.0)
     print(joints.name, len(joints.position))
     Beat().run()
     print(sorted(t for t, _ in rospy.get_published_topics("/beat")))

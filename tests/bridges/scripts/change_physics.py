@@ -8,11 +8,11 @@ from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties, SetPhysi
 from geometry_msgs.msg import Vector3
 
 rospy.init_node("change_physics")
-client = Client("/gazebo", timeout=10)
+client = Client("/gazebo", timeout=60)
 get = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)
 put = rospy.ServiceProxy("/gazebo/set_physics_properties", SetPhysicsProperties)
 
-config = client.get_configuration(timeout=5)
+config = client.get_configuration(timeout=60)
 print(sorted(key for key in config if key != "groups"))
 print("%.3f %.1f" % (config["time_step"], config["gravity_z"]))
 config = client.update_configuration({"gravity_z": -1.6, "sor_pgs_iters": 77})

@@ -43,7 +43,7 @@ class WallFollower:
 if __name__ == "__main__":
     rospy.init_node("wall_follower", log_level=rospy.WARN)
     follower = WallFollower()
-    rospy.wait_for_message("/scan", LaserScan, timeout=10)
+    rospy.wait_for_message("/scan", LaserScan, timeout=60)
     begin = rospy.Time.now()
     while rospy.Time.now() - begin < rospy.Duration(3):
         rospy.sleep(0.1)

@@ -11,7 +11,7 @@ rospy.init_node("properties")
 
 
 def call(name, kind, *args, **keywords):
-    rospy.wait_for_service("/gazebo/" + name, 5)
+    rospy.wait_for_service("/gazebo/" + name, 60)
     return rospy.ServiceProxy("/gazebo/" + name, kind)(*args, **keywords)
 
 

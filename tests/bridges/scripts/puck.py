@@ -39,9 +39,9 @@ r = rospy.ServiceProxy("/gazebo/spawn_urdf_model", SpawnModel)(
     "puck", rospy.get_param("puck_description"), "/puck", p, "world"
 )
 print(r.success, r.status_message)
-b = rospy.wait_for_message("/puck/bumper", ContactsState, 5)
-b = rospy.wait_for_message("/puck/bumper", ContactsState, 5)
-b = rospy.wait_for_message("/puck/bumper", ContactsState, 5)
+b = rospy.wait_for_message("/puck/bumper", ContactsState, 60)
+b = rospy.wait_for_message("/puck/bumper", ContactsState, 60)
+b = rospy.wait_for_message("/puck/bumper", ContactsState, 60)
 print(
     b.header.frame_id,
     len(b.states) > 0,
@@ -49,11 +49,11 @@ print(
     b.states[0].collision2_name if b.states else None,
     b.states[0].total_wrench.force.z != 0 if b.states else None,
 )
-o = rospy.wait_for_message("/puck/odom", Odometry, 5)
+o = rospy.wait_for_message("/puck/odom", Odometry, 60)
 print(o.header.frame_id, o.child_frame_id)
-g = rospy.wait_for_message("/puck/ground_truth/state", Odometry, 5)
+g = rospy.wait_for_message("/puck/ground_truth/state", Odometry, 60)
 print(g.header.frame_id, g.child_frame_id)
-s = rospy.wait_for_message("/puck/sonar", Range, 5)
+s = rospy.wait_for_message("/puck/sonar", Range, 60)
 print(s.header.frame_id, s.radiation_type, round(s.field_of_view, 2), s.min_range != s.max_range)
 pub = rospy.Publisher("/puck/cmd_vel", Twist, queue_size=1)
 while pub.get_num_connections() < 1:
@@ -62,7 +62,7 @@ t = Twist()
 t.linear.y = -0.5
 pub.publish(t)
 rospy.sleep(1.0)
-o2 = rospy.wait_for_message("/puck/odom", Odometry, 5)
+o2 = rospy.wait_for_message("/puck/odom", Odometry, 60)
 print("moved", 0.3 < o.pose.pose.position.y - o2.pose.pose.position.y < 0.8)
 print(rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)("puck").status_message)
 rospy.sleep(0.3)

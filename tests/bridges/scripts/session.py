@@ -25,7 +25,7 @@ QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 def gazebo(name, kind, *arguments):
-    rospy.wait_for_service("/gazebo/" + name, 30)
+    rospy.wait_for_service("/gazebo/" + name, 60)
     return rospy.ServiceProxy("/gazebo/" + name, kind)(*arguments)
 
 

@@ -112,4 +112,4 @@ def running():
     yield start
     for server, thread in threads:
         server.stop()
-        thread.join(10)
+        thread.join(60)

@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from ros.real import free_port
+from ports import free_port
 
 
 def run(*words, folder):

@@ -47,7 +47,7 @@ def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_pat
         assert node.master.lookup_node("/sim")
         assert node.get_param("/sim/base_watchdog_timeout") == 0.0
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 0
+        assert process.wait(60) == 0
     finally:
         node.close()
         process.kill()
@@ -57,7 +57,7 @@ def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_pat
 def test_it_ends_at_the_files_quit_time(master, tmp_path):
     process = start(master, str(write(tmp_path, "quit_time 2 " + TWO)))
     with process.stderr:
-        assert process.wait(15) == 0
+        assert process.wait(60) == 0
 
 
 def test_launch_files_find_it():
@@ -73,10 +73,10 @@ def test_it_waits_for_a_master_and_ends_while_it_waits(tmp_path):
         assert "waiting for it" in process.stderr.readline()
         assert "waiting for it" in waiting.stderr.readline()
         waiting.terminate()
-        waiting.wait(20)
+        waiting.wait(60)
         assert process.poll() is None
         with Master(port=port, rosout=False):
-            assert process.wait(15) == 0
+            assert process.wait(60) == 0
 
 
 def test_what_the_file_is_warned_of_is_on_rosout(master, tmp_path):
@@ -90,7 +90,7 @@ def test_what_the_file_is_warned_of_is_on_rosout(master, tmp_path):
             while not heard and time.monotonic() < end:
                 time.sleep(0.02)
             process.kill()
-            process.wait(20)
+            process.wait(60)
     assert (heard[0].name, heard[0].level) == ("/sim", 4)
     assert "colour" in heard[0].msg
 
@@ -111,4 +111,4 @@ def test_a_new_master_learns_that_time_is_simulated(tmp_path):
             assert time.monotonic() < end
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 0
+        assert process.wait(60) == 0

@@ -26,7 +26,7 @@ rospy.sleep(4.0)
 for name in sorted(counts): say(name, (counts[name] - before[name]) / 4.0)
 """
 INTENSITY = """
-scan = rospy.wait_for_message("base_scan", LaserScan, 10)
+scan = rospy.wait_for_message("base_scan", LaserScan, 60)
 say(max(scan.intensities), len(scan.ranges), scan.header.frame_id)
 """
 COMMANDS = """

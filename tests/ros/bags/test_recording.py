@@ -29,7 +29,7 @@ def record(make_node, tmp_path):
 
         def end():
             stop.set()
-            thread.join(10)
+            thread.join(60)
             return list(recorder.files)
 
         end.recorder, end.thread = recorder, thread
@@ -38,7 +38,7 @@ def record(make_node, tmp_path):
     yield run
     for stop, thread in made:
         stop.set()
-        thread.join(10)
+        thread.join(60)
 
 
 @pytest.fixture
@@ -153,7 +153,7 @@ def test_the_name_of_each_file_is_published(record, make_node, string):
 def test_a_duration_ends_it(record, make_node, string):
     make_node("talker").advertise("a", string)
     end = record(topics=["/a"], duration=0.3)
-    end.thread.join(5)
+    end.thread.join(60)
     assert not end.thread.is_alive()
     (path,) = end()
     assert contents(path) == []
@@ -252,7 +252,7 @@ def test_loops_until_it_is_stopped(play, write_bag, heard):
     thread.start()
     until(lambda: len(heard) >= 7)
     stop.set()
-    thread.join(5)
+    thread.join(60)
     assert said(heard)[:6] == [row[:2] for row in ROWS] * 2
 
 
@@ -284,7 +284,7 @@ def test_it_begins_paused_steps_and_goes_on(write_bag, make_node, heard):
     assert len(heard) == 2
     player.toggle()
     until(lambda: len(heard) == 3)
-    thread.join(5)
+    thread.join(60)
     player.close()
     assert said(heard) == [row[:2] for row in ROWS]
 
@@ -300,7 +300,7 @@ def test_latched_topics_are_latched_again(play, tmp_path, string, make_node):
     make_node("late").subscribe("/a", string, lambda m: got.append(m.data))
     until(lambda: got == ["kept"])
     stop.set()
-    thread.join(5)
+    thread.join(60)
 
 
 def test_an_empty_bag_plays_nothing(play, tmp_path):

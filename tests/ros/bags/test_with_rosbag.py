@@ -150,7 +150,7 @@ def start(command, uri, cwd):
 
 def finish(process):
     process.send_signal(signal.SIGINT)
-    out, _ = process.communicate(timeout=20)
+    out, _ = process.communicate(timeout=120)
     return out
 
 
@@ -189,7 +189,7 @@ def test_what_one_records_the_other_plays(tmp_path, recorder, player):
             master.uri,
             tmp_path,
         )
-        playing.communicate(timeout=60)
+        playing.communicate(timeout=120)
         time.sleep(2.0)
         heard = finish(listener).split()
     assert heard == recorded

@@ -88,7 +88,7 @@ def typist(master):
 
     def start(*arguments):
         made.append(Typist(arguments, master.uri))
-        until(lambda: made[-1].quiet, 60.0)
+        until(lambda: made[-1].quiet)
         return made[-1]
 
     yield start
@@ -99,22 +99,22 @@ def typist(master):
 @pytest.mark.parametrize("end", ["ctrl-c", "terminate"])
 def test_a_turtlebot3_is_driven(typist, heard, end):
     person = typist("exec", *TURTLEBOT3)
-    until(lambda: heard, 20.0)
+    until(lambda: heard)
     person.type("www" + UP + "aa")
-    until(lambda: (round(heard[-1].linear.x, 6), round(heard[-1].angular.z, 6)) == (0.04, 0.2), 30)
+    until(lambda: (round(heard[-1].linear.x, 6), round(heard[-1].angular.z, 6)) == (0.04, 0.2))
     steps = [after.linear.x - before.linear.x for before, after in itertools.pairwise(heard)]
     assert max(steps) < 0.0051, "the speed goes up step by step"
     person.type(" ")
-    until(lambda: heard[-1].linear.x == heard[-1].angular.z == 0.0, 20.0)
+    until(lambda: heard[-1].linear.x == heard[-1].angular.z == 0.0)
     person.type("x")
-    until(lambda: heard[-1].linear.x < 0.0, 20.0)
+    until(lambda: heard[-1].linear.x < 0.0)
     if end == "ctrl-c":
         person.type("\x03")
     else:
         person.process.terminate()
-    assert person.process.wait(20) == 0
+    assert person.process.wait(60) == 0
     assert termios.tcgetattr(person.terminal) == person.before
-    until(lambda: heard[-1].linear.x == 0.0, 20.0)
+    until(lambda: heard[-1].linear.x == 0.0)
 
 
 def test_any_robot_is_driven(typist, heard):
@@ -128,10 +128,10 @@ def test_any_robot_is_driven(typist, heard):
         ("k", (0.0, 0.0, 0.0, 0.0)),
     ):
         person.type(key)
-        until(lambda wanted=wanted: heard and values(heard[-1]) == pytest.approx(wanted), 20.0)
+        until(lambda wanted=wanted: heard and values(heard[-1]) == pytest.approx(wanted))
     person.type("i\x03")
-    assert person.process.wait(20) == 0
-    until(lambda: values(heard[-1]) == (0.0, 0.0, 0.0, 0.0), 20.0)
+    assert person.process.wait(60) == 0
+    until(lambda: values(heard[-1]) == (0.0, 0.0, 0.0, 0.0))
     assert termios.tcgetattr(person.terminal) == person.before
 
 
@@ -142,23 +142,23 @@ def values(twist):
 def test_the_launch_file_drives_too(typist, heard, monkeypatch):
     monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
     person = typist("launch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "model:=waffle")
-    until(lambda: heard, 20.0)
+    until(lambda: heard)
     person.type("w" * 40)
-    until(lambda: round(heard[-1].linear.x, 6) == 0.26, 60.0)
+    until(lambda: round(heard[-1].linear.x, 6) == 0.26)
     person.type("\x03")
-    assert person.process.wait(30) == 0
+    assert person.process.wait(60) == 0
     assert termios.tcgetattr(person.terminal) == person.before
 
 
 def test_the_launcher_gives_the_terminal_back_of_a_node_that_was_killed(typist, master):
     person = typist("launch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch")
     proxy = MasterProxy(master.uri, "/test")
-    until(lambda: "/cmd_vel" in proxy.system_state()[0], 20.0)
+    until(lambda: "/cmd_vel" in proxy.system_state()[0])
     with contextlib.closing(
         BlockingClient(proxy.lookup_node("/turtlebot3_teleop_keyboard"))
     ) as node:
         os.kill(node.call("getPid", "/test")[2], signal.SIGKILL)
-    assert person.process.wait(30) == 0
+    assert person.process.wait(60) == 0
     assert termios.tcgetattr(person.terminal) == person.before
     proxy.close()
 
@@ -186,7 +186,7 @@ def test_keys_are_told_apart(monkeypatch):
         with Keyboard() as keyboard:
             assert keyboard.wait(0.01) == []
             os.write(keys, f"w{UP}{LEFT}\x1b[3~é ".encode())
-            assert keyboard.wait(5.0) == ["w", UP, LEFT, "\x1b[3~", "é", " "]
+            assert keyboard.wait(60.0) == ["w", UP, LEFT, "\x1b[3~", "é", " "]
             signal.raise_signal(signal.SIGCONT)
         assert termios.tcgetattr(terminal) == before
         with contextlib.suppress(KeyError), Keyboard():

@@ -66,15 +66,15 @@ def test_terminals_of_desktops_return_at_once(env, command):
     assert run(command, env).returncode == 0
     (log,) = logs(env)
     assert log.read_text() == ""
-    until(lambda: log.read_text() == "hello\n", 20.0)
+    until(lambda: log.read_text() == "hello\n")
 
 
 def test_the_exit_code_and_the_signals_are_those_of_the_program(env):
     assert run("xterm -e sh -c 'exit 7'", env).returncode == 7
     process = subprocess.Popen(["xterm", "-e", "sleep", "100"], env=env, stderr=subprocess.DEVNULL)
-    until(lambda: Path(f"/proc/{process.pid}/comm").read_text() == "sleep\n", 20.0)
+    until(lambda: Path(f"/proc/{process.pid}/comm").read_text() == "sleep\n")
     process.send_signal(signal.SIGTERM)
-    assert process.wait(10) == -signal.SIGTERM
+    assert process.wait(60) == -signal.SIGTERM
 
 
 def test_what_cannot_be_run_is_said(env):
@@ -140,6 +140,6 @@ def test_nodes_with_the_prefix_run(tmp_path, prefix):
             line = process.stderr.readline()
             assert "there is no display" in line
             log = Path(line.rpartition("writes to ")[2].strip())
-            until(lambda: log.read_text() == "from the node\n", 20.0)
+            until(lambda: log.read_text() == "from the node\n")
             process.send_signal(signal.SIGINT)
-            assert process.wait(20) == 0
+            assert process.wait(60) == 0

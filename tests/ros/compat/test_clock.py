@@ -1,6 +1,7 @@
 """Simulated time: standing still, beginning, jumping."""
 
 import importlib
+import io
 import threading
 import time
 
@@ -28,6 +29,11 @@ def simulated(rospy, make_node):
     return rospy, tell
 
 
+def asleep(rospy):
+    """How many threads wait for a simulated time."""
+    return len(rospy.core.process.clock._sleepers)
+
+
 def start(call):
     outcome = []
 
@@ -51,19 +57,22 @@ def test_before_the_first_tick_time_is_zero_and_sleeps_wait(simulated):
     assert sleeper.is_alive()
     assert none.is_alive()
     tell(100.0)
-    time.sleep(0.4)
-    none.join(1.0)
+    none.join(60.0)
     assert not none.is_alive()
+    until(lambda: asleep(rospy) == 1)
+    time.sleep(0.6)
     assert sleeper.is_alive(), "the sleep counts from the first time seen"
     tell(100.6)
-    sleeper.join(1.0)
+    sleeper.join(60.0)
     assert outcome == [None]
 
 
-def test_a_clock_that_never_comes_is_named_after_two_seconds(simulated, capsys):
+def test_a_clock_that_never_comes_is_named_after_two_seconds(simulated, monkeypatch):
     rospy, _ = simulated
+    printed = io.StringIO()
+    monkeypatch.setattr("sys.stderr", printed)
     sleeper, _ = start(lambda: rospy.sleep(1))
-    until(lambda: "nothing came on /clock" in capsys.readouterr().err, 4.0)
+    until(lambda: "nothing came on /clock" in printed.getvalue())
     assert sleeper.is_alive()
 
 
@@ -71,9 +80,9 @@ def test_a_jump_back_ends_sleeps(simulated):
     rospy, tell = simulated
     tell(100.0)
     thread, outcome = start(lambda: rospy.sleep(5))
-    time.sleep(0.1)
+    until(lambda: asleep(rospy) == 1)
     tell(50.0)
-    thread.join(1.0)
+    thread.join(60.0)
     assert isinstance(outcome[0], rospy.ROSTimeMovedBackwardsException)
     assert outcome[0].time == pytest.approx(-50.0)
     assert str(outcome[0]) == "ROS time moved backwards"
@@ -85,16 +94,16 @@ def test_a_rate_goes_on_after_a_jump_back(simulated):
     rate, patient = rospy.Rate(1), rospy.Rate(1, reset=True)
     first, raised = start(rate.sleep)
     second, outcome = start(patient.sleep)
-    time.sleep(0.1)
+    until(lambda: asleep(rospy) == 2)
     tell(20.0)
-    first.join(1.0)
-    second.join(1.0)
+    first.join(60.0)
+    second.join(60.0)
     assert isinstance(raised[0], rospy.ROSTimeMovedBackwardsException)
     assert outcome == [None]
     again, outcome = start(rate.sleep)
-    time.sleep(0.1)
+    until(lambda: asleep(rospy) == 1)
     tell(21.5)
-    again.join(1.0)
+    again.join(60.0)
     assert outcome == [None]
 
 
@@ -104,9 +113,9 @@ def test_a_timer_ends_at_a_jump_back_unless_told_otherwise(simulated):
     tell(100.0)
     plain = rospy.Timer(rospy.Duration(1), lambda event: None)
     patient = rospy.Timer(rospy.Duration(1), lambda event: None, reset=True)
-    time.sleep(0.1)
+    until(lambda: asleep(rospy) == 2)
     tell(10.0)
-    plain.join(1.0)
+    plain.join(60.0)
     assert not plain.is_alive()
     assert patient.is_alive()
     patient.shutdown()
@@ -119,7 +128,7 @@ def test_timeouts_are_wall_time(simulated):
     begin = time.monotonic()
     with pytest.raises(rospy.ROSException):
         rospy.wait_for_message("/none", string, 0.3)
-    assert 0.2 < time.monotonic() - begin < 2.0
+    assert time.monotonic() - begin > 0.2
 
 
 def test_a_rate_follows_a_fast_clock(simulated):
@@ -127,8 +136,12 @@ def test_a_rate_follows_a_fast_clock(simulated):
     tell(1.0)
     rate = rospy.Rate(10)
     thread, outcome = start(lambda: [rate.sleep() for _ in range(5)])
-    for tick in range(1, 80):
+    # A thread that is scheduled late begins late: there are ticks as long as it needs them.
+    tick, deadline = 0, time.monotonic() + 60.0
+    while thread.is_alive():
+        assert time.monotonic() < deadline
+        tick += 1
         tell(1.0 + tick * 0.02)
-    thread.join(1.0)
     assert len(outcome[0]) == 5
-    assert rate.remaining().to_sec() < 0.1
+    assert tick >= 0.8 * 5 * 0.1 / 0.02
+    assert rate.remaining().to_sec() <= 0.1

@@ -89,7 +89,7 @@ def test_a_server_takes_the_module_of_a_cfg_file(package, node):
     server = importlib.import_module("dynamic_reconfigure.server")
     client = importlib.import_module("dynamic_reconfigure.client")
     made = server.Server(module, lambda config, level: config)
-    assert client.Client("probe", timeout=5).update_configuration({"gain": 5.0})["gain"] == 2.0
+    assert client.Client("probe", timeout=60).update_configuration({"gain": 5.0})["gain"] == 2.0
     assert made.config["groups"]["groups"]["More_of_it"]["state"] is False
 
 

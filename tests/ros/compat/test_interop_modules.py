@@ -93,7 +93,7 @@ say(whole)
 RECONFIGURE = """
 import dynamic_reconfigure.client
 rospy.init_node("real_changer")
-client = dynamic_reconfigure.client.Client("probe", timeout=10)
+client = dynamic_reconfigure.client.Client("probe", timeout=60)
 say(sorted(client.get_configuration(5).items(), key=str)[0])
 say(client.update_configuration({"gain": 0.75})["gain"])
 """

@@ -119,7 +119,7 @@ def test_parameters_are_changed_from_outside(node):
     server = server_module.Server(described(), changed)
     assert calls[0][1] == 15
     assert calls[0][0].count == 5
-    client = client_module.Client("probe", timeout=5, config_callback=seen.append)
+    client = client_module.Client("probe", timeout=60, config_callback=seen.append)
     assert client.get_configuration(5.0)["gain"] == 0.5
     taken = client.update_configuration({"gain": "7.5", "on": "false"})
     assert (taken["gain"], taken["on"], taken["count"]) == (1.0, False, 5)
@@ -180,7 +180,7 @@ def test_actionlib_works_in_the_node_of_the_process(node):
     server.start()
     client = actionlib.SimpleActionClient("act", messages.TestAction)
     assert client.wait_for_server(node.Duration(5))
-    state = client.send_goal_and_wait(messages.TestGoal(1), node.Duration(5))
+    state = client.send_goal_and_wait(messages.TestGoal(1), node.Duration(60))
     assert state == actionlib.GoalStatus.SUCCEEDED
     assert client.get_result().result == 2
 

@@ -251,7 +251,7 @@ def node_of_ended_script(master, tmp_path, number):
         pid = next(int(line) for line in process.stdout if line.strip().isdigit())
         time.sleep(0.5)
         process.send_signal(number)
-        process.wait(20)
+        process.wait(60)
     return pid
 
 

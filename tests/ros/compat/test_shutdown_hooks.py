@@ -47,7 +47,7 @@ def lines(command, env, file):
     )
     first = process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=120)
     assert "Traceback" not in err
     return [line for line in (first + out).splitlines() if not line.startswith("[")]
 

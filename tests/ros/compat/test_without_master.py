@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from ports import free_port
 from ros import real
 
 REFUSED = "ConnectionRefusedError"
@@ -87,7 +88,7 @@ def script(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def nowhere():
-    return f"http://127.0.0.1:{real.free_port()}"
+    return f"http://127.0.0.1:{free_port()}"
 
 
 @pytest.fixture(scope="module")

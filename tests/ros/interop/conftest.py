@@ -52,7 +52,7 @@ class CppNode(real.RealNode):
         # This it takes as a request to unregister and end; others just end it.
         self.process.send_signal(signal.SIGINT)
         with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(5)
+            self.process.wait(20)
         super().__exit__(*error)
 
 

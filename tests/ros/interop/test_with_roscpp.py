@@ -12,7 +12,7 @@ from ros.graph import Flag, FlagResponse, Text, Word, until
 from gazelle.ros import Node, Time, load_message
 from gazelle.ros.errors import ServiceFailedError
 
-pytestmark = [pytest.mark.ros, real.needs_ros, pytest.mark.timeout(60)]
+pytestmark = [pytest.mark.ros, real.needs_ros, pytest.mark.timeout(300)]
 
 
 @pytest.mark.parametrize("nodelay", [False, True])
@@ -65,7 +65,7 @@ def test_latched_messages_come_late(start, node):
     real.stop(listener.process)
     publisher.close()
     start("talk-latched").expect("ready")
-    message = node.wait_for_message("chatter", Text, timeout=10)
+    message = node.wait_for_message("chatter", Text, timeout=60)
     assert message.data == "second"
     assert message._connection_header["latching"] == "1"
 
@@ -99,7 +99,7 @@ def test_topics_of_other_types_are_refused_both_ways(start, node, caplog):
 @pytest.mark.parametrize("persistent", [False, True])
 def test_we_call_roscpp(start, node, persistent):
     start("serve").expect("ready")
-    node.wait_for_service("flip", timeout=10)
+    node.wait_for_service("flip", timeout=60)
     client = node.client("flip", Flag, persistent=persistent)
     for _ in range(200):
         answer = client.call(Flag._request_class(True))
@@ -187,5 +187,5 @@ def test_real_tools_end_both_kinds_of_nodes(start, graph, node):
     talker = start("talk-latched")
     talker.expect("ready")
     assert "killed" in real.tool(graph, "rosnode", "kill", "/cpp", "/ours")
-    assert talker.process.wait(10) == 0
-    assert node.wait_closed(10)
+    assert talker.process.wait(60) == 0
+    assert node.wait_closed(60)

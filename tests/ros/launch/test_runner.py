@@ -329,9 +329,9 @@ def test_the_command_ends_cleanly_on_ctrl_c(workspace, script, tmp_path):
         text=True,
     )
     try:
-        until((tmp_path / "up").exists, 20.0)
+        until((tmp_path / "up").exists)
         process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=15)
+        out, _ = process.communicate(timeout=120)
     finally:
         process.kill()
     assert process.returncode == 0
@@ -361,8 +361,8 @@ def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, m
         env=os.environ | {"ROS_MASTER_URI": master.uri},
         stdout=subprocess.DEVNULL,
     ) as process:
-        until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text(), 20.0)
+        until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text())
         process.send_signal(number)
-        process.wait(20)
+        process.wait(60)
     pid = int((tmp_path / "pid").read_text())
     until(lambda: not alive(pid) or zombie(pid))

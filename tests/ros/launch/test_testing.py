@@ -16,7 +16,7 @@ from std_msgs.msg import String
 class Cases(unittest.TestCase):
     def test_good(self):
         rospy.init_node("cases")
-        self.assertEqual(rospy.wait_for_message("/words", String, 10).data, "hello")
+        self.assertEqual(rospy.wait_for_message("/words", String, 60).data, "hello")
         self.assertEqual(rospy.get_param("~mine"), 3)
         self.assertFalse(rospy.has_param("/left"))
         rospy.set_param("/left", 1)

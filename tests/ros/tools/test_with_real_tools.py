@@ -170,7 +170,7 @@ def test_what_we_publish_the_real_one_echoes(uri):
         theirs = tool(uri, "rostopic", "echo", "-n1", "/out")
     finally:
         process.terminate()
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
     assert theirs.endswith("x: 1.0\ny: 0.0\nz: -2.5\n---\n")
 
 
@@ -199,7 +199,7 @@ def test_the_real_one_measures_our_rate_as_we_do(uri):
                 break
     for process in [*measuring, talker]:
         process.terminate()
-        process.wait(10)
+        process.wait(60)
     for process in measuring:
         process.stdout.close()
     assert rates == pytest.approx([50.0, 50.0], abs=5.0)
