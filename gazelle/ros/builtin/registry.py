@@ -39,6 +39,12 @@ _OWN = {
                 "map_saver": "gazelle.ros.builtin.map_saver:main",
             },
         ),
+        BuiltinPackage("controller_manager", {
+            "controller_manager": "gazelle.ros.builtin.controllers.command:main",
+            "controller_group": "gazelle.ros.builtin.controllers.groups:main",
+            "spawner": "gazelle.ros.builtin.controllers.spawner:main",
+            "unspawner": "gazelle.ros.builtin.controllers.unspawner:main",
+        }),
         BuiltinPackage("robot_state_publisher", {
             "robot_state_publisher": "gazelle.ros.builtin.robot:state_main",
             "state_publisher": "gazelle.ros.builtin.robot:state_main",

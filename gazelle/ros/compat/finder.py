@@ -11,7 +11,7 @@ import importlib
 import importlib.abc
 import importlib.util
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import cache
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
@@ -53,8 +53,23 @@ class AliasLoader(importlib.abc.Loader):
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Nothing is left to do but to undo what the import system did to the module."""
+        """Undo what the import system did to the module; ``from actionlib import msg`` finds messages."""
+        name = module.__spec__.name if module.__spec__ is not None else ""
         module.__spec__ = self._spec
+        kinds = {kind for kind in _KINDS if has_definitions(name, kind)}
+        if kinds and not hasattr(module, "__getattr__"):
+            module.__dict__["__getattr__"] = _importing(name, kinds)
+
+
+def _importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
+    """A package's ``__getattr__``: its definitions are no files beside it, as Python thinks."""
+
+    def find(name: str) -> ModuleType:
+        if name not in kinds:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        return importlib.import_module(f"{package}.{name}")
+
+    return find
 
 
 class RosFinder(importlib.abc.MetaPathFinder):

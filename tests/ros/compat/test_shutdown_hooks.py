@@ -68,3 +68,13 @@ def test_a_hook_may_sleep_and_publish(master, script):
 @pytest.mark.skipif(not INSTALLED, reason="the real ROS 1 is not installed (Debian: ros-core)")
 def test_a_hook_of_the_real_rospy_says_the_same(master, script):
     assert lines([PYTHON], environment(master.uri), script) == SAID
+
+
+def test_a_signal_while_the_script_waits_for_the_end_does_not_hang(node):
+    from gazelle.ros.compat.rospy.state import process
+
+    # As when the signal comes while `spin` holds the lock of the event it waits for.
+    with process.shutdown._cond:
+        process._on_signal(signal.SIGINT, None)
+    assert process.shutdown.wait(30)
+    process.wait_ended()

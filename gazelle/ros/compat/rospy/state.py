@@ -148,8 +148,7 @@ class NodeProcessState:
             self._previous[number] = signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: Any) -> None:
-        # The main thread may hold any lock now, so another one ends the node.
-        self.shutdown.set()
+        # The main thread may hold any lock now, that of the event too, so another one does it all.
         threading.Thread(target=self.end, args=(f"signal-{number}",), name="shutdown").start()
         previous = self._previous.get(number)
         if callable(previous):

@@ -1,0 +1,1 @@
+"""The Python code of the package controller_manager_msgs: which managers and controllers there are."""
