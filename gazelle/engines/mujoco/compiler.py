@@ -23,13 +23,14 @@ from gazelle.engines.mujoco.contacts import (
     tune_springs,
 )
 from gazelle.engines.mujoco.couplings import add_closure, add_couplings
+from gazelle.engines.mujoco.hierarchies import tighten_hierarchies
 from gazelle.engines.mujoco.inertia import give_inertias, inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
-from gazelle.engines.mujoco.options import add_probes, find_forces, set_options
+from gazelle.engines.mujoco.options import add_probes, find_forces, set_options, skip_idle_forces
 from gazelle.engines.mujoco.remarks import warn_of_links
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
@@ -164,6 +165,9 @@ def compile_world(recipe: Recipe) -> Compiled:
     prepare(draft.spec, draft.extras)
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()
+    tighten_hierarchies(model)
+    if not recipe.damped:
+        skip_idle_forces(model)
     finish(model, draft.extras)
     return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures, recipe.motors)
 

@@ -18,6 +18,7 @@ from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
 from gazelle.engines.mujoco.layout import Layout, look_up
 from gazelle.engines.mujoco.motors import stiffen_worlds
+from gazelle.engines.mujoco.options import PASSIVE_OFF
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.engines.mujoco.retuning import retune
 from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION, LEAST_FRICTION
@@ -147,6 +148,7 @@ def _free_frames(target: _Target, body: int) -> None:
 
 
 def _write_gravity_share(target: _Target, name: str, values: Floats) -> None:
+    target.batch.expand("opt.disableflags")[:] &= ~PASSIVE_OFF
     target.batch.expand("body_gravcomp")[:, target.body(name)] = 1.0 - values[:, 0]
 
 
