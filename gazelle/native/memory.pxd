@@ -4,6 +4,10 @@ cdef inline double* floats(size_t address) noexcept nogil:
     return <double*>address
 
 
+cdef inline float* singles(size_t address) noexcept nogil:
+    return <float*>address
+
+
 cdef inline int* integers(size_t address) noexcept nogil:
     return <int*>address
 

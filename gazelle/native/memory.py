@@ -14,6 +14,11 @@ def floats(address: int) -> Any:
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_double))
 
 
+def singles(address: int) -> Any:
+    """The floats of 32 bits from an address on; it can be indexed."""
+    return ctypes.cast(address, ctypes.POINTER(ctypes.c_float))
+
+
 def integers(address: int) -> Any:
     """The C ints from an address on; it can be indexed."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_int))

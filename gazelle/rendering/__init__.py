@@ -1,0 +1,15 @@
+"""How worlds look: colour, depth and labels for many cameras at once, on the processor alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
+from gazelle.rendering.lens import PinholeLens
+from gazelle.rendering.renderer import Frames, Renderer
+from gazelle.rendering.visible import VisiblePart
+
+__all__ = ["Frames", "PinholeLens", "Renderer", "VisiblePart"]

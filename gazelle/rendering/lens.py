@@ -1,0 +1,69 @@
+"""What a camera's picture is like, wherever the camera is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gazelle.errors import EngineError
+
+if TYPE_CHECKING:
+    from gazelle.description import Camera
+
+MAX_PIXELS = 64 * 2**20
+
+
+@dataclass(frozen=True, slots=True)
+class PinholeLens:
+    """A pinhole: straight lines stay straight.
+
+    Attributes:
+        width: Columns of pixels.
+        height: Rows of pixels.
+        horizontal_fov: Horizontal field of view [rad].
+        near: What is nearer along the axis is not drawn [m].
+        far: What is farther along the axis is not drawn [m].
+
+    Raises:
+        EngineError: There can be no such picture.
+    """
+
+    width: int = 640
+    height: int = 480
+    horizontal_fov: float = 1.047
+    near: float = 0.02
+    far: float = 1000.0
+
+    def __post_init__(self) -> None:
+        """Check what a user gave."""
+        if self.width < 1 or self.height < 1 or self.width * self.height > MAX_PIXELS:
+            raise EngineError(
+                f"a picture has between 1 and {MAX_PIXELS} pixels, not {self.width} x {self.height}"
+            )
+        if not 0.0 < self.horizontal_fov < math.pi:
+            raise EngineError(
+                f"the field of view of a camera is between 0 and 180 degrees, not "
+                f"{math.degrees(self.horizontal_fov):g}"
+            )
+        if not 0.0 < self.near < self.far < math.inf:
+            raise EngineError(
+                "a camera sees from a distance above zero to a greater one, not from "
+                f"{self.near:g} to {self.far:g} m"
+            )
+
+    @classmethod
+    def of_camera(cls, camera: Camera) -> PinholeLens:
+        """The lens of a description's camera."""
+        return cls(camera.width, camera.height, camera.horizontal_fov, camera.near, camera.far)
+
+    @property
+    def focal(self) -> float:
+        """Focal length along rows and columns [pixel]."""
+        return self.width / (2.0 * math.tan(self.horizontal_fov / 2.0))
+
+    @property
+    def row(self) -> tuple[float, float, float, float, float, float]:
+        """As the rasteriser wants it; the optical axis goes through the middle."""
+        f = self.focal
+        return (f, f, self.width / 2.0, self.height / 2.0, self.near, self.far)

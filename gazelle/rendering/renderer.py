@@ -1,0 +1,138 @@
+"""Pictures of many cameras in many worlds at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Worlds
+from gazelle.description import World
+from gazelle.engines.planar.worker_pool import WorkerPool
+from gazelle.errors import EngineError
+from gazelle.rendering import columns as c
+from gazelle.rendering.lamps import lighting_of
+from gazelle.rendering.lens import PinholeLens
+from gazelle.rendering.rasterizer import Rasterizer
+from gazelle.rendering.shading import Shader
+from gazelle.rendering.visible import VisiblePart, rows_of, visible_world
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """What some cameras see; what was not asked for has shape (0, height, width, ...).
+
+    Attributes:
+        color: Red, green, blue, shape (n, height, width, 3), top row first.
+        depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width).
+        labels: Which of ``Renderer.parts`` is seen, -1 where nothing is, likewise.
+    """
+
+    color: Bytes
+    depth: Floats32
+    labels: Ints32
+
+
+class Renderer:
+    """Draws the visuals of a world's copies, whose links can be anywhere.
+
+    A picture is the same, bit for bit, at any number of threads, worlds and other cameras.
+
+    Args:
+        world: What there is.
+        nworld: How many copies.
+        threads: That draw at once; all processors if None.
+        gamma: Brightness b becomes b to the power 1 / gamma.
+
+    Attributes:
+        links: Scoped names of the links that have visuals.
+        parts: What labels count.
+
+    Raises:
+        FormatError: A mesh or a terrain cannot be read.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        *,
+        nworld: int = 1,
+        threads: int | None = None,
+        gamma: float = 1.0,
+    ) -> None:
+        seen = visible_world(world)
+        self.links: tuple[str, ...] = seen.links
+        self.parts: tuple[VisiblePart, ...] = seen.parts
+        self._world, self._gamma = world, gamma
+        self._shapes = seen.shapes
+        self._placed = np.repeat(seen.rest[None], nworld, axis=0)
+        self._pool = WorkerPool(threads)
+
+    def place(
+        self, link: str, positions: Floats, quaternions: Floats, worlds: Worlds | None = None
+    ) -> None:
+        """Put a link somewhere.
+
+        Args:
+            link: Scoped name; a link without visuals is left alone.
+            positions: [m] in the world, shape (nworlds, 3).
+            quaternions: x, y, z, w, shape (nworlds, 4).
+            worlds: Where; all if None.
+        """
+        if link in self.links:
+            chosen = slice(None) if worlds is None else worlds
+            self._placed[chosen, self.links.index(link)] = rows_of(positions, quaternions)
+
+    def render(
+        self,
+        lens: PinholeLens,
+        positions: Floats,
+        quaternions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        want: tuple[str, ...] = ("color", "depth", "labels"),
+    ) -> Frames:
+        """Draw what cameras see.
+
+        Args:
+            lens: Of all of them.
+            positions: Of the cameras in their worlds [m], shape (n, 3).
+            quaternions: x, y, z, w; a camera looks along its x axis, z is up, shape (n, 4).
+            worlds: That the cameras are in, shape (n,); the first n if None.
+            want: Which of color, depth and labels.
+
+        Raises:
+            EngineError: Something else is wanted, or there is no such world.
+        """
+        strangers = set(want) - {"color", "depth", "labels"}
+        if strangers:
+            raise EngineError(f"pictures have color, depth and labels, not {min(strangers)!r}")
+        cameras = self._cameras(positions, quaternions, worlds)
+        shape = (lens.height, lens.width)
+        frames = Frames(
+            np.empty((len(cameras) if "color" in want else 0, *shape, 3), np.uint8),
+            np.empty((len(cameras) if "depth" in want else 0, *shape), np.float32),
+            np.empty((len(cameras) if "labels" in want else 0, *shape), np.int32),
+        )
+
+        def work(first: int, last: int, _part: int) -> None:
+            size = (lens.width, lens.height)
+            rasterizer = Rasterizer(self._shapes, self._placed, cameras, lens.row, size)
+            lighting = lighting_of(self._world, gamma=self._gamma)
+            shader = Shader(rasterizer, lighting, frames.color, frames.depth, frames.labels)
+            shader.draw(first, last)
+
+        self._pool.share(work, len(cameras), 1)
+        return frames
+
+    def _cameras(self, positions: Floats, quaternions: Floats, worlds: Worlds | None) -> Floats:
+        count = len(positions)
+        chosen = np.arange(count) if worlds is None else np.asarray(worlds)
+        if count and not (0 <= chosen.min() and chosen.max() < len(self._placed)):
+            raise EngineError(f"there are worlds 0 to {len(self._placed) - 1}")
+        turned = rows_of(positions, quaternions)
+        made = np.empty((count, c.CAMERA))
+        made[:, 0], made[:, 1:4] = chosen, positions
+        forward, left, up = turned[:, 0:9:3], turned[:, 1:9:3], turned[:, 2:9:3]
+        made[:, 4:7], made[:, 7:10], made[:, 10:13] = -left, -up, forward
+        return made

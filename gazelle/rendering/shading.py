@@ -1,0 +1,258 @@
+# cython: infer_types=True, annotation_typing=False
+"""Colours, depths and labels of pictures whose nearest triangles are known."""
+
+from __future__ import annotations
+
+import cython
+import numpy as np
+from cython.cimports.gazelle.rendering.columns import (
+    FIRST_VERTEX,
+    LABEL_OF_PART,
+    MESH_OF_PART,
+)  # fmt: skip
+from cython.cimports.libc.math import sqrt
+
+from gazelle.array_types import Bytes, Floats32, Ints32
+from gazelle.rendering.lighting import Lighting
+from gazelle.rendering.rasterizer import Rasterizer
+
+NOTHING = cython.declare(cython.float, float("inf"))
+
+
+class Shader:
+    """Draws pictures, and fills in what is asked for.
+
+    Lamps that are far away light corners of triangles, and what is between them is interpolated;
+    as soon as a lamp has a place, every pixel is lit by itself.
+
+    Args:
+        seen: What finds the triangles.
+        lighting: What lights them.
+        color: Red, green and blue come out, shape (n, height, width, 3); with n = 0 none.
+        depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width);
+            with n = 0 none.
+        labels: Numbers of what is seen, -1 where nothing is, likewise.
+    """
+
+    def __init__(
+        self,
+        seen: Rasterizer,
+        lighting: Lighting,
+        color: Bytes,
+        depth: Floats32,
+        labels: Ints32,
+    ) -> None:
+        self.seen, self.lighting = seen, lighting
+        self.color, self.depth, self.labels = color, depth, labels
+        self.colored, self.measured, self.labelled = (
+            len(color) > 0,
+            len(depth) > 0,
+            len(labels) > 0,
+        )
+        size = seen.width * seen.height if self.colored else 0
+        # Of each triangle that a pixel shows: what is interpolated, divided by the depth, as
+        # factors of column and row, and a constant; or its one colour.
+        self.planes = np.empty((size + 1, 9), np.float32)
+        self.flat = np.empty((size + 1, 4), np.uint8)
+        self.corners, self.bends = np.empty((3, 3)), np.empty((3, 3))
+        self.shares = np.empty((3, 3))
+        self.light, self.normal = np.empty(3), np.empty(3)
+
+    def draw(self, first: int, last: int) -> None:
+        """Draw the pictures of cameras first to last, without the interpreter's lock."""
+        begin, end = (
+            cython.declare(cython.Py_ssize_t, first),
+            cython.declare(cython.Py_ssize_t, last),
+        )
+        with cython.nogil:
+            for n in range(begin, end):
+                self.draw_one(n)
+
+    def draw_one(self, n: int) -> None:
+        """Draw the picture of camera n."""
+        self.seen.draw(n)
+        if self.colored:
+            self.lighting.look(self.seen.cameras, n)
+            self.put_color(n)
+        if self.measured:
+            self.put_depth(n)
+        if self.labelled:
+            self.put_labels(n)
+
+    def put_color(self, n: int) -> None:
+        """Colour all pixels."""
+        color, owner, last = self.color, self.seen.owner, -2
+        self.slots = 1
+        self.flat[0, 3] = 1
+        for k in range(3):
+            self.flat[0, k] = self.lighting.tone(self.lighting.horizon[k])
+        s, constant, red, green, blue = 0, False, 0, 0, 0
+        for r in range(self.seen.height):
+            for c in range(self.seen.width):
+                t = owner[r, c]
+                if t < 0 and self.lighting.sky:
+                    self.put_backdrop(n, r, c)
+                    continue
+                if t != last:
+                    s, last = self.prepare(t), t
+                    constant = self.flat[s, 3] != 0
+                    red, green, blue = self.flat[s, 0], self.flat[s, 1], self.flat[s, 2]
+                if constant:
+                    color[n, r, c, 0], color[n, r, c, 1], color[n, r, c, 2] = red, green, blue
+                elif self.lighting.local:
+                    self.shade_exactly(n, r, c, s, t)
+                else:
+                    self.shade_smoothly(n, r, c, s)
+
+    def shade_smoothly(self, n: int, r: int, c: int, s: int) -> None:
+        """Colour a pixel by what lies between the corners of its triangle."""
+        z = 1.0 / self.seen.inverse[r, c]
+        for k in range(3):
+            value = z * (
+                self.planes[s, 3 * k] * c + self.planes[s, 3 * k + 1] * r + self.planes[s, 3 * k + 2]
+            )
+            self.color[n, r, c, k] = self.lighting.tone(value)
+
+    def shade_exactly(self, n: int, r: int, c: int, s: int, t: int) -> None:
+        """Colour a pixel by the light that falls on it."""
+        z = 1.0 / self.seen.inverse[r, c]
+        for k in range(3):
+            self.normal[k] = z * (
+                self.planes[s, 3 * k] * c + self.planes[s, 3 * k + 1] * r + self.planes[s, 3 * k + 2]
+            )
+        size = sqrt(
+            self.normal[0] * self.normal[0]
+            + self.normal[1] * self.normal[1]
+            + self.normal[2] * self.normal[2]
+        )
+        for k in range(3):
+            self.normal[k] /= max(size, 1e-12)
+        x = (c + 0.5 - self.seen.cx) / self.seen.fx * z
+        y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
+        self.lighting.light_up(x, y, z, self.normal, self.light)
+        p = self.seen.part_of[t]
+        for k in range(3):
+            a, b = self.seen.shapes.color[p, k], self.seen.shapes.glow[p, k]
+            self.color[n, r, c, k] = self.lighting.tone(a * self.light[k] + b)
+
+    def put_backdrop(self, n: int, r: int, c: int) -> None:
+        """Colour a pixel that shows nothing."""
+        x = (c + 0.5 - self.seen.cx) / self.seen.fx
+        y = (r + 0.5 - self.seen.cy) / self.seen.fy
+        up = x * self.lighting.up[0] + y * self.lighting.up[1] + self.lighting.up[2]
+        self.lighting.backdrop(up / sqrt(1.0 + x * x + y * y), self.light)
+        for k in range(3):
+            self.color[n, r, c, k] = self.lighting.tone(self.light[k])
+
+    def prepare(self, t: int) -> int:
+        """Light a triangle when its first pixel is coloured.
+
+        Returns:
+            Where it is in ``planes`` and ``flat``: at 0 is what is behind all.
+        """
+        if t < 0:
+            return 0
+        if self.seen.slot_of[t] >= 0:
+            return self.seen.slot_of[t]  # type: ignore[no-any-return]
+        s, self.slots = self.slots, self.slots + 1
+        self.seen.slot_of[t] = s
+        self.find_corners(t)
+        self.find_shares()
+        p, flat = self.seen.part_of[t], not self.lighting.local
+        for i in range(3):
+            if not self.lighting.local:
+                for k in range(3):
+                    self.normal[k] = self.bends[i, k]
+                self.lighting.light_up(0.0, 0.0, 0.0, self.normal, self.light)
+                for k in range(3):
+                    self.bends[i, k] = (
+                        self.light[k] * self.seen.shapes.color[p, k] + self.seen.shapes.glow[p, k]
+                    )
+                    flat = flat and self.bends[i, k] == self.bends[0, k]
+        self.flat[s, 3] = 1 if flat else 0
+        for k in range(3):
+            self.flat[s, k] = self.lighting.tone(self.bends[0, k])
+            for j in range(3):
+                self.planes[s, 3 * k + j] = (
+                    self.shares[0, j] * self.bends[0, k]
+                    + self.shares[1, j] * self.bends[1, k]
+                    + self.shares[2, j] * self.bends[2, k]
+                )
+        return s  # type: ignore[no-any-return]
+
+    def find_corners(self, t: int) -> None:
+        """Find corners of a triangle and normals at them, towards the camera, in its frame."""
+        p, f = self.seen.part_of[t], self.seen.face_of[t]
+        first = self.seen.shapes.meshes[self.seen.shapes.parts[p, MESH_OF_PART], FIRST_VERTEX]
+        for i in range(3):
+            v = first + self.seen.shapes.faces[f, i]
+            x, y, z = (
+                self.seen.shapes.vertices[v, 0],
+                self.seen.shapes.vertices[v, 1],
+                self.seen.shapes.vertices[v, 2],
+            )
+            for k in range(3):
+                self.corners[i, k] = (
+                    self.seen.placed[p, 3 * k] * x
+                    + self.seen.placed[p, 3 * k + 1] * y
+                    + self.seen.placed[p, 3 * k + 2] * z
+                    + self.seen.placed[p, 9 + k]
+                )
+            x, y, z = (
+                self.seen.shapes.normals[v, 0],
+                self.seen.shapes.normals[v, 1],
+                self.seen.shapes.normals[v, 2],
+            )
+            for k in range(3):
+                self.bends[i, k] = (
+                    self.seen.placed[p, 3 * k] * x
+                    + self.seen.placed[p, 3 * k + 1] * y
+                    + self.seen.placed[p, 3 * k + 2] * z
+                )
+
+    def find_shares(self) -> None:
+        """Find the share of each corner in a pixel, divided by its depth (Olano and Greer, 1997)."""
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            self.shares[i, 0] = (
+                self.corners[j, 1] * self.corners[k, 2] - self.corners[j, 2] * self.corners[k, 1]
+            )
+            self.shares[i, 1] = (
+                self.corners[j, 2] * self.corners[k, 0] - self.corners[j, 0] * self.corners[k, 2]
+            )
+            self.shares[i, 2] = (
+                self.corners[j, 0] * self.corners[k, 1] - self.corners[j, 1] * self.corners[k, 0]
+            )
+        off = (
+            self.corners[0, 0] * self.shares[0, 0]
+            + self.corners[0, 1] * self.shares[0, 1]
+            + self.corners[0, 2] * self.shares[0, 2]
+        )
+        if off > 0.0:  # seen from behind, where it looks as from its front
+            for i in range(3):
+                for k in range(3):
+                    self.bends[i, k] = -self.bends[i, k]
+        for i in range(3):
+            x = self.shares[i, 0] / (off * self.seen.fx)
+            y = self.shares[i, 1] / (off * self.seen.fy)
+            z = self.shares[i, 2] / off
+            self.shares[i, 0], self.shares[i, 1] = x, y
+            self.shares[i, 2] = (
+                z + x * (0.5 - self.seen.cx) + y * (0.5 - self.seen.cy)
+            )
+
+    def put_depth(self, n: int) -> None:
+        """Turn inverse depths into depths."""
+        depth, inverse, owner = self.depth, self.seen.inverse, self.seen.owner
+        for r in range(self.seen.height):
+            for c in range(self.seen.width):
+                depth[n, r, c] = 1.0 / inverse[r, c] if owner[r, c] >= 0 else NOTHING
+
+    def put_labels(self, n: int) -> None:
+        """Say which labels are seen."""
+        for r in range(self.seen.height):
+            for c in range(self.seen.width):
+                t = self.seen.owner[r, c]
+                self.labels[n, r, c] = (
+                    -1 if t < 0 else self.seen.shapes.parts[self.seen.part_of[t], LABEL_OF_PART]
+                )

@@ -1,0 +1,85 @@
+"""The triangles of any shape of a description."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.description import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Image,
+    Mesh,
+    Plane,
+    Polyline,
+    Sphere,
+)
+from gazelle.rendering import tessellation as t
+
+_ELEVATION_FILES = frozenset([".dem", ".tif", ".tiff", ".asc", ".hgt"])
+
+
+def triangles_of(shape: Geometry) -> t.TriangleMesh:
+    """Triangles with normals; none of a shape whose file is missing.
+
+    Raises:
+        FormatError: Its file cannot be read.
+    """
+    return _READERS[type(shape)](shape)
+
+
+def _mesh(shape: Mesh) -> t.TriangleMesh:
+    if shape.path is None:
+        return _nothing(shape)
+    from gazelle.formats.mesh import load_mesh
+
+    data = load_mesh(shape)
+    return t.creased(data.vertices, data.faces)
+
+
+def _heightmap(shape: Heightmap) -> t.TriangleMesh:
+    if shape.path is None or shape.path.suffix.lower() in _ELEVATION_FILES:
+        return _nothing(shape)
+    from gazelle.formats.terrain import load_heights
+
+    flat = t.terrain(load_heights(shape), shape.size[:2])
+    return t.TriangleMesh(flat.vertices + shape.position, flat.normals, flat.faces)
+
+
+def _image(shape: Image) -> t.TriangleMesh:
+    if shape.path is None:
+        return _nothing(shape)
+    from gazelle.formats.terrain import load_boxes
+
+    pieces = []
+    for x, y, width, depth in load_boxes(shape).tolist():
+        cube = t.box(Box((width, depth, shape.height)))
+        middle = (x, y, shape.height / 2.0)
+        pieces.append(t.TriangleMesh(cube.vertices + middle, cube.normals, cube.faces))
+    return t.joined(pieces)
+
+
+def _nothing(_: Geometry) -> t.TriangleMesh:
+    return t.joined([])
+
+
+_READERS: dict[type, Callable[[Any], t.TriangleMesh]] = {
+    Box: t.box,
+    Capsule: t.capsule,
+    Cone: t.cone,
+    Cylinder: t.cylinder,
+    Ellipsoid: t.ellipsoid,
+    Empty: _nothing,
+    Heightmap: _heightmap,
+    Image: _image,
+    Mesh: _mesh,
+    Plane: t.plane,
+    Polyline: t.polyline,
+    Sphere: t.sphere,
+}
