@@ -20,6 +20,7 @@ ORDER = (
     "description",
     "formats",
     "engines",
+    "rendering",
     "sensors",
     "control",
     "simulation",
@@ -37,7 +38,16 @@ ORDER = (
 )
 """Rooms; each may import those before it. Data and paths (assets) are at the bottom."""
 
-SIMULATION = {"engines", "sensors", "control", "simulation", "plugins", "planning", "navigation"}
+SIMULATION = {
+    "engines",
+    "rendering",
+    "sensors",
+    "control",
+    "simulation",
+    "plugins",
+    "planning",
+    "navigation",
+}
 WIRE = {"ros", "bridges", "clients"}
 STRANGERS = {
     "assets": {"description"},

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import cython
-from cython.cimports.libc.math import sqrt
 from cython.cimports.gazelle.rendering.columns import (
     ALONG,
     COLOR,
@@ -18,6 +17,7 @@ from cython.cimports.gazelle.rendering.columns import (
     REACH,
     SPOT,
 )  # fmt: skip
+from cython.cimports.libc.math import sqrt
 
 from gazelle.array_types import Bytes, Floats
 
@@ -85,7 +85,7 @@ class Lighting:
                 + normal[1] * self.seen[k, 4]
                 + normal[2] * self.seen[k, 5]
             )
-            return max(cosine, 0.0)
+            return max(cosine, 0.0)  # type: ignore[no-any-return]
         dx, dy, dz = self.seen[k, 0] - x, self.seen[k, 1] - y, self.seen[k, 2] - z
         away = sqrt(dx * dx + dy * dy + dz * dz)
         cosine = (normal[0] * dx + normal[1] * dy + normal[2] * dz) / max(away, 1e-9)
@@ -100,7 +100,7 @@ class Lighting:
             inner, outer = self.lamps[k, INNER], self.lamps[k, OUTER]
             share = (along / max(away, 1e-9) - outer) / max(inner - outer, 1e-6)
             fade *= min(max(share, 0.0), 1.0)
-        return cosine * fade
+        return cosine * fade  # type: ignore[no-any-return]
 
     def tone(self, value: float) -> int:
         """What a picture holds for a brightness."""

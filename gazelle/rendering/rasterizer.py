@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.native.memory import integers, singles
 from cython.cimports.gazelle.rendering.columns import (
     FIRST_FACE,
     FIRST_VERTEX,
@@ -20,7 +21,6 @@ from cython.cimports.gazelle.rendering.columns import (
     MESH_OF_PART,
     TWO_SIDED,
 )  # fmt: skip
-from cython.cimports.gazelle.native.memory import integers, singles
 from cython.cimports.libc.math import ceil, sqrt
 
 from gazelle.array_types import Floats, Floats32, Ints32, Ints64
@@ -84,7 +84,7 @@ class Rasterizer:
         shapes: DrawnShapes,
         links: Floats,
         cameras: Floats,
-        lens: Floats,
+        lens: tuple[float, float, float, float, float, float],
         size: tuple[int, int],
     ) -> None:
         self.shapes, self.links, self.cameras = shapes, links, cameras
@@ -178,7 +178,12 @@ class Rasterizer:
             self.shapes.spheres[mesh, 2],
         )
         reach = self.shapes.spheres[mesh, 3]
-        x = self.placed[p, 9] + self.placed[p, 0] * a + self.placed[p, 1] * b + self.placed[p, 2] * c
+        x = (
+            self.placed[p, 9]
+            + self.placed[p, 0] * a
+            + self.placed[p, 1] * b
+            + self.placed[p, 2] * c
+        )
         y = (
             self.placed[p, 10]
             + self.placed[p, 3] * a
@@ -199,7 +204,7 @@ class Rasterizer:
             return False
         if self.fy * y + self.cy * z < -reach * self.sides[2]:
             return False
-        return (self.height - self.cy) * z - self.fy * y >= -reach * self.sides[3]
+        return not (self.height - self.cy) * z - self.fy * y < -reach * self.sides[3]
 
     def project(self, p: int) -> None:
         """Find vertices of a part in the camera's frame, and in the picture if they are before it."""
@@ -258,8 +263,8 @@ class Rasterizer:
         twice = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         if twice >= 0.0 and not two_sided:
             return  # seen from behind
-        left, right = min(ax, min(bx, cx)), max(ax, max(bx, cx))
-        top, bottom = min(ay, min(by, cy)), max(ay, max(by, cy))
+        left, right = min(ax, bx, cx), max(ax, bx, cx)
+        top, bottom = min(ay, by, cy), max(ay, by, cy)
         if first_middle(left, self.width) >= first_middle(right, self.width):
             return  # no middle of a pixel is in it
         if first_middle(top, self.height) >= first_middle(bottom, self.height):

@@ -128,7 +128,7 @@ class Renderer:
     def _cameras(self, positions: Floats, quaternions: Floats, worlds: Worlds | None) -> Floats:
         count = len(positions)
         chosen = np.arange(count) if worlds is None else np.asarray(worlds)
-        if count and not (0 <= chosen.min() and chosen.max() < len(self._placed)):
+        if count and not (chosen.min() >= 0 and chosen.max() < len(self._placed)):
             raise EngineError(f"there are worlds 0 to {len(self._placed) - 1}")
         turned = rows_of(positions, quaternions)
         made = np.empty((count, c.CAMERA))

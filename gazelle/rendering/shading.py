@@ -109,7 +109,9 @@ class Shader:
         z = 1.0 / self.seen.inverse[r, c]
         for k in range(3):
             value = z * (
-                self.planes[s, 3 * k] * c + self.planes[s, 3 * k + 1] * r + self.planes[s, 3 * k + 2]
+                self.planes[s, 3 * k] * c
+                + self.planes[s, 3 * k + 1] * r
+                + self.planes[s, 3 * k + 2]
             )
             self.color[n, r, c, k] = self.lighting.tone(value)
 
@@ -118,7 +120,9 @@ class Shader:
         z = 1.0 / self.seen.inverse[r, c]
         for k in range(3):
             self.normal[k] = z * (
-                self.planes[s, 3 * k] * c + self.planes[s, 3 * k + 1] * r + self.planes[s, 3 * k + 2]
+                self.planes[s, 3 * k] * c
+                + self.planes[s, 3 * k + 1] * r
+                + self.planes[s, 3 * k + 2]
             )
         size = sqrt(
             self.normal[0] * self.normal[0]
@@ -178,7 +182,7 @@ class Shader:
                     + self.shares[1, j] * self.bends[1, k]
                     + self.shares[2, j] * self.bends[2, k]
                 )
-        return s  # type: ignore[no-any-return]
+        return s
 
     def find_corners(self, t: int) -> None:
         """Find corners of a triangle and normals at them, towards the camera, in its frame."""
@@ -237,9 +241,7 @@ class Shader:
             y = self.shares[i, 1] / (off * self.seen.fy)
             z = self.shares[i, 2] / off
             self.shares[i, 0], self.shares[i, 1] = x, y
-            self.shares[i, 2] = (
-                z + x * (0.5 - self.seen.cx) + y * (0.5 - self.seen.cy)
-            )
+            self.shares[i, 2] = z + x * (0.5 - self.seen.cx) + y * (0.5 - self.seen.cy)
 
     def put_depth(self, n: int) -> None:
         """Turn inverse depths into depths."""

@@ -67,13 +67,14 @@ def box(shape: Box) -> TriangleMesh:
 def sphere(shape: Sphere) -> TriangleMesh:
     """Rings from pole to pole."""
     unit = _ball()
-    return TriangleMesh(unit.vertices * shape.radius, unit.normals, unit.faces)
+    return _without_lines(TriangleMesh(unit.vertices * shape.radius, unit.normals, unit.faces))
 
 
 def ellipsoid(shape: Ellipsoid) -> TriangleMesh:
     """A stretched sphere."""
     unit, radii = _ball(), np.asarray(shape.radii)
-    return TriangleMesh(unit.vertices * radii, _unit(unit.normals / radii), unit.faces)
+    normals = _unit(unit.normals / radii)
+    return _without_lines(TriangleMesh(unit.vertices * radii, normals, unit.faces))
 
 
 def capsule(shape: Capsule) -> TriangleMesh:
@@ -83,7 +84,7 @@ def capsule(shape: Capsule) -> TriangleMesh:
     half = len(vertices) // 2
     vertices[:half, 2] += shape.length / 2.0
     vertices[half:, 2] -= shape.length / 2.0
-    return TriangleMesh(vertices, unit.normals, unit.faces)
+    return _without_lines(TriangleMesh(vertices, unit.normals, unit.faces))
 
 
 def cylinder(shape: Cylinder) -> TriangleMesh:
@@ -195,6 +196,7 @@ def _ball() -> TriangleMesh:
     points = np.concatenate(
         [np.column_stack((math.sin(t) * flat, np.full(SIDES, math.cos(t)))) for t in tilt]
     )
+    points[-SIDES:, :2] = 0.0  # the sine of pi is not
     return TriangleMesh(points, _unit(points), _bands(len(tilt)))
 
 
@@ -208,13 +210,21 @@ def _turned(below: float, above: float, length: float) -> TriangleMesh:
         np.column_stack((radius * flat, np.full(SIDES, z)))
         for radius, z in ((above, length / 2.0), (below, -length / 2.0))
     ]
-    pieces = [TriangleMesh(np.vstack(rings), np.vstack((slope, slope)), _bands(2))]
+    wall = TriangleMesh(np.vstack(rings), np.vstack((slope, slope)), _bands(2))
+    pieces = [_without_lines(wall)]
     fan = np.stack([(0, i, i + 1) for i in range(1, SIDES - 1)]).astype(np.int32)
     for side, radius, ring in ((1.0, above, rings[0]), (-1.0, below, rings[1])):
         if radius:
             normals = np.tile((0.0, 0.0, side), (SIDES, 1))
             pieces.append(TriangleMesh(ring, normals, fan[:, :: int(side)]))
     return joined(pieces)
+
+
+def _without_lines(mesh: TriangleMesh) -> TriangleMesh:
+    """A mesh without the triangles that have two corners in one place."""
+    corners = mesh.vertices[mesh.faces]
+    thick = (corners != np.roll(corners, -1, axis=1)).any(axis=2).all(axis=1)
+    return TriangleMesh(mesh.vertices, mesh.normals, np.ascontiguousarray(mesh.faces[thick]))
 
 
 def _bands(rings: int) -> Ints32:
@@ -238,7 +248,7 @@ def _is_closed(vertices: Floats, faces: Ints32) -> bool:
     corners = welded.reshape(-1)[faces].astype(np.int64)
     edges = np.stack((corners, np.roll(corners, -1, axis=1)), axis=-1).reshape(-1, 2)
     edges = edges[edges[:, 0] != edges[:, 1]]
-    wide = int(len(vertices)) + 1
+    wide = len(vertices) + 1
     forth = np.sort(edges[:, 0] * wide + edges[:, 1])
     back = np.sort(edges[:, 1] * wide + edges[:, 0])
     if not np.array_equal(forth, back):

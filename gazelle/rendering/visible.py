@@ -135,7 +135,8 @@ def _ball(mesh: TriangleMesh) -> tuple[float, float, float, float]:
         return (0.0, 0.0, 0.0, 0.0)
     middle = (mesh.vertices.min(axis=0) + mesh.vertices.max(axis=0)) / 2.0
     radius = float(np.linalg.norm(mesh.vertices - middle, axis=1).max())
-    return (*(float(value) for value in middle), radius)
+    x, y, z = middle.tolist()
+    return (x, y, z, radius)
 
 
 def _colors(visuals: list[Visual]) -> Floats32:
