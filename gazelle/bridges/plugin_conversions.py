@@ -19,6 +19,7 @@ from gazelle.bridges.conversions import (
     quaternion,
 )
 from gazelle.simulation.values import (
+    EmergencyStop,
     Flags,
     JointPath,
     LinkPair,
@@ -72,6 +73,9 @@ add_encoder(Flags, Encoder("std_msgs/Bool", _flags))
 add_decoder(JointPath, Decoder("trajectory_msgs/JointTrajectory", _path))
 add_service(
     PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
+)
+add_decoder(
+    EmergencyStop, Decoder("std_msgs/Bool", lambda message: EmergencyStop(bool(message.data)))
 )
 add_decoder(Number, Decoder("std_msgs/Float32", lambda message: Number(message.data)))
 add_decoder(

@@ -199,13 +199,13 @@ class ControllerManager:
 
     # -- the loop ----------------------------------------------------------------------
 
-    def update(self, now_ns: int, period: float, *, restart: bool = False) -> None:
+    def update(self, now_ns: int, period: float, *, restart: Worlds | None = None) -> None:
         """Let all running controllers act; for the thread that owns the robot.
 
         Args:
             now_ns: Time [ns].
             period: Since the last update [s].
-            restart: Stop and start what is running first, as after an emergency stop.
+            restart: Worlds in which what runs begins anew first, as after an emergency stop.
         """
         self.now_ns, time = now_ns, now_ns * 1e-9
         running = [each for each in self._loaded.values() if each.controller.running]
@@ -213,7 +213,9 @@ class ControllerManager:
             controller = entry.controller
             controller.now_ns = now_ns
             try:
-                if restart:
+                if restart is not None and len(restart) < self.hardware.nworld:
+                    controller.reset(restart)
+                elif restart is not None:
                     controller.stopping(time)
                     controller.starting(time)
                 controller.update(time, period)
@@ -224,14 +226,8 @@ class ControllerManager:
         if self._switch is not None:
             self._go_on(self._switch)
 
-    def reset(self, worlds: Worlds | None, *, rewind: bool = False) -> None:
-        """The robot was put back to its initial state in these worlds; all if None.
-
-        Args:
-            worlds: Which.
-            rewind: Whether time began anew too.
-        """
-        self.now_ns = 0 if rewind else self.now_ns
+    def reset(self, worlds: Worlds | None) -> None:
+        """The robot was put back to its initial state in these worlds; all if None."""
         for entry in self._loaded.values():
             entry.controller.now_ns = self.now_ns
             entry.controller.reset(worlds)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from gazelle.control.interfaces import (
     EFFORT,
+    JOINT_STATE,
     POSITION,
     VELOCITY,
 )
@@ -29,6 +30,7 @@ class KnownController:
 _FORWARD = "forward:ForwardCommandController"
 _GROUP = "forward:ForwardGroupController"
 CONTROLLERS: Mapping[str, KnownController] = {
+    "joint_state_controller/JointStateController": KnownController("joint_state:JointStateController", (JOINT_STATE,)),
     "effort_controllers/JointEffortController": KnownController(_FORWARD, (EFFORT,)),
     "position_controllers/JointPositionController": KnownController(_FORWARD, (POSITION,)),
     "velocity_controllers/JointVelocityController": KnownController(_FORWARD, (VELOCITY,)),

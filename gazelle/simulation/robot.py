@@ -99,6 +99,20 @@ class Robot(Ports):
 
     @property
     @between_steps
+    def controllers(self) -> ControllerManager:
+        """Its controllers: ``load``, ``start``, ``stop``, and each one's ports by its name.
+
+        Without ``libgazebo_ros_control.so`` in its file each joint with one axis can be controlled,
+        by effort, position and velocity. Of several managers it is the first; ``managers`` has all.
+        """
+        if not self.managers:
+            from gazelle.simulation.control_loop import add_controllers  # it needs robots itself
+
+            return add_controllers(self)
+        return next(iter(self.managers.values()))
+
+    @property
+    @between_steps
     def pose(self) -> Pose:
         """Pose of the model frame in world 0."""
         place = self.placement(np.array([0]))

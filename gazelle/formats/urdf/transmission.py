@@ -11,13 +11,15 @@ from gazelle.formats.reading import Reading
 def read_transmission(node: Parameters, reading: Reading) -> Transmission:
     """One transmission; old files write its type and reduction in other places."""
     reduction = _reduction(node, 1.0, reading)
+    # Before ROS Indigo the interface was the actuator's.
+    before = tuple(text for actuator in node.find_all("actuator") for text in _interfaces(actuator))
     return Transmission(
         name=node.attributes.get("name", ""),
         type=values.word(node, "type") or node.attributes.get("type", ""),
         joints=tuple(
             (
                 values.attribute(joint, "name"),
-                tuple(h.text for h in joint.find_all("hardwareInterface") if h.text),
+                _interfaces(joint) or before,
             )
             for joint in node.find_all("joint")
         ),
@@ -30,6 +32,10 @@ def read_transmission(node: Parameters, reading: Reading) -> Transmission:
         ),
         source=node.source,
     )
+
+
+def _interfaces(node: Parameters) -> tuple[str, ...]:
+    return tuple(each.text for each in node.find_all("hardwareInterface") if each.text)
 
 
 def _reduction(node: Parameters, default: float, reading: Reading) -> float:

@@ -12,6 +12,7 @@ from gazelle.control.measurements import (
 )
 from gazelle.simulation.values.commands import (
     Bias,
+    EmergencyStop,
     GeoReference,
     JointPath,
     LinkPair,
@@ -47,6 +48,7 @@ __all__ = [
     "BumperValue",
     "ChannelPoints",
     "CliffValue",
+    "EmergencyStop",
     "Fix",
     "Flags",
     "GeoReference",

@@ -90,6 +90,13 @@ class Trigger:
 
 
 @dataclass(frozen=True, slots=True)
+class EmergencyStop:
+    """Whether the emergency stop is pressed."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
 class MotorPower:
     """Whether motors shall have power."""
 

@@ -1,0 +1,254 @@
+"""Limits of joints: what URDF and parameters say, and how commands are held within them.
+
+The rules are those of ros_control's joint_limits_interface.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Bools, Floats
+from gazelle.control.parameters import ControllerParameters
+from gazelle.description import Joint, SafetyController
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimits:
+    """Hard limits of a joint; infinite where there are none.
+
+    Attributes:
+        lower: Of the position [m or rad].
+        upper: Likewise.
+        velocity: [m/s or rad/s].
+        acceleration: [m/s² or rad/s²].
+        effort: [N or N m].
+        soft: Soft limits, or None.
+    """
+
+    lower: float = -math.inf
+    upper: float = math.inf
+    velocity: float = math.inf
+    acceleration: float = math.inf
+    effort: float = math.inf
+    soft: SafetyController | None = None
+
+    @property
+    def any(self) -> bool:
+        """Whether there is any."""
+        values = (self.upper, -self.lower, self.velocity, self.acceleration, self.effort)
+        return any(math.isfinite(value) for value in values)
+
+    @classmethod
+    def of_joint(cls, joint: Joint) -> JointLimits:
+        """What a description says; positions count for revolute and prismatic joints only."""
+        if not joint.axes:
+            return cls()
+        axis = joint.axes[0]
+        bounded = joint.type in ("revolute", "prismatic")
+        return cls(
+            lower=axis.lower if bounded else -math.inf,
+            upper=axis.upper if bounded else math.inf,
+            velocity=axis.velocity,
+            effort=axis.effort,
+            soft=joint.safety,
+        )
+
+    def overridden(
+        self, given: Mapping[str, Any], place: str, *, soft: bool = False
+    ) -> JointLimits:
+        """The same with the parameters of ``joint_limits/JOINT``.
+
+        Each ``has_X`` that is true needs its values, and false takes a limit away.
+
+        Args:
+            given: The parameters.
+            place: Where they are, for messages.
+            soft: Whether soft limits are read, too; Gazebo's plugin does not.
+
+        Raises:
+            ControlError: A value is of a wrong type.
+        """
+        values = ControllerParameters(given, place)
+        found = _with_positions(self, values)
+        for name in ("velocity", "acceleration", "effort"):
+            has = f"has_{name}_limits"
+            if has not in values:
+                continue
+            if not values.flag(has):
+                found = _with(found, name, math.inf)
+            elif f"max_{name}" in values:
+                found = _with(found, name, values.number(f"max_{name}"))
+        return _with_soft(found, values) if soft else found
+
+
+def _with(limits: JointLimits, name: str, value: float) -> JointLimits:
+    if name == "velocity":
+        return replace(limits, velocity=value)
+    if name == "acceleration":
+        return replace(limits, acceleration=value)
+    return replace(limits, effort=value)
+
+
+def _with_positions(limits: JointLimits, values: ControllerParameters) -> JointLimits:
+    """With limits of the position, as given; a joint that wraps has none."""
+    if "has_position_limits" not in values:
+        return limits
+    if not values.flag("has_position_limits"):
+        return replace(limits, lower=-math.inf, upper=math.inf)
+    if "min_position" not in values or "max_position" not in values:
+        return limits
+    return replace(limits, lower=values.number("min_position"), upper=values.number("max_position"))
+
+
+def _with_soft(limits: JointLimits, values: ControllerParameters) -> JointLimits:
+    names = ("k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit")
+    if "has_soft_limits" in values and not values.flag("has_soft_limits"):
+        return replace(limits, soft=None)
+    if "has_soft_limits" not in values or not all(name in values for name in names):
+        return limits
+    return replace(limits, soft=SafetyController(*(values.number(name) for name in names)))
+
+
+class _Bounds:
+    """Limits of several joints as arrays, shape (n,)."""
+
+    def __init__(self, limits: Sequence[JointLimits]) -> None:
+        def column(name: str) -> Floats:
+            return np.array([getattr(each, name) for each in limits], np.float64)
+
+        self.lower, self.upper = column("lower"), column("upper")
+        self.velocity, self.effort = column("velocity"), column("effort")
+        self.acceleration = column("acceleration")
+        soft = [each.soft for each in limits]
+        self.soft: Bools = np.array([each is not None for each in soft], bool)
+        filled = [each or SafetyController(0.0) for each in soft]
+        bounded = np.isfinite(self.lower) | np.isfinite(self.upper)
+        self.bounded = bounded & self.soft
+        self.k_position = np.array([each.k_position for each in filled])
+        self.k_velocity = np.array([each.k_velocity for each in filled])
+        self.soft_lower = np.array([each.soft_lower_limit for each in filled])
+        self.soft_upper = np.array([each.soft_upper_limit for each in filled])
+
+    def soft_velocities(self, position: Floats) -> tuple[Floats, Floats]:
+        """The least and the greatest velocity that soft limits let a joint have at a position."""
+        low = _clamp(-self.k_position * (position - self.soft_lower), -self.velocity, self.velocity)
+        high = _clamp(
+            -self.k_position * (position - self.soft_upper), -self.velocity, self.velocity
+        )
+        return (
+            np.where(self.bounded, low, -self.velocity),
+            np.where(self.bounded, high, self.velocity),
+        )
+
+
+class PositionLimiter:
+    """Holds position commands within limits, from the command before: it does not look at the joint.
+
+    Args:
+        limits: Of the joints, shape (n,).
+        nworld: Number of worlds.
+
+    Attributes:
+        previous: The last commands [m or rad], shape (nworld, n); NaN before the first.
+    """
+
+    def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
+        self._bounds = _Bounds(limits)
+        self.previous: Floats = np.full((nworld, len(limits)), math.nan)
+
+    def enforce(self, command: Floats, position: Floats, dt: float) -> Floats:
+        """What may be commanded, shape (nworld, n).
+
+        Args:
+            command: What is wanted [m or rad], likewise.
+            position: Where the joints are [m or rad], likewise.
+            dt: Since the last time [s].
+        """
+        bounds = self._bounds
+        before = np.where(np.isnan(self.previous), position, self.previous)
+        low, high = bounds.soft_velocities(before)
+        with np.errstate(invalid="ignore"):  # an infinite velocity in no time
+            low = np.where(np.isfinite(low), before + low * dt, -math.inf)
+            high = np.where(np.isfinite(high), before + high * dt, math.inf)
+        # Of an interval that hard limits leave empty the upper end is taken, as by the original.
+        low, high = np.maximum(low, bounds.lower), np.minimum(high, bounds.upper)
+        self.previous = _clamp(command, low, high)
+        return self.previous
+
+
+class VelocityLimiter:
+    """Holds velocity commands within limits.
+
+    Args:
+        limits: Of the joints, shape (n,).
+        nworld: Number of worlds.
+
+    Attributes:
+        previous: The last commands [m/s or rad/s], shape (nworld, n).
+    """
+
+    def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
+        self._bounds = _Bounds(limits)
+        self.previous: Floats = np.zeros((nworld, len(limits)))
+
+    def enforce(self, command: Floats, position: Floats, velocity: Floats, dt: float) -> Floats:
+        """What may be commanded, shape (nworld, n).
+
+        Args:
+            command: What is wanted [m/s or rad/s], likewise.
+            position: Where the joints are [m or rad], likewise.
+            velocity: How fast they are [m/s or rad/s], likewise.
+            dt: Since the last time [s].
+        """
+        bounds = self._bounds
+        low, high = bounds.soft_velocities(position)
+        # Soft limits go by how fast the joint is, hard ones by the last command.
+        before = np.where(bounds.soft, velocity, self.previous)
+        change = np.where(np.isfinite(bounds.acceleration), bounds.acceleration * dt, math.inf)
+        low, high = np.maximum(low, before - change), np.minimum(high, before + change)
+        self.previous = _clamp(command, low, high)
+        return self.previous
+
+
+class EffortLimiter:
+    """Holds efforts within limits; beyond a limit of position or velocity only what leads back is let by.
+
+    Args:
+        limits: Of the joints, shape (n,).
+    """
+
+    def __init__(self, limits: Sequence[JointLimits]) -> None:
+        self._bounds = _Bounds(limits)
+
+    def enforce(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
+        """What may be commanded, shape (nworld, n).
+
+        Args:
+            command: What is wanted [N or N m], likewise.
+            position: Where the joints are [m or rad], likewise.
+            velocity: How fast they are [m/s or rad/s], likewise.
+        """
+        bounds = self._bounds
+        too_low = (position < bounds.lower) | (velocity < -bounds.velocity)
+        too_high = (position > bounds.upper) | (velocity > bounds.velocity)
+        low = np.where(too_low, 0.0, -bounds.effort)
+        high = np.where(too_high, 0.0, bounds.effort)
+        if bounds.soft.any():
+            least, most = bounds.soft_velocities(position)
+            soft_low, soft_high = (
+                _clamp(-bounds.k_velocity * (velocity - bound), -bounds.effort, bounds.effort)
+                for bound in (least, most)
+            )
+            low = np.where(bounds.soft, soft_low, low)
+            high = np.where(bounds.soft, soft_high, high)
+        return _clamp(command, low, high)
+
+
+def _clamp(values: Floats, low: Floats, high: Floats) -> Floats:
+    held: Floats = np.minimum(np.maximum(values, low), high)
+    return held

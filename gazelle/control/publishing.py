@@ -1,0 +1,54 @@
+"""When controllers publish."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+_NANOSECONDS = 1_000_000_000
+
+
+class PublishingSchedule:
+    """At a rate, from the first update on; what was missed is caught up, one at an update.
+
+    Args:
+        rate: [Hz]; never if it is 0 or less.
+    """
+
+    def __init__(self, rate: float) -> None:
+        self.set_rate(rate)
+        self._last_ns: int | None = None
+
+    def set_rate(self, rate: float) -> None:
+        """Go on at another rate [Hz]."""
+        self.rate = rate
+        self._period_ns = round(_NANOSECONDS / rate) if rate > 0.0 else 0
+
+    def start(self, now_ns: int) -> None:
+        """Let it be due at the next update from a time on."""
+        self._last_ns = now_ns - self._period_ns - 1 if self._period_ns else None
+
+    def is_due(self, now_ns: int) -> bool:
+        """Whether to publish now; then it counts as done."""
+        if not self._period_ns:
+            return False
+        if self._last_ns is None:
+            self._last_ns = now_ns
+            return True
+        if self._last_ns + self._period_ns >= now_ns:
+            return False
+        # The first time begins the count; later ones follow the rate, however late they are.
+        first = now_ns - self._last_ns == self._period_ns + 1
+        self._last_ns = now_ns if first else self._last_ns + self._period_ns
+        return True
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """What changes."""
+        return {"published": np.array(-1 if self._last_ns is None else self._last_ns)}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        last = int(state["published"])
+        self._last_ns = None if last == -1 else last

@@ -1,0 +1,190 @@
+"""Joints under ros_control: what ``libgazebo_ros_control.so`` does.
+
+Tags, defaults and rules are those of gazebo_ros_pkgs 2.9 (Noetic).
+"""
+
+from __future__ import annotations
+
+import importlib
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from gazelle import formats
+from gazelle.array_types import Worlds
+from gazelle.control import ControllerParameters
+from gazelle.control.limits import JointLimits
+from gazelle.control.pid import PidGains
+from gazelle.description import Parameters, Transmission
+from gazelle.errors import ControlWarning, Error, SimulationError, did_you_mean, located
+from gazelle.simulation import Input, Robot, Setting, absolute, namespace_of
+from gazelle.simulation.control_loop import ControlLoop
+from gazelle.simulation.joint_hardware import (
+    INTERFACES,
+    CommandedJoint,
+    HardwareSetup,
+    JointHardware,
+    SimulatedHardware,
+)
+from gazelle.simulation.values import EmergencyStop
+
+DEFAULT_HARDWARE = "gazebo_ros_control/DefaultRobotHWSim"
+_PREFIX = "hardware_interface/"
+
+
+class RosControl(ControlLoop):
+    """Lets controllers command the joints that transmissions name, each through its first interface.
+
+    Its controllers are ``robot.controllers``; of a model with several of these plugins, each with a
+    namespace of its own, ``robot.managers[namespace]``.
+    """
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Read the tags, find the joints of the transmissions."""
+        self._parameters = parameters
+        namespace = absolute(namespace_of(robot, parameters, robot.name), "")
+        self._namespace = namespace
+        self._gains: Mapping[str, Any] = {}
+        self._limits: Mapping[str, Any] = {}
+        self._model = robot.description
+        self._owner = robot
+        self.begin(robot, self._make(), self._model, namespace)
+        if "controlPeriod" in parameters:
+            self.set_period(parameters.require("controlPeriod", float))
+        self._open(robot, parameters)
+        self.hardware.read(robot.simulation.time, 0.0)
+        robot.managers[_free(namespace, robot.managers)] = self.manager
+
+    def _open(self, robot: Robot, parameters: Parameters) -> None:
+        """Ports: the emergency stop, and what stands on a parameter server."""
+        topic = parameters.get("eStopTopic", "")
+        if topic:
+            full = absolute(self._namespace, topic)
+            robot.inputs["emergency_stop"] = Input(full, EmergencyStop, self._press, queue_size=1)
+        gains = absolute(self._namespace, "gazebo_ros_control/pid_gains")
+        limits = absolute(self._namespace, "joint_limits")
+        robot.settings["pid_gains"] = Setting(gains, {}, self.take_gains)
+        robot.settings["joint_limits"] = Setting(limits, {}, self.take_limits)
+        if "robotParam" in parameters or not robot.description.transmissions:
+            name = parameters.get("robotParam", "robot_description")
+            full = absolute(self._namespace, name)
+            robot.settings[name] = Setting(full, "", self.take_description)
+
+    def _press(self, stop: EmergencyStop, worlds: Worlds | None) -> None:
+        self.press(worlds, on=stop.on)
+
+    # -- what parameters say -----------------------------------------------------------
+
+    def take_gains(self, given: Mapping[str, Any]) -> None:
+        """Gains by joint, as ``gazebo_ros_control/pid_gains`` holds them."""
+        self._gains = given
+        self._make_again()
+
+    def take_limits(self, given: Mapping[str, Any]) -> None:
+        """Limits by joint, as ``joint_limits`` holds them."""
+        self._limits = given
+        self._make_again()
+
+    def take_description(self, text: str) -> None:
+        """The URDF of the parameter ``robotParam``, where the model's own file has no transmissions."""
+        self._model = formats.load_model_string(text) if text else self._owner.description
+        self.manager.model = self._model
+        self._make_again()
+
+    def _make_again(self) -> None:
+        """Go by what parameters say, as long as nothing is loaded."""
+        if self.manager.loaded:
+            text = (
+                f"parameters of the joints of '{self._owner.name}' changed after controllers were "
+                "loaded, and are not taken"
+            )
+            warnings.warn(ControlWarning(text), stacklevel=3)
+            return
+        try:
+            self.change_hardware(self._make())
+        except Error as error:
+            warnings.warn(ControlWarning(f"the joints stay as they are: {error}"), stacklevel=3)
+            return
+        self.hardware.read(self._owner.simulation.time, 0.0)
+
+    # -- making the robot's side ---------------------------------------------------------
+
+    def _make(self) -> SimulatedHardware:
+        joints = [
+            self._joint(transmission)
+            for transmission in self._model.transmissions
+            if self._is_good(transmission)
+        ]
+        setup = HardwareSetup(self._namespace, joints, self._model, self._parameters)
+        return self._hardware_class()(self._owner, setup)
+
+    def _hardware_class(self) -> type[SimulatedHardware]:
+        name = self._parameters.get("robotSimType", DEFAULT_HARDWARE)
+        if name == DEFAULT_HARDWARE:
+            return JointHardware
+        module, _, attribute = name.partition(":" if ":" in name else "/")
+        try:
+            found = getattr(importlib.import_module(module), attribute, None)
+        except ImportError:
+            found = None
+        if not (isinstance(found, type) and issubclass(found, SimulatedHardware)):
+            raise SimulationError(
+                f"robotSimType '{name}' names no class of hardware",
+                source=self._parameters.source,
+                hint="name a Python class as package/Class or package.module:Class, a subclass of "
+                "gazelle.simulation.joint_hardware.SimulatedHardware",
+            )
+        return found
+
+    def _is_good(self, transmission: Transmission) -> bool:
+        """Whether a transmission is used; says why if it is not."""
+        fault = _fault_of(transmission)
+        if fault:
+            text = f"transmission '{transmission.name}' of '{self._owner.name}' {fault}; it is left out"
+            warnings.warn(ControlWarning(located(text, transmission.source)), stacklevel=4)
+        return not fault
+
+    def _joint(self, transmission: Transmission) -> CommandedJoint:
+        name, interfaces = transmission.joints[0]
+        first = interfaces[0]
+        kind = first if first.startswith(_PREFIX) else _PREFIX + first
+        if kind not in INTERFACES:
+            raise SimulationError(
+                f"transmission '{transmission.name}': the simulation has no interface '{first}'",
+                source=transmission.source,
+                hint=did_you_mean(kind, INTERFACES),
+            )
+        limits = JointLimits.of_joint(self._owner.joint_description(name))
+        given = self._limits.get(name)
+        if isinstance(given, Mapping):
+            limits = limits.overridden(given, f"{self._namespace}/joint_limits/{name}")
+        gains = self._gains.get(name)
+        pid = None
+        if isinstance(gains, Mapping) and "p" in gains:
+            place = f"{self._namespace}/gazebo_ros_control/pid_gains/{name}"
+            pid = PidGains.read(ControllerParameters(gains, place))
+        return CommandedJoint(name, (kind,), limits, pid)
+
+
+def _fault_of(transmission: Transmission) -> str:
+    """Why a transmission cannot be used; empty if it can."""
+    if not transmission.name:
+        return "has no name"
+    if not transmission.type:
+        return "has no <type>"
+    if len(transmission.joints) != 1:
+        return f"has {len(transmission.joints)} joints, and the simulation takes those with one"
+    if not transmission.joints[0][1]:
+        return "has a joint without <hardwareInterface>"
+    if not transmission.actuators:
+        return "has no <actuator>"
+    return ""
+
+
+def _free(namespace: str, taken: Mapping[str, object]) -> str:
+    if namespace not in taken:
+        return namespace
+    count = 2
+    while f"{namespace} {count}" in taken:
+        count += 1
+    return f"{namespace} {count}"

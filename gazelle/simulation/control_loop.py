@@ -1,0 +1,153 @@
+"""Controllers of a simulated robot, between its physics steps."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Bools, Worlds
+from gazelle.control import ControllerManager
+from gazelle.control.limits import JointLimits
+from gazelle.description import Model
+from gazelle.errors import ControlWarning
+from gazelle.simulation.clock import NANOSECONDS
+from gazelle.simulation.joint_hardware import (
+    INTERFACES,
+    CommandedJoint,
+    HardwareSetup,
+    JointHardware,
+    SimulatedHardware,
+)
+from gazelle.simulation.plugin import ModelPlugin
+from gazelle.simulation.robot import Robot
+from gazelle.simulation.stepping import make_scheduled
+
+
+class ControlLoop(ModelPlugin):
+    """Reads joints, updates controllers, and writes their commands, as gazebo_ros_control does.
+
+    Controllers act once a control period; limits act at every physics step. The first period after
+    loading and after a reset is one period, however late that is.
+
+    Attributes:
+        manager: Of the controllers.
+        hardware: Of the robot.
+    """
+
+    update_rate = 0.0
+
+    def begin(
+        self, robot: Robot, hardware: SimulatedHardware, model: Model, namespace: str
+    ) -> None:
+        """Control a robot.
+
+        Args:
+            robot: In the simulation.
+            hardware: What controllers see of it.
+            model: As its URDF describes it.
+            namespace: Of its topics.
+        """
+        self._robot, self._clock = robot, robot.simulation.clock
+        self.hardware = hardware
+        self.manager = ControllerManager(
+            hardware, model=model, call=robot.simulation.requests.call, namespace=namespace
+        )
+        self.manager.now_ns = self._clock.now_ns
+        self.stopped: Bools = np.zeros(hardware.nworld, bool)
+        self._released: Bools = np.zeros(hardware.nworld, bool)
+        self._period_ns: int | None = None
+        self._updated_ns: int | None = None
+        self._written_ns: int | None = None
+
+    def change_hardware(self, hardware: SimulatedHardware) -> None:
+        """Control through other hardware; nothing is loaded yet."""
+        self.hardware = self.manager.hardware = hardware
+
+    def set_period(self, seconds: float) -> None:
+        """Let controllers act at this period; as often as the physics if it is never set."""
+        self._period_ns = round(seconds * NANOSECONDS)
+        if self._period_ns < self._clock.step_ns:
+            text = (
+                f"the control period of {seconds:g} s on '{self._robot.name}' is shorter than the "
+                f"physics step of {self._clock.step_ns / NANOSECONDS:g} s: controllers act once a step"
+            )
+            warnings.warn(ControlWarning(text), stacklevel=2)
+
+    def press(self, worlds: Worlds | None, *, on: bool) -> None:
+        """Press the emergency stop, or release it."""
+        rows = slice(None) if worlds is None else worlds
+        before = self.stopped.copy()
+        self.stopped[rows] = on
+        self._released = (self._released | (before & ~self.stopped)) & ~self.stopped
+
+    def on_update(self, time: float) -> None:
+        """Read, control, write."""
+        now, step = self._clock.now_ns, self._clock.step_ns
+        period = step if self._period_ns is None else self._period_ns
+        self.hardware.stop_emergency(self.stopped)
+        due = self._updated_ns is None or now - self._updated_ns >= period
+        if due:
+            passed = period if self._updated_ns is None else now - self._updated_ns
+            self._updated_ns = now
+            self.hardware.read(time, passed / NANOSECONDS)
+            restart = np.flatnonzero(self._released) if self._released.any() else None
+            self._released[:] = False
+            self.manager.update(now, passed / NANOSECONDS, restart=restart)
+        since = step if self._written_ns is None else now - self._written_ns
+        self._written_ns = now
+        self.hardware.write(time, since / NANOSECONDS)
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Begin anew: controllers that run hold the robot where it is put."""
+        rows = slice(None) if worlds is None else worlds
+        self.stopped[rows] = self._released[rows] = False
+        self.hardware.reset(worlds)
+        now, rewind = self._clock.now_ns, worlds is None
+        if rewind:
+            self._updated_ns = self._written_ns = None
+        self.hardware.read(now / NANOSECONDS, 0.0)
+        self.manager.now_ns = now
+        self.manager.reset(worlds)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Of hardware and controllers."""
+        times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
+        return {
+            "times": np.array(times, np.int64),
+            "stop": np.stack((self.stopped, self._released)),
+            **{f"hardware/{name}": value for name, value in self.hardware.state().items()},
+            **{f"controllers/{name}": value for name, value in self.manager.states().items()},
+        }
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        times = [None if each < 0 else int(each) for each in state["times"]]
+        self._updated_ns, self._written_ns = times
+        self.stopped, self._released = (np.array(row, bool) for row in state["stop"])
+        self.hardware.restore(_below("hardware/", state))
+        self.manager.now_ns = self._clock.now_ns
+        self.manager.restore(_below("controllers/", state))
+
+
+def _below(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.generic]]:
+    return {k.removeprefix(begin): v for k, v in state.items() if k.startswith(begin)}
+
+
+def add_controllers(robot: Robot) -> ControllerManager:
+    """Let a robot be controlled that no file lets be: each joint with one axis, through any interface."""
+    joints = [
+        CommandedJoint(name, INTERFACES, JointLimits.of_joint(robot.joint_description(name)))
+        for name, handle in robot.joints.items()
+        if handle.axes == 1
+    ]
+    namespace = robot.namespace or robot.name
+    setup = HardwareSetup(namespace, joints, robot.description)
+    loop = ControlLoop()
+    loop.begin(robot, JointHardware(robot, setup), robot.description, namespace)
+    loop.hardware.read(robot.simulation.time, 0.0)
+    robot.managers[namespace] = loop.manager
+    robot.simulation.plugins.append(make_scheduled(loop, "controllers", robot.name))
+    return loop.manager

@@ -1,0 +1,347 @@
+"""``libgazebo_ros_control.so``: joints of a simulation under controllers."""
+
+from __future__ import annotations
+
+import math
+import sys
+import types
+
+import numpy as np
+import pytest
+
+from gazelle.control import EFFORT, POSITION, VELOCITY, Controller, register
+from gazelle.control.values import JointTargets
+from gazelle.errors import ControlWarning, PluginWarning
+from gazelle.simulation.joint_hardware import JointHardware
+from gazelle.simulation.values import EmergencyStop
+from tests.control.arms import JOINTS, arm
+
+LIMIT = '<limit lower="-3" upper="3" effort="60" velocity="4"/>'
+
+
+def group(robot, kind, name="group"):
+    """All joints under a controller that hands commands on; returns what commands them."""
+    of = f"{kind.lower()}_controllers/JointGroup{kind}Controller"
+    robot.controllers.load(name, {"type": of, "joints": JOINTS})
+    robot.controllers.start(name)
+    return lambda *values: robot.controllers[name].inputs["command"].send(JointTargets(values))
+
+
+def efforts(robot):
+    engine = robot.simulation.engine
+    return [float(engine.joint_effort(robot.joints[name].name)[0, 0]) for name in JOINTS]
+
+
+def positions(robot):
+    return [robot.joints[name].position for name in JOINTS]
+
+
+def test_efforts_act_as_forces_and_within_limits():
+    sim, robot = arm("Effort")
+    command = group(robot, "Effort")
+    command(math.inf, 7.0)
+    sim.step(2)
+    assert efforts(robot) == [60.0, 7.0]
+    hardware = robot.controllers.hardware
+    sim.step()
+    assert hardware.states.effort.tolist() == [[60.0, 7.0]]
+
+
+@pytest.mark.parametrize("kind", ["Position", "Velocity"])
+def test_positions_and_velocities_are_held_against_gravity(kind):
+    sim, robot = arm(kind)
+    command = group(robot, kind)
+    command(0.5, -0.8)
+    sim.run(1.0)
+    if kind == "Velocity":
+        assert positions(robot) == pytest.approx([0.5, -0.8], abs=0.01)
+        command(0.0, 0.0)
+        sim.run(1.0)
+        assert positions(robot) == pytest.approx([0.5, -0.8], abs=0.01)
+    else:
+        assert positions(robot) == pytest.approx([0.5, -0.8], abs=1e-3)
+        assert [robot.joints[name].velocity for name in JOINTS] == pytest.approx([0, 0], abs=0.05)
+
+
+@pytest.mark.parametrize("kind", ["Position", "Velocity"])
+def test_gains_bring_joints_there_by_effort(kind):
+    sim, robot = arm(kind)
+    gains = {"p": 400.0, "i": 200.0, "d": 30.0, "i_clamp": 100.0}
+    if kind == "Velocity":
+        gains = {"p": 100.0, "i": 200.0, "i_clamp": 100.0}
+    robot.settings["pid_gains"].send(dict.fromkeys(JOINTS, gains))
+    command = group(robot, kind)
+    command(0.4, -0.3)
+    sim.run(3.0 if kind == "Position" else 1.0)
+    assert positions(robot) == pytest.approx([0.4, -0.3], abs=0.05)
+    # The shoulder bears both rods: 2 kg at 0.5 m, and the elbow and 1 kg at 0.5 m beyond it.
+    weight = 9.8 * (2 * 0.5 * math.sin(0.4) + math.sin(0.4) + 0.5 * math.sin(0.1))
+    if kind == "Position":
+        assert efforts(robot)[0] == pytest.approx(weight, rel=0.05)
+
+
+@pytest.mark.parametrize("kind", ["Position", "Velocity", "Effort"])
+def test_no_step_is_faster_or_stronger_than_limits_allow(kind):
+    sim, robot = arm(kind)
+    command = group(robot, kind)
+    rng = np.random.default_rng(4)
+    before = positions(robot)
+    for _ in range(60):
+        command(*rng.uniform(-1e3, 1e3, 2))
+        sim.step(7)
+        now = positions(robot)
+        if kind != "Effort":
+            moved = np.abs(np.subtract(now, before)) / 0.007
+            assert (moved <= [4.0 + 0.05, 6.0 + 0.05]).all()
+        assert (np.abs(efforts(robot)) <= [60.0, 30.0]).all()
+        assert abs(now[0]) <= 3.0 + 0.01
+        before = now
+
+
+def test_parameters_override_the_limits_of_the_file():
+    sim, robot = arm("Velocity")
+    given = {"shoulder": {"has_velocity_limits": True, "max_velocity": 0.25}}
+    robot.settings["joint_limits"].send(given)
+    command = group(robot, "Velocity")
+    command(9.0, 0.0)
+    sim.run(1.0)
+    assert positions(robot)[0] == pytest.approx(0.25, abs=0.01)
+    with pytest.warns(ControlWarning, match="changed after controllers were loaded"):
+        robot.settings["joint_limits"].send({})
+
+
+def test_joints_that_turn_are_counted_round_and_round():
+    sim, robot = arm("Velocity")
+    command = group(robot, "Velocity")
+    command(0.0, 6.0)
+    sim.run(3.0)
+    sim.step()
+    turned = robot.controllers.hardware.states.position[0, 1]
+    assert turned == pytest.approx(18.0, abs=0.3)
+
+
+def test_the_first_reading_unwinds_to_the_nearest_equal_angle():
+    """DefaultRobotHWSim counts from 1.0, so a joint at -3 reads -3 + 2 pi."""
+    sim, robot = arm("Velocity", replace={LIMIT: LIMIT.replace('"-3"', '"-3.1"')})
+    command = group(robot, "Velocity")
+    robot.joints["shoulder"].position = -3.0
+    hardware = robot.controllers.hardware
+    hardware.reset(None)
+    command(0.0, 0.0)
+    sim.step(2)
+    assert hardware.states.position[0, 0] == pytest.approx(2 * math.pi - 3.0, abs=1e-3)
+
+
+def test_an_emergency_stop_takes_the_power_and_controllers_begin_anew():
+    stop = "<robotNamespace>/arm</robotNamespace><eStopTopic>/e_stop</eStopTopic>"
+    for kind in ("Effort", "Position", "Velocity"):
+        sim, robot = arm(kind, replace={"<robotNamespace>/arm</robotNamespace>": stop})
+        assert robot.inputs["emergency_stop"].topic == "/e_stop"
+        command = group(robot, kind)
+        command(0.5, 0.5)
+        sim.run(0.1)
+        robot.inputs["emergency_stop"].send(EmergencyStop(True))
+        sim.step(2)
+        there = positions(robot)
+        command(2.0, 2.0)
+        if kind == "Effort":
+            assert efforts(robot) == [0.0, 0.0]
+            assert robot.controllers["group"].hardware.interfaces[EFFORT].commands["effort"].any()
+        else:
+            sim.run(0.2)
+            assert positions(robot) == pytest.approx(there, abs=0.01)
+        robot.inputs["emergency_stop"].send(EmergencyStop(False))
+        sim.step(3)
+        there = positions(robot)
+        sim.run(0.2)
+        if kind != "Effort":  # held where it was let go
+            assert positions(robot) == pytest.approx(there, abs=0.01)
+
+
+class Counting(Controller):
+    """Notes the times of its updates."""
+
+    def init(self, parameters):
+        self.seen = []
+        self.started = []
+
+    def starting(self, time):
+        self.started.append(time)
+
+    def update(self, time, period):
+        self.seen.append((self.now_ns, period))
+
+
+register("tests/Counting", Counting)
+
+
+def test_controllers_act_at_the_control_period():
+    period = "<robotNamespace>/arm</robotNamespace><controlPeriod>0.003</controlPeriod>"
+    sim, robot = arm("Effort", replace={"<robotNamespace>/arm</robotNamespace>": period})
+    counting = robot.controllers.load("c", {"type": "tests/Counting"})
+    robot.controllers.start("c")
+    sim.step(7)
+    assert counting.seen == [(0, 0.003), (3_000_000, 0.003), (6_000_000, 0.003)]
+    sim.reset()
+    counting.seen.clear()
+    sim.step(1)
+    assert counting.seen == [(0, 0.003)]  # one period, not all the time before
+
+
+def test_a_control_period_below_the_step_warns():
+    period = "<robotNamespace>/arm</robotNamespace><controlPeriod>0.0001</controlPeriod>"
+    with pytest.warns(ControlWarning, match="shorter than the physics step of 0.001 s"):
+        sim, robot = arm("Effort", replace={"<robotNamespace>/arm</robotNamespace>": period})
+    counting = robot.controllers.load("c", {"type": "tests/Counting"})
+    robot.controllers.start("c")
+    sim.step(3)
+    assert [period for _, period in counting.seen[1:]] == [0.001, 0.001]
+
+
+def test_several_robots_and_namespaces_have_managers_of_their_own():
+    sim, one = arm("Effort")
+    spaces = {"<robotNamespace>/arm</robotNamespace>": ""}
+    from gazelle import formats
+    from tests.control.arms import arm_text
+
+    model = formats.load_model_string(arm_text("Velocity", replace=spaces))
+    two = sim.spawn(model, name="second")
+    assert (list(one.managers), list(two.managers)) == (["/arm"], ["/second"])
+    first, second = group(one, "Effort"), group(two, "Velocity")
+    first(0.0, 0.0)
+    second(0.7, 0.0)
+    sim.run(1.0)
+    assert positions(one) == pytest.approx([0.0, 0.0], abs=1e-6)
+    assert positions(two) == pytest.approx([0.7, 0.0], abs=0.02)
+    sim.delete("second")
+    sim.run(0.1)
+
+
+def test_two_plugins_of_one_robot_have_managers_of_their_own():
+    again = """</plugin><plugin name="other" filename="libgazebo_ros_control.so">
+      <robotNamespace>/other</robotNamespace></plugin><plugin name="x" filename="libgazebo_ros_api_plugin.so">"""
+    _, robot = arm("Effort", replace={"</plugin>": again + "</plugin>"})
+    assert list(robot.managers) == ["/arm", "/other"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('<joint name="elbow">\n', '<joint name="elbwo">\n', "elbwo"),
+        ("EffortJointInterface</h", "GravityJointInterface</h", "no interface"),
+        ("</robotNamespace>", "</robotNamespace><robotSimType>a/B</robotSimType>", "robotSimType"),
+    ],
+)
+def test_what_cannot_be_leaves_the_plugin_out(old, new, said):
+    with pytest.warns(PluginWarning, match=said):
+        _, robot = (
+            arm("Effort", replace={old: new})
+            if old != "EffortJointInterface</h"
+            else arm("Gravity")
+        )
+    assert robot.managers == {}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('<transmission name="elbow_transmission">', "<transmission>", "has no name"),
+        (
+            '<actuator name="elbow_motor">\n      <mechanicalReduction>2</mechanicalReduction>\n    </actuator>',
+            "",
+            "no <actuator>",
+        ),
+        ('<joint name="elbow">\n', '<joint name="shoulder"/><joint name="elbow">\n', "2 joints"),
+    ],
+)
+def test_a_bad_transmission_is_left_out_alone(old, new, said):
+    with pytest.warns(ControlWarning, match=said):
+        _, robot = arm("Effort", replace={old: new})
+    assert robot.controllers.hardware.interfaces[EFFORT].resources == ("shoulder",)
+
+
+def test_the_interface_may_be_the_actuators_as_in_old_files():
+    old = """<joint name="elbow">
+      <hardwareInterface>INTERFACEJointInterface</hardwareInterface>
+    </joint>
+    <actuator name="elbow_motor">"""
+    new = """<joint name="elbow"/>
+    <actuator name="elbow_motor"><hardwareInterface>EffortJointInterface</hardwareInterface>"""
+    _, robot = arm("Effort", replace={old: new})
+    assert robot.controllers.hardware.interfaces[EFFORT].resources == tuple(JOINTS)
+
+
+def test_a_robot_side_of_ones_own_is_named_by_its_type():
+    class Half(JointHardware):
+        """Half of each effort is lost."""
+
+        def write(self, time, period):
+            self.interfaces[EFFORT].commands["effort"] *= 0.5
+            super().write(time, period)
+
+    module = types.ModuleType("my_hardware")
+    module.Half = Half
+    sys.modules["my_hardware"] = module
+    try:
+        kind = "</robotNamespace><robotSimType>my_hardware/Half</robotSimType>"
+        sim, robot = arm("Effort", replace={"</robotNamespace>": kind})
+    finally:
+        del sys.modules["my_hardware"]
+    group(robot, "Effort")(8.0, 2.0)
+    sim.step()
+    assert efforts(robot) == [4.0, 1.0]
+
+
+def test_a_robot_without_the_plugin_is_controlled_from_python_through_any_interface():
+    sim, robot = arm("Effort", replace={"libgazebo_ros_control.so": "libgazebo_ros_api_plugin.so"})
+    robot.controllers.load(
+        "e", {"type": "effort_controllers/JointGroupEffortController", "joints": JOINTS}
+    )
+    command = group(robot, "Velocity", "v")
+    command(0.5, 0.0)
+    sim.run(1.0)
+    assert positions(robot) == pytest.approx([0.5, 0.0], abs=0.01)
+    robot.controllers.switch(start=["e"], stop=["v"])
+    sim.run(1.0)  # it swings now
+    assert abs(positions(robot)[0] - 0.5) > 0.1
+    hold = group(robot, "Position", "p") if robot.controllers.stop("e") is None else None
+    there = positions(robot)
+    sim.run(0.3)
+    assert positions(robot) == pytest.approx(there, abs=0.02)
+    assert hold is not None
+    assert {POSITION, VELOCITY, EFFORT} < set(robot.controllers.hardware.interfaces)
+
+
+@pytest.mark.parametrize("kind", ["Effort", "Position", "Velocity"])
+def test_a_snapshot_goes_on_to_the_bit_and_a_reset_holds_still(kind):
+    sim, robot = arm(kind, nworld=2)
+    if kind == "Position":
+        robot.settings["pid_gains"].send({"elbow": {"p": 50.0, "i": 1.0, "d": 5.0, "i_clamp": 3}})
+    command = group(robot, kind)
+    robot.controllers["group"].inputs["command"].send(JointTargets([0.2, 0.1]), np.array([1]))
+    sim.run(0.2)
+    kept = sim.snapshot()
+    sim.run(0.2)
+    wanted = sim.state_hash()
+    sim.run(0.2)
+    sim.restore(kept)
+    sim.run(0.2)
+    assert sim.state_hash() == wanted
+    sim.reset(np.array([1]))
+    sim.run(0.2)
+    assert robot.joints["shoulder"].positions()[1, 0] == pytest.approx(0.0, abs=1e-3)
+    assert command is not None
+
+
+@pytest.mark.parametrize("kind", ["Effort", "Position", "Velocity"])
+def test_worlds_do_not_depend_on_each_other(kind):
+    def run(nworld, world):
+        sim, robot = arm(kind, nworld=nworld)
+        group(robot, kind)(0.0, 0.0)
+        port = robot.controllers["group"].inputs["command"]
+        for i in range(nworld):
+            port.send(JointTargets([0.3 * (i + 1 + world), -0.1]), np.array([i]))
+        sim.run(0.3)
+        return [sim.state_hash([i]) for i in range(nworld)]
+
+    assert run(3, 0) == [run(1, world)[0] for world in range(3)]
