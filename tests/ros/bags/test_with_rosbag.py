@@ -6,7 +6,6 @@ import json
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 from ros.real import PYTHON, environment, needs_ros, tool
@@ -15,7 +14,6 @@ from gazelle.ros import Master, Time, load_message
 from gazelle.ros.bags import Bag
 from gazelle.ros.bags.info import as_dict, as_yaml, describe
 from gazelle.ros.bags.operations import reindex
-from gazelle.ros.master.proxy import MasterProxy
 
 pytestmark = [pytest.mark.ros, needs_ros]
 KINDS = ["none", "bz2", "lz4"]
@@ -137,6 +135,7 @@ import rospy, sys
 from std_msgs.msg import String
 rospy.init_node('listener')
 rospy.Subscriber('/chatter', String, lambda m: (sys.stdout.write(m.data + '\\n'), sys.stdout.flush()))
+print('ready', flush=True)
 rospy.spin()
 """
 
@@ -159,37 +158,24 @@ def command(kind, *arguments):
     return [*tools[kind], *arguments]
 
 
-def wait_for_listener(uri, topic):
-    """Wait until somebody subscribes to a topic."""
-    proxy = MasterProxy(uri, "/test")
-    deadline = time.monotonic() + 30
-    while topic not in proxy.system_state()[1]:
-        assert time.monotonic() < deadline, "nobody subscribes"
-        time.sleep(0.05)
-    proxy.close()
-
-
 @pytest.mark.parametrize(("recorder", "player"), [("ours", "real"), ("real", "ours")])
 def test_what_one_records_the_other_plays(tmp_path, recorder, player):
     with Master(port=0) as master:
         talker = start([PYTHON, "-c", TALK], master.uri, tmp_path)
-        recording = start(command(recorder, "record", "-O", "r", "/chatter"), master.uri, tmp_path)
-        wait_for_listener(master.uri, "/chatter")
-        time.sleep(3.0)
-        finish(recording)
+        words = command(recorder, "record", "-O", "r", "-l", "50", "/chatter")
+        start(words, master.uri, tmp_path).communicate(timeout=120)
         finish(talker)
         with Bag(tmp_path / "r.bag") as bag:
             recorded = [m.data for _, m, _ in bag]
-        assert len(recorded) > 20
+        assert len(recorded) == 50
         listener = start([PYTHON, "-c", LISTEN], master.uri, tmp_path)
-        wait_for_listener(master.uri, "/chatter")
-        time.sleep(1.0)  # rospy notes the callback after it has registered
+        assert listener.stdout.readline() == "ready\n"
         playing = start(
             command(player, "play", "-q", "--wait-for-subscribers", "-d", "1", "r.bag"),
             master.uri,
             tmp_path,
         )
         playing.communicate(timeout=120)
-        time.sleep(2.0)
-        heard = finish(listener).split()
+        heard = [listener.stdout.readline().strip() for _ in recorded]
+        assert finish(listener) == ""
     assert heard == recorded

@@ -57,15 +57,18 @@ def test_the_program_runs_and_writes_to_a_log(env, command):
 @pytest.mark.parametrize(
     "command",
     [
-        "gnome-terminal -- sh -c 'sleep 1; echo hello'",
-        "gnome-terminal --tab -e 'sh -c \"sleep 1; echo hello\"'",
-        "xfce4-terminal --command='sh -c \"sleep 1; echo hello\"'",
+        "gnome-terminal -- sh -c 'sh ~/wait; echo hello'",
+        "gnome-terminal --tab -e 'sh -c \"sh ~/wait; echo hello\"'",
+        "xfce4-terminal --command='sh -c \"sh ~/wait; echo hello\"'",
     ],
 )
 def test_terminals_of_desktops_return_at_once(env, command):
+    home = Path(env["HOME"])
+    (home / "wait").write_text("while [ ! -e ~/go ]; do sleep 0.05; done\n")
     assert run(command, env).returncode == 0
     (log,) = logs(env)
     assert log.read_text() == ""
+    (home / "go").touch()
     until(lambda: log.read_text() == "hello\n")
 
 
@@ -140,6 +143,6 @@ def test_nodes_with_the_prefix_run(tmp_path, prefix):
             line = process.stderr.readline()
             assert "there is no display" in line
             log = Path(line.rpartition("writes to ")[2].strip())
-            until(lambda: log.read_text() == "from the node\n")
+            until(lambda: log.exists() and log.read_text() == "from the node\n")
             process.send_signal(signal.SIGINT)
             assert process.wait(60) == 0

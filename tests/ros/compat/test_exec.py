@@ -54,10 +54,8 @@ def test_a_node_runs_talks_and_ends_at_ctrl_c(execute, make_node):
     listener = make_node("listener")
     assert listener.wait_for_message("/told", load_message("std_msgs/String"), 60.0).data == "hello"
     assert listener.get_param("/other/text") == "hello"
-    begin = time.monotonic()
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=120)
-    assert time.monotonic() - begin < 5.0
     assert out == "last words\nafter spin\n"
     assert err == ""
     assert process.returncode == 0
@@ -103,9 +101,12 @@ def test_sleep_can_mean_simulated_time(execute, make_node):
     )
     process = execute(text, options=["--sim-sleep"])
     assert process.stdout.readline() == "go\n"
-    for second in range(1, 200):
+    # It may begin to sleep late: time goes on as long as it sleeps.
+    for second in range(1, 10_000):
         publisher.publish(clock(Time(second)))
-        time.sleep(0.005)
+        time.sleep(0.01)
+        if process.poll() is not None:
+            break
     out, _ = process.communicate(timeout=120)
     assert out == "slept\n"
 

@@ -1,6 +1,7 @@
 """Our rospy, tf and actionlib with real nodes, on our master."""
 
 import importlib
+import threading
 import time
 
 import pytest
@@ -29,7 +30,7 @@ import tf2_ros
 rospy.init_node("real_listener")
 buffer = tf2_ros.Buffer()
 listener = tf2_ros.TransformListener(buffer)
-found = buffer.lookup_transform("map", "laser", rospy.Time(0), rospy.Duration(10))
+found = buffer.lookup_transform("map", "laser", rospy.Time(0), rospy.Duration(60))
 say(found.transform.translation.x)
 """
 ACTION_SERVER = """
@@ -54,22 +55,24 @@ from actionlib.msg import *
 # A server that answers before send_goal returns makes this client log an error; it goes on well.
 rospy.init_node("real_client", log_level=rospy.FATAL)
 client = actionlib.SimpleActionClient("/act", TestAction)
-say(client.wait_for_server(rospy.Duration(10)))
+say(client.wait_for_server(rospy.Duration(60)))
 heard = []
 client.send_goal(TestGoal(3), feedback_cb=lambda f: heard.append(f.feedback))
-client.wait_for_result(rospy.Duration(10))
-say(client.get_state(), client.get_result().result, heard)
-client.send_goal(TestGoal(500))
-time.sleep(0.4)
+while not heard: time.sleep(0.01)
+say("heard")
+client.wait_for_result(rospy.Duration(60))
+say(client.get_state(), client.get_result().result, set(heard))
+client.send_goal(TestGoal(5000))
+while client.get_state() != 1: time.sleep(0.01)
 client.cancel_goal()
-client.wait_for_result(rospy.Duration(10))
+client.wait_for_result(rospy.Duration(60))
 say(client.get_state(), client.get_result().result)
 """
 BUFFER_CLIENT = """
 import tf2_ros
 rospy.init_node("real_asker", log_level=rospy.FATAL)
 client = tf2_ros.BufferClient("/frames")
-say(client.wait_for_server(rospy.Duration(10)))
+say(client.wait_for_server(rospy.Duration(60)))
 say(client.lookup_transform("map", "base", rospy.Time(5), rospy.Duration(1)).transform.translation.x)
 try:
     client.lookup_transform("map", "nothing", rospy.Time(0))
@@ -81,20 +84,24 @@ import actionlib
 from actionlib.msg import *
 rospy.init_node("real_client", log_level=rospy.FATAL)
 client = actionlib.SimpleActionClient("/act", TestAction)
-say(client.wait_for_server(rospy.Duration(10)))
+say(client.wait_for_server(rospy.Duration(60)))
 whole = 0
 for number in range(30):
-    heard = []
-    client.send_goal(TestGoal(number), feedback_cb=lambda f: heard.append(f.feedback))
-    done = client.wait_for_result(rospy.Duration(2))
-    whole += done and client.get_state() == 3 and client.get_result().result == number == heard[-1]
+    # This client itself drops what comes while one of its threads waits for a processor: then once more.
+    for _ in range(10):
+        heard = []
+        client.send_goal(TestGoal(number), feedback_cb=lambda f: heard.append(f.feedback))
+        done = client.wait_for_result(rospy.Duration(2)) and client.get_state() == 3
+        if done and client.get_result().result == number and heard == [number]:
+            whole += 1
+            break
 say(whole)
 """
 RECONFIGURE = """
 import dynamic_reconfigure.client
 rospy.init_node("real_changer")
 client = dynamic_reconfigure.client.Client("probe", timeout=60)
-say(sorted(client.get_configuration(5).items(), key=str)[0])
+say(sorted(client.get_configuration(60).items(), key=str)[0])
 say(client.update_configuration({"gain": 0.75})["gain"])
 """
 
@@ -104,7 +111,7 @@ def test_our_buffer_hears_real_broadcasters(node, master):
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer)
     with real.RealNode(master.uri, TF_SENDER):
-        found = buffer.lookup_transform("map", "laser", node.Time(0), node.Duration(10))
+        found = buffer.lookup_transform("map", "laser", node.Time(0), node.Duration(60))
     assert found.transform.translation.x == 1.5
     assert "broadcaster: '/real_sender'" in buffer.all_frames_as_yaml()
 
@@ -136,18 +143,18 @@ def test_our_client_sends_goals_to_a_real_server(node, master):
     with real.RealNode(master.uri, ACTION_SERVER) as server:
         server.expect("ready")
         client = actionlib.SimpleActionClient("/act", messages.TestAction)
-        assert client.wait_for_server(node.Duration(10))
-        heard = []
-        client.send_goal(messages.TestGoal(3), feedback_cb=heard.append)
-        assert client.wait_for_result(node.Duration(10))
+        assert client.wait_for_server(node.Duration(60))
+        client.send_goal(messages.TestGoal(3))
+        assert client.wait_for_result(node.Duration(60))
         assert client.get_state() == actionlib.GoalStatus.SUCCEEDED
         assert client.get_result().result == 3
         assert client.get_goal_status_text() == "real"
-        assert [each.feedback for each in heard] == [7]
-        client.send_goal(messages.TestGoal(500))
+        heard = []
+        client.send_goal(messages.TestGoal(5000), feedback_cb=heard.append)
         until(lambda: client.get_state() == actionlib.GoalStatus.ACTIVE)
+        until(lambda: [each.feedback for each in heard] == [7])
         client.cancel_goal()
-        assert client.wait_for_result(node.Duration(10))
+        assert client.wait_for_result(node.Duration(60))
         assert client.get_state() == actionlib.GoalStatus.PREEMPTED
 
 
@@ -155,20 +162,25 @@ def test_a_real_client_sends_goals_to_our_server(node, master):
     actionlib = importlib.import_module("actionlib")
     messages = importlib.import_module("actionlib.msg")
 
+    heard = threading.Event()
+
     def execute(goal):
-        time.sleep(0.1)
-        server.publish_feedback(messages.TestFeedback(7))
-        for _ in range(goal.goal):
+        for _ in range(3000):
             if server.is_preempt_requested():
                 server.set_preempted(messages.TestResult(-1))
                 return
+            server.publish_feedback(messages.TestFeedback(7))
             time.sleep(0.02)
+            if goal.goal == 3 and heard.is_set():
+                break
         server.set_succeeded(messages.TestResult(goal.goal))
 
     server = actionlib.SimpleActionServer("/act", messages.TestAction, execute, False)
     server.start()
     with real.RealNode(master.uri, ACTION_CLIENT) as client:
-        client.expect("True", "3 3 [7]", "2 -1")
+        client.expect("True", "heard")
+        heard.set()
+        client.expect("3 3 {7}", "2 -1")
 
 
 def test_a_real_client_asks_our_buffer(node, master):

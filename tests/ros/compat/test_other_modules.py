@@ -120,12 +120,12 @@ def test_parameters_are_changed_from_outside(node):
     assert calls[0][1] == 15
     assert calls[0][0].count == 5
     client = client_module.Client("probe", timeout=60, config_callback=seen.append)
-    assert client.get_configuration(5.0)["gain"] == 0.5
+    assert client.get_configuration(60.0)["gain"] == 0.5
     taken = client.update_configuration({"gain": "7.5", "on": "false"})
     assert (taken["gain"], taken["on"], taken["count"]) == (1.0, False, 5)
     assert calls[-1][1] == 5
     assert node.get_param("~gain") == 1.0
-    names = [each["name"] for each in client.get_parameter_descriptions(5.0)]
+    names = [each["name"] for each in client.get_parameter_descriptions(60.0)]
     assert names == ["gain", "count", "on", "name"]
     for change in ({"nothing": 1}, {"count": "many"}):
         with pytest.raises(errors.DynamicReconfigureParameterException):
@@ -166,7 +166,7 @@ def test_topics_services_and_nodes_are_found(node):
     assert rosservice.call_service("/flag", [True])[1].success
     assert rosservice.get_service_args("/flag") == "data"
     assert "/probe" in rosnode.get_node_names()
-    assert rosnode.rosnode_ping("/probe", max_count=1)
+    assert any(rosnode.rosnode_ping("/probe", max_count=1) for _ in range(10))
 
 
 def test_actionlib_works_in_the_node_of_the_process(node):
@@ -179,7 +179,7 @@ def test_actionlib_works_in_the_node_of_the_process(node):
     server = actionlib.SimpleActionServer("act", messages.TestAction, execute, False)
     server.start()
     client = actionlib.SimpleActionClient("act", messages.TestAction)
-    assert client.wait_for_server(node.Duration(5))
+    assert client.wait_for_server(node.Duration(60))
     state = client.send_goal_and_wait(messages.TestGoal(1), node.Duration(60))
     assert state == actionlib.GoalStatus.SUCCEEDED
     assert client.get_result().result == 2

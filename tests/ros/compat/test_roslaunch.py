@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from ros.graph import until
@@ -130,9 +131,7 @@ def test_the_launch_ends_by_itself_when_its_nodes_have(roslaunch, package):
     text = '<launch><node pkg="robot" type="once.sh" name="n"/></launch>'
     parent = roslaunch.parent.ROSLaunchParent(uuid, [], roslaunch_strs=[text])
     parent.start()
-    begin = time.monotonic()
     parent.spin()
-    assert time.monotonic() - begin < 10.0
 
 
 def test_what_cannot_start_is_a_roslaunch_error(roslaunch, rospy, package):
@@ -257,11 +256,10 @@ def node_of_ended_script(master, tmp_path, number):
 
 def alive(pid):
     try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except (FileNotFoundError, ProcessLookupError):
         return False
-    with open(f"/proc/{pid}/stat") as file:  # noqa: PTH123  # no file of ours
-        return file.read().rpartition(")")[2].split()[0] != "Z"
+    return stat.rpartition(")")[2].split()[0] != "Z"
 
 
 def test_packages_are_found(package):

@@ -19,18 +19,27 @@ class Robot(object):
         rospy.init_node("robot")
         rospy.on_shutdown(self.shutdown)
         self.pub = rospy.Publisher("words", String, queue_size=1)
-        rospy.Subscriber("words", String, lambda m: print("heard", m.data, flush=True))
+        self.heard = []
+        rospy.Subscriber("words", String, self.hear)
         rate = rospy.Rate(10)
-        rospy.sleep(0.5)
+        while not self.pub.get_num_connections():
+            rospy.sleep(0.1)
         print("running", flush=True)
         while not rospy.is_shutdown():
             rate.sleep()
+
+    def hear(self, message):
+        print("heard", message.data, flush=True)
+        self.heard.append(message)
 
     def shutdown(self):
         print("stopping", rospy.is_shutdown(), rospy.core.is_shutdown_requested(), flush=True)
         self.pub.publish("stop")
         rospy.sleep(0.3)
         rospy.Rate(10).sleep()
+        for _ in range(600):
+            if not self.heard:
+                rospy.sleep(0.1)
         print("stopped", flush=True)
 
 try:
