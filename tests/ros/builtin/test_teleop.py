@@ -119,7 +119,13 @@ def test_a_turtlebot3_is_driven(typist, heard, end):
 
 def test_any_robot_is_driven(typist, heard):
     person = typist("exec", *TWIST, "_speed:=1.0", "cmd_vel:=/cmd_vel")
-    time.sleep(0.5)
+
+    def connected():
+        person.type("k")
+        time.sleep(0.1)
+        return heard
+
+    until(connected)
     for key, wanted in (
         ("i", (1.0, 0.0, 0.0, 0.0)),
         ("j", (0.0, 0.0, 0.0, 1.0)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import select
 import time
 
 import pytest
@@ -162,11 +163,10 @@ def test_roscpp_sleeps_by_our_clock(start, node):
     sleeper = start("sleep")
     sleeper.expect("ready")
     until(lambda: publisher.num_connections >= 1)
-    deadline = time.monotonic() + 30
-    for second in range(100, 100_000):
+    # It may begin to sleep late: time goes on until it has slept.
+    for second in range(100, 10_000):
         publisher.publish(clock(Time(second)))
-        time.sleep(0.01)
-        if second > 130 or time.monotonic() > deadline:
+        if select.select([sleeper.process.stdout], [], [], 0.01)[0]:
             break
     sleeper.expect("slept")
 
@@ -176,10 +176,8 @@ def test_we_sleep_by_the_clock_of_roscpp(start, graph, node):
     with Node("sleeper", master_uri=graph) as sleeper:
         assert sleeper.clock.simulated
         start("tick")
-        begin = time.monotonic()
         assert sleeper.clock.sleep(50 * 10**9)
         assert sleeper.clock.now() >= 150 * 10**9
-        assert time.monotonic() - begin < 20
 
 
 def test_real_tools_end_both_kinds_of_nodes(start, graph, node):

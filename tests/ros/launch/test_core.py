@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+from ports import free_port
 from ros.graph import until
 
 from gazelle.ros import Master, MasterProxy
@@ -81,8 +82,7 @@ def gone(pid):
 
 @pytest.fixture
 def free_uri():
-    with Master(port=0) as master:
-        return master.uri
+    return f"http://127.0.0.1:{free_port()}/"
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from ports import free_port
 from ros.graph import until
 
 from gazelle.ros import Master
@@ -22,7 +23,7 @@ from gazelle.ros.master.proxy import MasterProxy
 from gazelle.ros.xmlrpc.client import BlockingClient
 
 SLEEP = "#!/bin/sh\nexec sleep 100\n"
-PATIENCE = StopTimeouts(5.0, 1.0)
+PATIENCE = StopTimeouts(60.0, 10.0)
 
 
 @pytest.fixture
@@ -61,7 +62,7 @@ def launch(load, master):
         running.close()
 
 
-def spin(running, seconds=10.0):
+def spin(running, seconds=120.0):
     """Watch until the launch ends by itself."""
     timer = threading.Timer(seconds, running.end)
     timer.start()
@@ -84,8 +85,11 @@ def alive(pid):
     return True
 
 
-def zombie(pid):
-    return Path(f"/proc/{pid}/stat").read_text().split()[2] == "Z"
+def gone(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
 
 
 def test_parameters_are_cleared_and_set(launch, master):
@@ -226,7 +230,7 @@ def test_all_are_ended_with_all_they_started(launch, script, tmp_path):
     child = int((tmp_path / "child").read_text())
     running.close()
     assert not alive(running.processes[0].pid)
-    until(lambda: not alive(child) or zombie(child))
+    until(lambda: gone(child))
 
 
 def test_the_stubborn_are_killed(launch, script, tmp_path):
@@ -238,26 +242,34 @@ def test_the_stubborn_are_killed(launch, script, tmp_path):
     until((tmp_path / "up").exists)
     begin = time.monotonic()
     running.close()
-    assert 0.5 < time.monotonic() - begin < 3.0
+    assert time.monotonic() - begin > 0.5
     assert not alive(running.processes[0].pid)
     assert any("did not end on SIGINT" in text for text in running.said)
 
 
 def test_processes_end_at_the_same_time(launch, script, tmp_path):
+    # Each ends only when all have been asked to.
     script(
         "slow.sh",
-        f"#!/bin/sh\ntrap 'sleep 0.5; exit 0' INT\ntouch {tmp_path}/$1\nwhile true; do sleep 0.05; done\n",
+        f"""#!/bin/sh
+end() {{
+  touch {tmp_path}/$1.asked
+  while [ $(ls {tmp_path}/*.asked | wc -l) -lt 4 ]; do sleep 0.05; done
+  exit 0
+}}
+trap "end $1" INT
+touch {tmp_path}/$1
+while true; do sleep 0.05; done
+""",
     )
     running = launch("".join(node("slow.sh", f"n{i}", args=f"up{i}") for i in range(4)))
     until(lambda: all((tmp_path / f"up{i}").exists() for i in range(4)))
-    begin = time.monotonic()
     running.close()
-    assert time.monotonic() - begin < 1.8
+    assert not any("did not end" in text for text in running.said)
 
 
 def test_a_master_is_started_where_there_is_none(launch):
-    with Master(port=0) as other:
-        uri = other.uri
+    uri = f"http://127.0.0.1:{free_port()}/"
     running = launch('<param name="a" value="1"/>', master_uri=uri)
     proxy = MasterProxy(uri, "/test")
     assert proxy.get_param("/a") == 1
@@ -319,8 +331,7 @@ def test_the_command_ends_cleanly_on_ctrl_c(workspace, script, tmp_path):
     script("sleep.sh", f"#!/bin/sh\ntouch {tmp_path}/up\nexec sleep 100\n")
     file = tmp_path / "f.launch"
     file.write_text(f"<launch>{node('sleep.sh')}</launch>")
-    with Master(port=0) as free:
-        uri = free.uri
+    uri = f"http://127.0.0.1:{free_port()}/"
     process = subprocess.Popen(
         [sys.executable, "-m", "gazelle.cli.main", "launch", str(file)],
         env=os.environ | {"ROS_MASTER_URI": uri},
@@ -347,7 +358,7 @@ def test_python_nodes_import_rospy(launch, script, tmp_path):
         f"open('{tmp_path}/name', 'w').write(rospy.get_name() + str(rospy.get_param('~p')))\n",
     )
     body = '<node pkg="robot" type="node.py" name="mine" ns="s"><param name="p" value="4"/></node>'
-    assert spin(launch(body), 30.0) == 0
+    assert spin(launch(body)) == 0
     assert (tmp_path / "name").read_text() == "/s/mine4"
 
 
@@ -365,4 +376,4 @@ def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, m
         process.send_signal(number)
         process.wait(60)
     pid = int((tmp_path / "pid").read_text())
-    until(lambda: not alive(pid) or zombie(pid))
+    until(lambda: gone(pid))

@@ -124,7 +124,7 @@ def test_no_test_is_no_success(run):
 def test_the_test_nodes_of_rostest_are_there(run):
     done = run("""
       <param name="/given" value="7"/>
-      <test pkg="rostest" type="hztest" test-name="hz">
+      <test pkg="rostest" type="hztest" test-name="hz" retry="20">
         <param name="topic" value="/words"/><param name="hz" value="20"/>
         <param name="hzerror" value="8"/><param name="test_duration" value="1.0"/></test>
       <test pkg="rostest" type="hztest" test-name="fast">
@@ -134,7 +134,7 @@ def test_the_test_nodes_of_rostest_are_there(run):
         <param name="param_name_target" value="/given"/>
         <param name="param_value_expected" value="7"/></test>
       <test pkg="rostest" type="publishtest" test-name="publish"><rosparam>
-        topics: [{name: /words, timeout: 10}, {name: /none, timeout: 0.5, negative: true}]
+        topics: [{name: /words, timeout: 60}, {name: /none, timeout: 0.5, negative: true}]
       </rosparam></test>
       <test pkg="rostest" type="advertisetest" test-name="advertise"><rosparam>
         topics: [{name: /words, type: std_msgs/String}, {name: /none, timeout: 0.5}]

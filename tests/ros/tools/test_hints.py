@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import threading
 
 import pytest
@@ -25,22 +26,17 @@ def graph(master, make_node):
         yield made
 
 
-def test_a_topic_that_is_not_there_is_answered_with_the_closest(graph, capsys):
+def test_a_topic_that_is_not_there_is_answered_with_the_closest(graph, monkeypatch):
     assert closest_topic(graph, "/odmo") == "did you mean '/odom'?"
     assert closest_topic(graph, "/something/else") is None
     with pytest.raises(ToolError) as caught:
         topic_type(graph, "odmo")
     assert caught.value.hint == "did you mean '/odom'?"
-    stop = threading.Event()
+    stop, said = threading.Event(), io.StringIO()
+    monkeypatch.setattr("sys.stderr", said)
     waiting = threading.Thread(target=wait_for_topic, args=(graph, "/odmo", stop))
     waiting.start()
-    said = []
-
-    def hinted():
-        said.append(capsys.readouterr().err)
-        return "did you mean '/odom'?" in "".join(said)
-
-    until(hinted)
+    until(lambda: "did you mean '/odom'?" in said.getvalue())
     stop.set()
     waiting.join()
 

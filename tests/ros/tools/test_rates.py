@@ -50,17 +50,28 @@ def test_sizes_are_measured():
 
 
 def test_rates_of_topics_are_written(graph, make_node, out):
+    assert any(written_rate_is_right(graph, make_node, out) for _ in range(10))
+
+
+def written_rate_is_right(graph, make_node, out):
+    """Whether it was as often as that; a pause of a thread or process leads to another rate."""
+    out.seek(0)
+    out.truncate()
     node = make_node("talker")
     publishers = [node.advertise(topic, STRING) for topic in ("/a", "/b")]
     running = Background(measure_rates, graph, ["/a", "/b"], out)
     until(lambda: all(each.num_connections for each in publishers))
-    deadline = time.monotonic() + 1.5
-    while time.monotonic() < deadline:
+    begin, rounds = time.monotonic(), 0
+    while out.getvalue().count("\n") < 6 and time.monotonic() < begin + 30.0:
         for each in publishers:
             each.publish(STRING())
+        rounds += 1
         time.sleep(0.02)
+    wanted = rounds / (time.monotonic() - begin)
     running.end()
+    for each in publishers:
+        each.close()
     lines = out.getvalue().splitlines()
     assert lines[:2] == ["subscribed to [/a]", "subscribed to [/b]"]
     assert lines[2].split() == ["topic", "rate", "min_delta", "max_delta", "std_dev", "window"]
-    assert float(lines[4].split()[1]) == pytest.approx(50, abs=10)
+    return float(lines[4].split()[1]) == pytest.approx(wanted, rel=0.2)
