@@ -1,5 +1,13 @@
 """Files to descriptions: SDF, URDF, xacro, SRDF, maps, and the meshes they name."""
 
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
 from gazelle.formats.check import Problem, check
 from gazelle.formats.loader import load, load_model, load_model_string, load_string
 from gazelle.formats.mesh import MeshData, load_mesh

@@ -10,19 +10,14 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats
-from gazelle.formats.mujoco_geometry import Solid, each_hull_of
+from gazelle.array_types import Floats, Floats32, Ints32
+from gazelle.formats.block_cuts import BlockCutter
 from gazelle.formats.surface import Surface
 from gazelle.formats.voxels import voxels_of
-
-Numbers: TypeAlias = NDArray[np.floating[Any]]
 
 MOST_BLOCKS = 128
 
@@ -33,7 +28,6 @@ _TRIED = 300
 """Points by which a cut is judged."""
 _FEWER = 5
 """Of so many directions one serves for that."""
-_AT_ONCE = 24
 _FEW_PLACES = 1000
 """Places in the air up to which it matters which of them are in a hull exactly."""
 _TOGETHER = 16
@@ -46,8 +40,6 @@ _EVEN = 0.02
 """What it counts that a cut is uneven, as a share of the air."""
 _LEAST = 3.0
 """Cubes that a block is long at least."""
-_SINGLE = np.float32
-"""Of points and air: a cube of the grid is ten thousand times what it rounds by, and it is twice as fast."""
 _SHEET = 1e-3
 """Thickness of what has none [m]."""
 
@@ -69,6 +61,8 @@ class Blocks:
 class _Block:
     """What lies between two corners.
 
+    Its numbers are single: a cube of the grid is ten thousand times what that rounds by.
+
     Attributes:
         points: On the surface [m], shape (n, 3); some just beyond the block, so that there is
             no gap to the next.
@@ -78,8 +72,8 @@ class _Block:
         hull: The outermost of the points [m], shape (m, 3).
     """
 
-    points: Numbers
-    air: Numbers
+    points: Floats32
+    air: Floats32
     low: Floats
     high: Floats
     hull: Floats = field(default_factory=lambda: np.zeros((0, 3)))
@@ -95,22 +89,25 @@ def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks 
             result is None.
     """
     grid = voxels_of(surface, side)
-    directions = _directions(surface).astype(_SINGLE)
+    directions = _directions(surface).astype(np.float32)
+    cutter = BlockCutter(directions, _FEWER, 2 * _TRIED, 4 * len(directions))
     low, high = grid.low, grid.points.max(axis=0) + 2.0 * grid.side
     queue: list[tuple[int, int, _Block]] = []
     done: list[_Block] = []
     number = itertools.count()
 
     def take(blocks: list[_Block]) -> None:
-        blocks = [block for block in blocks if len(block.points)]
-        _enclose(blocks, directions, grid.side)
         for block in blocks:
+            if not len(block.points):
+                continue
+            _enclose(block, cutter, grid.side)
             if len(block.air):
                 heapq.heappush(queue, (-len(block.air), next(number), block))
             else:
                 done.append(block)
 
-    take([_Block(grid.points.astype(_SINGLE), grid.air.astype(_SINGLE), low, high)])
+    points, air = (np.array(each, np.float32, order="C") for each in (grid.points, grid.air))
+    take([_Block(points, air, low, high)])
     most, asked = _HOPELESS * sum(-rank for rank, _, _ in queue), patient
     while queue and len(queue) + len(done) < MOST_BLOCKS:
         if not asked and len(queue) + len(done) >= _EARLY:
@@ -120,98 +117,62 @@ def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks 
         room = MOST_BLOCKS - len(queue) - len(done)
         some = min(room, _TOGETHER, (len(queue) + 1) // 2)
         worst = [heapq.heappop(queue)[2] for _ in range(some)]
-        parts = [(block, _cut(block, grid.side, directions)) for block in worst]
+        parts = [(block, _cut(block, cutter, grid.side)) for block in worst]
         done += [block for block, halves in parts if not halves]
         take([half for _, halves in parts for half in halves])
     done += [block for _, _, block in queue]
-    air = np.concatenate([block.air for block in done])
-    return Blocks([block.hull for block in done], grid.distance(air))
+    left = np.concatenate([block.air for block in done])
+    return Blocks([block.hull for block in done], grid.distance(left))
 
 
-def _enclose(blocks: list[_Block], directions: Numbers, side: float) -> None:
-    """Find the hulls of blocks, and which of their air is in there."""
-    unsure = []
-    for block in blocks:
-        along = directions @ block.points.T
-        top = along.argmax(axis=1)
-        low, high = block.points.min(axis=0), block.points.max(axis=0)
-        near = block.air[((block.air >= low) & (block.air <= high)).all(axis=1)]
-        block.air = near[_behind(near, directions, along[np.arange(len(top)), top])]
-        block.hull = _thickened(block.points[np.unique(top)].astype(np.float64), side)
-        if 0 < len(block.air) <= _FEW_PLACES:
-            unsure.append(block)
-    hulls = each_hull_of([block.hull for block in unsure])
-    for block, hull in zip(unsure, hulls, strict=True):
-        block.air = block.air[_held(hull, block.air)]
+def _enclose(block: _Block, cutter: BlockCutter, side: float) -> None:
+    """Find the hull of a block, and which of its air is in there."""
+    tops, which = cutter.tops(block.points)
+    block.air = block.air[cutter.behind(block.air, tops)]
+    block.hull = _thickened(block.points[np.unique(which)].astype(np.float64), side)
+    if 0 < len(block.air) <= _FEW_PLACES:
+        block.air = block.air[cutter.within(block.hull, block.air)]
 
 
-def _cut(block: _Block, side: float, directions: Numbers) -> list[_Block]:
+def _cut(block: _Block, cutter: BlockCutter, side: float) -> list[_Block]:
     """The two blocks of the cut that leaves the least air in their hulls; none if too small."""
-    some, points, air = directions[::_FEWER], _thinned(block.points), _thinned(block.air)
-    points_along, air_along = some @ points.T, some @ air.T
-    best: tuple[float, int, float] | None = None
-    for axis, levels in _levels(block, side):
-        order = np.argsort(points[:, axis])
-        along = points_along[:, order]
-        reach = np.maximum.accumulate(along, axis=1)  # of all points below each
-        rest = np.maximum.accumulate(along[:, ::-1], axis=1)[:, ::-1]
-        counts = np.searchsorted(points[order, axis], levels, side="right")
-        for level, count in zip(levels, counts.tolist(), strict=True):
-            if count in {0, len(order)}:
-                continue
-            held = (air_along <= reach[:, count - 1, None]).all(axis=0)
-            held |= (air_along <= rest[:, count, None]).all(axis=0)
-            cost = float(held.sum()) + _EVEN * len(air) * abs(count / len(order) - 0.5)
-            if best is None or cost < best[0]:
-                best = (cost, axis, level)
-    if best is None:
+    axes, levels = _levels(block, side)
+    air = _thinned(block.air)
+    best = cutter.best_cut(_thinned(block.points), air, axes, levels, _EVEN * len(air))
+    if best < 0:
         return []
-    _, axis, level = best
+    axis, level = int(axes[best]), float(levels[best])
+    along = block.points[:, axis] - level
     parts = []
     for sign in (1.0, -1.0):
-        near = sign * (block.points[:, axis] - level) <= side
         low, high = block.low.copy(), block.high.copy()
         (high if sign > 0.0 else low)[axis] = level
-        parts.append(_Block(block.points[near], block.air, low, high))
+        parts.append(_Block(block.points[sign * along <= side], block.air, low, high))
     return parts
 
 
-def _levels(block: _Block, side: float) -> Iterator[tuple[int, list[float]]]:
+def _levels(block: _Block, side: float) -> tuple[Ints32, Floats]:
     """Axes and places along them where a block may be cut: beside its air, and across it."""
-    shares = np.quantile(block.air, (0.0, 0.25, 0.5, 0.75, 1.0), axis=0)
+    axes: list[int] = []
+    levels: list[float] = []
+    places = np.array([0.0, 0.25, 0.5, 0.75, 1.0]) * (len(block.air) - 1)
+    under = places.astype(np.intp)
+    over = np.minimum(under + 1, len(block.air) - 1)
     for axis in range(3):
         room = block.low[axis] + _LEAST * side, block.high[axis] - _LEAST * side
         if room[0] > room[1]:
             continue
-        spread = shares[:, axis] + side * np.array([-0.5, 0.0, 0.0, 0.0, 0.5])
-        yield axis, sorted(set(np.clip(spread, *room).tolist()))
+        along = np.partition(block.air[:, axis], np.concatenate([under, over])).astype(np.float64)
+        shares = along[under] + (along[over] - along[under]) * (places - under)
+        spread = shares + side * np.array([-0.5, 0.0, 0.0, 0.0, 0.5])
+        some = sorted(set(np.clip(spread, *room).tolist()))
+        axes += [axis] * len(some)
+        levels += some
+    return np.array(axes, np.int32), np.array(levels)
 
 
-def _held(hull: Solid | None, air: Numbers) -> Bools:
-    """Which places in the air lie in a hull, shape (k,)."""
-    if hull is None:
-        return np.zeros(len(air), bool)
-    corners, faces = hull
-    a, b, c = (corners[faces[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    order = np.argsort(-np.einsum("ij,ij->i", normals, normals))
-    return _behind(air, normals[order], np.einsum("ij,ij->i", normals, a)[order])
-
-
-def _behind(air: Numbers, normals: Numbers, offsets: Numbers) -> Bools:
-    """Which places lie behind all of some planes, shape (k,)."""
-    held = np.ones(len(air), bool)
-    for start in range(0, len(normals), _AT_ONCE):
-        rows = np.flatnonzero(held)
-        if not len(rows):
-            break
-        part = slice(start, start + _AT_ONCE)
-        held[rows] = (normals[part] @ air[rows].T <= offsets[part, None]).all(axis=0)
-    return held
-
-
-def _thinned(points: Numbers) -> Numbers:
-    return points[:: max(1, len(points) // _TRIED)]
+def _thinned(points: Floats32) -> Floats32:
+    return np.ascontiguousarray(points[:: max(1, len(points) // _TRIED)])
 
 
 def _directions(surface: Surface) -> Floats:

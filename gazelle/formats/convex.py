@@ -19,15 +19,15 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.formats import piece_cache
 from gazelle.formats.blocks import Blocks, blocks_of
+from gazelle.formats.hull import Solid, convex_hull, hulls_of
 from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import hulls_of
-from gazelle.formats.patches import Solid, joined_flat, thick_patches
+from gazelle.formats.patches import joined_flat, thick_patches
 from gazelle.formats.surface import Surface, clean, components, twins_of
 
 CACHED = 256
 PROMISED = 0.01
 """How far pieces of what stands still are off its surface at most [m]."""
-SLOW = 0.1
+SLOW = 0.02
 """Seconds from which on the pieces are kept on disk."""
 
 _LOG = logging.getLogger(__name__)
@@ -240,18 +240,13 @@ def _is_convex(surface: Surface, tolerance: float) -> bool:
     """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
     if len(surface.vertices) > _MOST_CORNERS:
         return False
-    for corners, faces in hulls_of([surface.vertices]):
-        a, b, c = (corners[faces[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        lengths = np.linalg.norm(normals, axis=1)
-        normals = normals[lengths > 0.0] / lengths[lengths > 0.0, None]
-        offsets = np.einsum("ij,ij->i", normals, a[lengths > 0.0])
-        points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
-        start, rows = 0, _FIRST_LOOK
-        while start < len(points):
-            gaps = offsets[:, None] - normals @ points[start : start + rows].T
-            if float(gaps.min(axis=0).max()) > tolerance:
-                return False
-            start, rows = start + rows, max(_FIRST_LOOK, _MAX_PAIRS // len(offsets))
-        return True
-    return False
+    hull = convex_hull(surface.vertices)
+    if hull is None:
+        return False
+    points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
+    start, rows = 0, _FIRST_LOOK
+    while start < len(points):
+        if float(hull.depth(points[start : start + rows]).max()) > tolerance:
+            return False
+        start, rows = start + rows, max(_FIRST_LOOK, _MAX_PAIRS // len(hull.offsets))
+    return True

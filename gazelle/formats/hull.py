@@ -1,22 +1,21 @@
-"""Convex hulls: of points in space (Quickhull, to a tolerance) and in the plane.
+"""Convex hulls: of points in space, and in the plane.
 
-Quickhull: Barber, Dobkin, Huhdanpaa, "The Quickhull algorithm for convex hulls", ACM
-Transactions on Mathematical Software 22 (1996). The hull in the plane is Andrew's
-monotone chain (1979).
+The hull in the plane is Andrew's monotone chain (1979).
 """
 
 from __future__ import annotations
 
-import math
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices
+from gazelle.formats.integer_hull import HullBuilder
 
-_ATTEMPTS = 4
-_MAX_PAIRS = 20_000_000
+Solid = tuple[Floats, NDArray[np.int32]]
+"""Vertices, shape (n, 3), and faces, shape (m, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +26,8 @@ class Hull:
         faces: Corners of its triangles as rows of the points, counter-clockwise from
             outside, shape (m, 3).
         normals: Unit vectors outwards, shape (m, 3).
-        offsets: Distance of each face's plane from the origin along its normal, shape (m,).
+        offsets: Distance of each face's plane from the origin along its normal, shape (m,); no
+            corner is beyond it.
     """
 
     faces: Indices
@@ -41,157 +41,30 @@ class Hull:
         return depth
 
 
-@dataclass(slots=True)
-class _Face:
-    corners: tuple[int, int, int]
-    normal: Floats
-    offset: float
-    outside: Indices
-
-
-class _SpoiledError(Exception):
-    """The hull is none by rounding: a face has no area, or the faces around a hole no ring."""
-
-
-def convex_hull(points: Floats, tolerance: float) -> Hull | None:
+def convex_hull(points: Floats) -> Hull | None:
     """The hull of points, shape (n, 3); None if they lie in a plane.
 
-    Points that stand out of it by less than the tolerance may be left out. Where rounding
-    spoils the hull, points are shaken by about the tolerance, always in the same way.
+    A point that stands out of it by less than two millionths of the size may be no corner.
     """
-    for attempt in range(_ATTEMPTS):
-        shake = attempt * tolerance
-        noise = np.random.default_rng(attempt).uniform(-shake, shake, points.shape)
-        with suppress(_SpoiledError):
-            hull = _hull(points + noise, tolerance if attempt == 0 else 1e-3 * tolerance)
-            if hull is None or _holds(hull, points, 4.0 * (tolerance + shake)):
-                return hull
-    return None
-
-
-def _holds(hull: Hull, points: Floats, tolerance: float) -> bool:
-    rows = max(1, _MAX_PAIRS // len(hull.offsets))
-    parts = (points[start : start + rows] for start in range(0, len(points), rows))
-    return all(float(hull.depth(part).min()) >= -tolerance for part in parts)
-
-
-def _hull(points: Floats, tolerance: float) -> Hull | None:
-    first = _tetrahedron(points, tolerance)
-    if first is None:
+    builder = HullBuilder(len(points))
+    faces = builder.hull(points)
+    if faces is None:
         return None
-    builder = _Builder(points, tolerance)
-    builder.start(first)
-    builder.grow()
-    faces = list(builder.faces.values())
-    return Hull(
-        np.array([face.corners for face in faces], dtype=np.intp),
-        np.array([face.normal for face in faces]),
-        np.array([face.offset for face in faces]),
-    )
+    normals = builder.normals()
+    corners = points[np.unique(faces)]
+    return Hull(faces, normals, (corners @ normals.T).max(axis=0))
 
 
-def _tetrahedron(points: Floats, tolerance: float) -> tuple[int, int, int, int] | None:
-    """Four points far from each other, positively oriented."""
-    if len(points) < 4:
-        return None
-    a = int(points[:, 0].argmin())
-    b = int(np.linalg.norm(points - points[a], axis=1).argmax())
-    along = points[b] - points[a]
-    length = float(np.linalg.norm(along))
-    if length <= tolerance:
-        return None
-    aside = np.cross(points - points[a], along / length)
-    c = int(np.linalg.norm(aside, axis=1).argmax())
-    normal = np.cross(along, points[c] - points[a])
-    size = float(np.linalg.norm(normal))
-    if size / length <= tolerance:
-        return None
-    heights = (points - points[a]) @ (normal / size)
-    d = int(np.abs(heights).argmax())
-    if abs(heights[d]) <= tolerance:
-        return None
-    return (a, b, c, d) if heights[d] < 0.0 else (a, c, b, d)
+def hulls_of(clouds: Sequence[Floats]) -> list[Solid]:
+    """Corners and faces of the hulls of points, shapes (n, 3); those in a plane are left out."""
+    builder = HullBuilder(max(map(len, clouds), default=0))
+    found = ((points, builder.hull(points)) for points in clouds)
+    return [_used(points, faces) for points, faces in found if faces is not None]
 
 
-class _Builder:
-    """Faces by number, and the face to the left of each directed edge."""
-
-    def __init__(self, points: Floats, tolerance: float) -> None:
-        self.faces: dict[int, _Face] = {}
-        self._points = points
-        self._tolerance = tolerance
-        self._edges: dict[tuple[int, int], int] = {}
-        self._count = 0
-        self._waiting: list[int] = []
-
-    def start(self, corners: tuple[int, int, int, int]) -> None:
-        a, b, c, d = corners
-        free = np.setdiff1d(np.arange(len(self._points)), corners)
-        for triangle in ((a, b, c), (a, d, b), (b, d, c), (c, d, a)):
-            free = self._add(triangle, free)
-
-    def grow(self) -> None:
-        while self._waiting:
-            number = self._waiting.pop()
-            face = self.faces.get(number)
-            if face is None or not len(face.outside):
-                continue
-            heights = self._points[face.outside] @ face.normal
-            self._reach(int(face.outside[heights.argmax()]), number)
-
-    def _add(self, corners: tuple[int, int, int], free: Indices) -> Indices:
-        """Add a face, which takes the free points outside of it; what is left of them."""
-        a, b, c = self._points[list(corners)].tolist()
-        normal = _unit_normal(a, b, c)
-        offset = float(normal @ self._points[corners[0]])
-        above = self._points[free] @ normal - offset > self._tolerance
-        number = self._count
-        self._count += 1
-        self.faces[number] = _Face(corners, normal, offset, free[above])
-        for i in range(3):
-            self._edges[corners[i], corners[(i + 1) % 3]] = number
-        if above.any():
-            self._waiting.append(number)
-        return free[~above]
-
-    def _reach(self, top: int, start: int) -> None:
-        """Replace all faces that see a point by a cone to it."""
-        point = self._points[top]
-        visible, rim, pending = {start}, [], [start]
-        while pending:
-            corners = self.faces[pending.pop()].corners
-            for i in range(3):
-                edge = (corners[i], corners[(i + 1) % 3])
-                other = self._edges[edge[1], edge[0]]
-                if other in visible:
-                    continue
-                face = self.faces[other]
-                if float(face.normal @ point) - face.offset > self._tolerance:
-                    visible.add(other)
-                    pending.append(other)
-                else:
-                    rim.append(edge)
-        free = np.concatenate([self.faces.pop(number).outside for number in sorted(visible)])
-        free = free[free != top]
-        if len({tail for tail, _ in rim}) < len(rim):
-            raise _SpoiledError
-        for tail, head in rim:
-            free = self._add((tail, head, top), free)
-
-
-def _unit_normal(a: list[float], b: list[float], c: list[float]) -> Floats:
-    """Across a triangle; in plain numbers, which for three are ten times as fast as NumPy.
-
-    Raises:
-        _SpoiledError: The triangle has no area.
-    """
-    ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
-    vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
-    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    size = math.sqrt(x * x + y * y + z * z)
-    if size == 0.0:
-        raise _SpoiledError
-    return np.array((x / size, y / size, z / size))
+def _used(points: Floats, faces: Indices) -> Solid:
+    rows, inverse = np.unique(faces, return_inverse=True)
+    return points[rows], inverse.reshape(-1, 3).astype(np.int32)
 
 
 def planar_hull(points: Floats) -> Indices:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.formats.flat import Polygons, Rims
+from gazelle.formats.hull import Solid
 from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import Surface
 
@@ -41,8 +42,6 @@ _DEEPEST = 0.05
 _INSET = 0.02
 """How far from a corner the thickness there is measured, as a share of the way to the middle."""
 _MOST_RAYS = 20_000
-
-Solid = tuple[Floats, NDArray[np.int32]]
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from gazelle.formats.patches import Solid
+from gazelle.formats.hull import Solid
 
 Stored = tuple[list[Solid], bool, float, bool]
 """Pieces, whether the one is the whole mesh, how far they are off it [m], whether it is closed."""
 
-VERSION = 3
+VERSION = 4
 """Of the rules that cut meshes up: files of another are not used."""
 
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
+from gazelle.formats.cube_samples import CubeSampler
 from gazelle.formats.surface import Surface
 
 _MOST_CELLS = 4_000_000
@@ -57,51 +59,53 @@ def voxels_of(surface: Surface, side: float) -> Voxels:
     while np.prod(np.ceil(span / side) + 4.0) > _MOST_CELLS:
         side *= 1.1
     low = surface.vertices.min(axis=0) - 2.0 * side
-    shape = tuple((np.ceil(span / side) + 4.0).astype(int).tolist())
-    points = samples(surface, 0.5 * side)
-    place = ((points - low) / side).astype(np.intp)
-    full = np.zeros(shape, bool)
-    full[tuple(place.T)] = True
+    x, y, z = (np.ceil(span / side) + 4.0).astype(int).tolist()
+    points, cubes, filled = samples(surface, 0.5 * side, (low, side, (x, y, z)))
+    full = filled.reshape(x, y, z)
     outside = _flooded(full)
-    seen = _grown(outside)
+    points = points[_grown(outside).ravel()[cubes]]
     air = np.argwhere(outside & ~_grown(full))
-    points = _spread(points[seen[tuple(place.T)]], low, side)
     return Voxels(side, low, points, low + (air + 0.5) * side, full)
 
 
-def _spread(points: Floats, low: Floats, side: float) -> Floats:
-    """One place, the first, of each cube."""
-    cubes = ((points - low) / side).astype(np.int64)
-    keys = (cubes[:, 0] << 42) + (cubes[:, 1] << 21) + cubes[:, 2]
-    return points[np.sort(np.unique(keys, return_index=True)[1])]
+Grid: TypeAlias = tuple[Floats, float, tuple[int, int, int]]
+"""The least corner of a grid [m], the side of its cubes [m], how many along x, y and z."""
 
 
-def samples(surface: Surface, spacing: float) -> Floats:
-    """Places all over a surface, about this far from each other at most [m], shape (n, 3)."""
+def samples(surface: Surface, spacing: float, grid: Grid) -> tuple[Floats, Indices, Bools]:
+    """Of places all over a surface, about this far from each other at most, one a cube.
+
+    Args:
+        surface: Any triangles.
+        spacing: [m].
+        grid: Of cubes, which hold the surface.
+
+    Returns:
+        The first place in each cube [m], shape (n, 3), the cubes as rows of the grid in one
+        piece, shape (n,), and which cubes there have a place.
+    """
     corners = surface.vertices[surface.faces]
     lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     longest = lengths.argmax(axis=1)
     turn = (longest[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(corners, turn[:, :, None], axis=1), 1, 0)
+    turned = np.take_along_axis(corners, turn[:, :, None], axis=1)
     base = lengths.max(axis=1)
     along = _steps(base, spacing)
     aside = _steps(2.0 * surface.areas / base, spacing)
-    found = [surface.vertices]
-    for u, v in np.unique(np.stack([along, aside], axis=1), axis=0).tolist():
-        rows = (along == u) & (aside == v)
-        p, q, r = (x[rows][:, None] for x in (a, b, c))
-        s = np.arange(u + 1)[:, None] / u
-        t = np.arange(v + 1)[None] / v
-        second = ((1.0 - t) * s).reshape(1, -1, 1)
-        third = np.broadcast_to(t, (u + 1, v + 1)).reshape(1, -1, 1)
-        found.append(((1.0 - second - third) * p + second * q + third * r).reshape(-1, 3))
-    return np.concatenate(found)
+    most = len(surface.vertices) + int(((along + 1) * (aside + 1)).sum())
+    low, side, shape = grid
+    sampler = CubeSampler(low, side, shape, min(most, math.prod(shape)))
+    nothing = np.zeros(len(surface.vertices), np.int64)
+    sampler.take(surface.vertices[:, None].repeat(3, axis=1), nothing, nothing)
+    order = np.lexsort((aside, along))
+    sampler.take(turned[order], along[order], aside[order])
+    return sampler.found()
 
 
 def _steps(length: Floats, spacing: float) -> Indices:
     """How many steps each length needs, rounded up so that few kinds differ."""
     power = np.ceil(np.log(np.maximum(length / spacing, 1.0)) / np.log(_RATIO))
-    steps: Indices = np.ceil(_RATIO**power - 1e-9).astype(np.intp)
+    steps: Indices = np.ceil(_RATIO**power - 1e-9).astype(np.int64)
     return steps
 
 

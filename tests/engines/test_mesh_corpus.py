@@ -69,7 +69,7 @@ def test_pieces_cover_the_surface_within_what_they_promise(
         low, high = piece.vertices.min(axis=0), piece.vertices.max(axis=0)
         reach = pieces.gap + 1e-3
         near = ((points > low - reach) & (points < high + reach)).all(axis=1)
-        hull = convex_hull(piece.vertices, 1e-9) if near.any() else None
+        hull = convex_hull(piece.vertices) if near.any() else None
         if hull is not None:
             nearest[near] = np.minimum(nearest[near], -hull.depth(points[near]))
     if static:

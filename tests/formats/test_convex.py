@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from gazelle.description import Mesh
 from gazelle.formats import convex, load_mesh, piece_cache
-from gazelle.formats.convex import convex_pieces
-from gazelle.formats.hull import convex_hull, planar_area, planar_hull
+from gazelle.formats.convex import convex_pieces, decompose
+from gazelle.formats.hull import convex_hull, hulls_of, planar_area, planar_hull
 from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import first_hits, hulls_of
+from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import clean, components
 
 
@@ -39,7 +39,7 @@ def inside(pieces, points, margin=0.0):
     points = np.asarray(points, float)
     found = np.zeros(len(points), bool)
     for piece in pieces:
-        hull = convex_hull(piece.vertices, 1e-9)
+        hull = convex_hull(piece.vertices)
         if hull is not None:
             found |= hull.depth(points) > margin
     return found
@@ -215,7 +215,7 @@ def test_the_hull_holds_all_points_and_is_that_of_scipy(seed, count, kind):
     points = np.random.default_rng(seed).normal(size=(count, 3))
     if kind == "grid":
         points = np.round(points)
-    hull = convex_hull(points, 1e-9)
+    hull = convex_hull(points)
     if hull is None:
         assert np.linalg.matrix_rank(points - points[0], tol=1e-6) < 3
         return
@@ -230,7 +230,7 @@ def test_many_hulls_at_once_are_those_made_one_by_one(seed, count, scale):
     chance = np.random.default_rng(seed)
     clouds = [scale * (chance.normal(size=(count, 3)) + 5.0) for _ in range(3)]
     for cloud, (corners, faces) in zip(clouds, hulls_of(clouds), strict=True):
-        hull = convex_hull(cloud, 1e-9 * scale)
+        hull = convex_hull(cloud)
         assert hull.depth(corners).max() <= 1e-5 * scale
         assert volume(MeshData(corners, faces)) == pytest.approx(
             volume(MeshData(cloud, hull.faces.astype(np.int32))), rel=1e-4
@@ -283,3 +283,63 @@ def test_what_takes_long_is_told(monkeypatch, caplog):
     monkeypatch.setattr(convex, "_SPENT", {"seconds": 3.0})
     convex_pieces(data(ring()))
     assert "cutting a mesh of 256 triangles" in caplog.text
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.integers(0, 2**32 - 1),
+    st.integers(4, 300),
+    st.sampled_from(["ball", "sphere", "grid", "box", "plates", "line", "plane", "one place"]),
+    st.sampled_from([1e-3, 1.0, 1e4]),
+    st.sampled_from([0.0, 1e-9, 1e-6]),
+)
+def test_hulls_of_many_points_in_planes_are_closed_and_hold_all(seed, count, kind, scale, noise):
+    chance = np.random.default_rng(seed)
+    points = chance.normal(size=(count, 3))
+    if kind == "sphere":
+        points /= np.linalg.norm(points, axis=1)[:, None]
+    elif kind == "grid":
+        points = np.round(points)
+    elif kind == "box":
+        points = np.clip(points, -0.5, 0.5)
+    elif kind == "plates":
+        points[:, 2] = chance.integers(0, 2, count)
+    elif kind == "line":
+        points = points[:, :1] * [1.0, 2.0, 3.0]
+    elif kind == "plane":
+        points[:, 1] = 0.25
+    elif kind == "one place":
+        points[:] = points[0]
+    points = scale * (points + noise * chance.normal(size=(count, 3)) + 3.0)
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    hull = convex_hull(points)
+    if hull is None:
+        spans = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+        assert spans[-1] <= 1e-5 * max(spans[0], 1e-9 * scale)
+        return
+    edges = {(f[i], f[(i + 1) % 3]) for f in hull.faces.tolist() for i in range(3)}
+    assert len(edges) == 3 * len(hull.faces)
+    assert edges == {(b, a) for a, b in edges}
+    corners = len(np.unique(hull.faces))
+    assert corners - len(edges) // 2 + len(hull.faces) == 2  # Euler
+    # Nothing stands out, and the planes are those of the corners, within the grid.
+    assert hull.depth(points).min() >= -4e-6 * size
+    heights = np.einsum("ijk,ik->ij", points[hull.faces], hull.normals) - hull.offsets[:, None]
+    assert heights.min() >= -4e-6 * size
+    assert heights.max() <= 1e-11 * scale
+
+
+def test_what_is_nearly_flat_but_for_rounding_is_not_taken_for_convex():
+    """Faces of a hull that are slivers have planes that their rounded corners do not tell."""
+    step = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], float)
+    stairs = trimesh.creation.extrude_triangulation(
+        step, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]], 1.0
+    )
+    for seed in range(20):
+        chance = np.random.default_rng(seed)
+        vertices = stairs.vertices * 0.59 + 4e-8 * chance.normal(size=stairs.vertices.shape)
+        pieces = decompose(
+            MeshData(vertices, np.asarray(stairs.faces, np.int32)), static=bool(seed % 2)
+        )
+        assert not pieces.whole
+        assert len(pieces.solids) > 1

@@ -28,7 +28,7 @@ def outside(pieces, points):
     """How far each point is out of the nearest piece, at most [m]; negative inside."""
     nearest = np.full(len(points), np.inf)
     for piece in pieces.solids:
-        hull = convex_hull(piece.vertices, 1e-9)
+        hull = convex_hull(piece.vertices)
         if hull is not None:
             nearest = np.minimum(nearest, -hull.depth(points))
     return nearest
