@@ -26,9 +26,9 @@ class PublishingSchedule:
         self.rate = rate
         self._period_ns = round(_NANOSECONDS / rate) if rate > 0.0 else 0
 
-    def start(self, now_ns: int) -> None:
-        """Let it be due at the next update from a time on."""
-        self._last_ns = now_ns - self._period_ns - 1 if self._period_ns else None
+    def start(self, now_ns: int, *, at_once: bool = True) -> None:
+        """Begin at a time: it is due at the next update, or a period later."""
+        self._last_ns = None if at_once else now_ns
 
     def is_due(self, now_ns: int) -> bool:
         """Whether to publish now; then it counts as done."""
@@ -39,9 +39,7 @@ class PublishingSchedule:
             return True
         if self._last_ns + self._period_ns >= now_ns:
             return False
-        # The first time begins the count; later ones follow the rate, however late they are.
-        first = now_ns - self._last_ns == self._period_ns + 1
-        self._last_ns = now_ns if first else self._last_ns + self._period_ns
+        self._last_ns += self._period_ns
         return True
 
     def state(self) -> dict[str, NDArray[np.generic]]:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from gazelle.control.interfaces import (
     EFFORT,
     JOINT_STATE,
+    POS_VEL,
+    POS_VEL_ACC,
     POSITION,
     VELOCITY,
 )
@@ -29,6 +31,7 @@ class KnownController:
 # fmt: off
 _FORWARD = "forward:ForwardCommandController"
 _GROUP = "forward:ForwardGroupController"
+_TRAJECTORY = "trajectory_controller:JointTrajectoryController"
 CONTROLLERS: Mapping[str, KnownController] = {
     "joint_state_controller/JointStateController": KnownController("joint_state:JointStateController", (JOINT_STATE,)),
     "effort_controllers/JointEffortController": KnownController(_FORWARD, (EFFORT,)),
@@ -37,5 +40,10 @@ CONTROLLERS: Mapping[str, KnownController] = {
     "effort_controllers/JointGroupEffortController": KnownController(_GROUP, (EFFORT,)),
     "position_controllers/JointGroupPositionController": KnownController(_GROUP, (POSITION,)),
     "velocity_controllers/JointGroupVelocityController": KnownController(_GROUP, (VELOCITY,)),
+    "position_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (POSITION,)),
+    "velocity_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (VELOCITY,)),
+    "effort_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (EFFORT,)),
+    "pos_vel_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (POS_VEL,)),
+    "pos_vel_acc_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (POS_VEL_ACC,)),
 }
 # fmt: on

@@ -125,7 +125,7 @@ class JointHardware(SimulatedHardware):
         self._motors: dict[int, Floats] = {}
         self._placed: Floats = np.full((self.nworld, len(names)), math.nan)
         self._pids: dict[str, Pid] = {}
-        self._applied: Floats = np.zeros((self.nworld, len(names)))
+        self._applied, self._speeds = np.zeros((2, self.nworld, len(names)))
         for handle in self._handles:
             if handle.has_motor:  # of hardware that was there before
                 handle.add_motor(0.0)
@@ -148,6 +148,7 @@ class JointHardware(SimulatedHardware):
                     self._commands[kind] = (values, np.array(own, np.intp))
         self._limit()
         self._tune()
+        self._put = set(self._columns[POSITION][~self._with_gains[POSITION]].tolist())
         self._move_motors()
 
     def _limit(self) -> None:
@@ -206,7 +207,10 @@ class JointHardware(SimulatedHardware):
         states.position[:] = np.where(self._turning, onward, measured)
         states.effort[:] = self._applied
         for column, each in enumerate(self._handles):
-            states.velocity[:, column] = each.velocities()[:, 0]
+            if column not in self._put:
+                states.velocity[:, column] = each.velocities()[:, 0]
+            else:  # what a step adds to it the next one takes away
+                states.velocity[:, column] = self._speeds[:, column]
 
     def stop_emergency(self, stopped: Bools) -> None:
         """Take the power from joints, and hold those where they are that hold positions."""
@@ -294,6 +298,7 @@ class JointHardware(SimulatedHardware):
             speed[moved] = (wanted[moved] - before[moved]) / period
             speed[np.abs(speed) > _JUMP] = 0.0
         self._placed[:, index] = np.where(good, wanted, before)
+        self._speeds[:, index] = speed
         rows = None if good.all() else np.flatnonzero(good)
         chosen = slice(None) if rows is None else rows
         engine = self.robot.simulation.engine
@@ -314,7 +319,7 @@ class JointHardware(SimulatedHardware):
         rows = slice(None) if worlds is None else worlds
         states = self.states
         states.position[rows] = states.effort[rows] = 1.0
-        states.velocity[rows] = self._applied[rows] = 0.0
+        states.velocity[rows] = self._applied[rows] = self._speeds[rows] = 0.0
         self._stopped[rows] = False
         self._held[rows] = self._placed[rows] = math.nan
         self._position_limiter.previous[rows] = math.nan
@@ -335,6 +340,7 @@ class JointHardware(SimulatedHardware):
             "held": self._held.copy(),
             "placed": self._placed.copy(),
             "applied": self._applied.copy(),
+            "speeds": self._speeds.copy(),
             "active": np.array([INTERFACES.index(each) for each in self._active], np.int64),
             "position_before": self._position_limiter.previous.copy(),
             "velocity_before": self._velocity_limiter.previous.copy(),
@@ -352,7 +358,7 @@ class JointHardware(SimulatedHardware):
             self._arrange()
         self._stopped = np.array(state["stopped"], bool)
         self._held, self._placed = np.array(state["held"]), np.array(state["placed"])
-        self._applied = np.array(state["applied"])
+        self._applied, self._speeds = np.array(state["applied"]), np.array(state["speeds"])
         self._position_limiter.previous = np.array(state["position_before"])
         self._velocity_limiter.previous = np.array(state["velocity_before"])
         for kind, pid in self._pids.items():

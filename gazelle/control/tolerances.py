@@ -1,0 +1,72 @@
+"""How far joints may be off a trajectory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.array_types import Bools, Floats
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.values import JointTolerance, TrajectoryGoal
+
+
+@dataclass(frozen=True, slots=True)
+class TrajectoryTolerances:
+    """Bounds of position, velocity and acceleration; 0 for none.
+
+    Attributes:
+        path: On the way, shape (joints, 3).
+        goal: At the end, likewise.
+        goal_time: How much later than its end a trajectory may be there [s].
+    """
+
+    path: Floats
+    goal: Floats
+    goal_time: float
+
+    @classmethod
+    def read(cls, parameters: ControllerParameters, joints: Sequence[str]) -> TrajectoryTolerances:
+        """From ``constraints``."""
+        given = parameters.part("constraints")
+        path, goal = np.zeros((2, len(joints), 3))
+        goal[:, 1] = given.number("stopped_velocity_tolerance", 0.01)
+        for row, name in enumerate(joints):
+            path[row, 0] = given.number(f"{name}/trajectory", 0.0)
+            goal[row, 0] = given.number(f"{name}/goal", 0.0)
+        return cls(path, goal, given.number("goal_time", 0.0))
+
+    def with_goal(self, goal: TrajectoryGoal, joints: Sequence[str]) -> TrajectoryTolerances:
+        """With what a goal asks for: more than 0 takes the place of a bound, less takes it away."""
+        wait = goal.goal_time_tolerance
+        return TrajectoryTolerances(
+            _changed(self.path, goal.path_tolerance, joints),
+            _changed(self.goal, goal.goal_tolerance, joints),
+            wait if wait > 0.0 else 0.0 if wait < 0.0 else self.goal_time,
+        )
+
+
+def _changed(bounds: Floats, given: Iterable[JointTolerance], joints: Sequence[str]) -> Floats:
+    changed = bounds.copy()
+    for each in given:
+        if each.name in joints:
+            row = list(joints).index(each.name)
+            wanted = (each.position, each.velocity, each.acceleration)
+            for column, value in enumerate(wanted):
+                if value != 0.0:
+                    changed[row, column] = max(value, 0.0)
+    return changed
+
+
+def within(position: Floats, velocity: Floats, bounds: Floats) -> Bools:
+    """Whether errors are within bounds, shape (nworld, joints).
+
+    Args:
+        position: [m or rad], likewise.
+        velocity: [m/s or rad/s], likewise.
+        bounds: Shape (nworld, joints, 3).
+    """
+    far = (bounds[..., 0] > 0.0) & (np.abs(position) > bounds[..., 0])
+    fast = (bounds[..., 1] > 0.0) & (np.abs(velocity) > bounds[..., 1])
+    return ~(far | fast)

@@ -1,0 +1,123 @@
+"""Judge trajectories that come to a controller, and turn them into waypoints on its clock."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+from gazelle.array_types import Floats, Indices
+from gazelle.control.trajectory import Waypoints
+from gazelle.control.values import INVALID_GOAL, INVALID_JOINTS, JointTrajectory, TrajectoryPoint
+from gazelle.errors import ControlError, ControlWarning, did_you_mean
+
+
+class TrajectoryRefusedError(ControlError):
+    """A trajectory cannot be followed.
+
+    Attributes:
+        code: ``error_code`` of control_msgs/FollowJointTrajectory.
+    """
+
+    def __init__(self, message: str, code: int = INVALID_GOAL, hint: str | None = None) -> None:
+        super().__init__(message, hint=hint)
+        self.code = code
+
+
+def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -> Indices:
+    """Where a trajectory's joints are among the controller's, shape (n,).
+
+    Raises:
+        TrajectoryRefusedError: A name is unknown or there twice, or some are missing that must not be.
+    """
+    wanted = given.names or tuple(names)
+    unknown = [name for name in wanted if name not in names]
+    if unknown:
+        raise TrajectoryRefusedError(
+            f"joints on incoming goal don't match the controller joints: there is no '{unknown[0]}'",
+            INVALID_JOINTS,
+            did_you_mean(unknown[0], names),
+        )
+    if len(set(wanted)) != len(wanted):
+        raise TrajectoryRefusedError("a joint is named twice", INVALID_JOINTS)
+    if len(wanted) != len(names) and not partial:
+        missing = ", ".join(name for name in names if name not in wanted)
+        raise TrajectoryRefusedError(
+            f"joints on incoming goal don't match the controller joints: without {missing}",
+            INVALID_JOINTS,
+            "set allow_partial_joints_goal to move some of them",
+        )
+    return np.array([list(names).index(name) for name in wanted], np.intp)
+
+
+def check_points(given: JointTrajectory, width: int) -> None:
+    """See that the points can be followed.
+
+    Raises:
+        TrajectoryRefusedError: Times do not rise, or there are more or fewer values than joints.
+    """
+    before = -math.inf
+    for number, point in enumerate(given.points):
+        if not point.time > before:
+            raise TrajectoryRefusedError(
+                f"trajectory message contains waypoints that are not strictly increasing in time: "
+                f"point {number} at {point.time:g} s"
+            )
+        before = point.time
+        for what in ("positions", "velocities", "accelerations"):
+            values = getattr(point, what)
+            if len(values) != width and (values or what == "positions"):
+                raise TrajectoryRefusedError(
+                    f"point {number} of the trajectory has {len(values)} {what} for {width} joints"
+                )
+            if not all(math.isfinite(value) for value in values):
+                raise TrajectoryRefusedError(
+                    f"{what} of point {number} of the trajectory are not finite"
+                )
+
+
+def waypoints(
+    given: JointTrajectory, joints: Indices, begin: float, now: float, who: str
+) -> Waypoints:
+    """The points that are still to come.
+
+    Args:
+        given: Checked.
+        joints: From ``columns_of``.
+        begin: When it begins on the controller's clock [s].
+        now: Of the next update [s].
+        who: Name of the controller, for messages.
+
+    Raises:
+        TrajectoryRefusedError: All points are over.
+    """
+    left = [point for point in given.points if begin + point.time > now]
+    gone = len(given.points) - len(left)
+    if not left:
+        late = now - begin - given.points[-1].time
+        raise TrajectoryRefusedError(
+            f"dropping all {gone} trajectory point(s), as they occur before the current time; "
+            f"last point is {late:.6f} s in the past"
+        )
+    silent = gone == 1 and not given.stamp and given.points[0].time == 0.0
+    if gone and not silent:
+        text = (
+            f"controller '{who}': dropping first {gone} trajectory point(s) out of "
+            f"{len(given.points)}, as they occur before the current time; first valid point will be "
+            f"reached in {begin + left[0].time - now:.3f} s"
+        )
+        warnings.warn(ControlWarning(text), stacklevel=2)
+    return Waypoints(
+        np.array([begin + point.time for point in left]),
+        _column(left, "positions", len(joints)),
+        _column(left, "velocities", len(joints)),
+        _column(left, "accelerations", len(joints)),
+        joints,
+    )
+
+
+def _column(points: Sequence[TrajectoryPoint], what: str, width: int) -> Floats:
+    rows = [getattr(point, what) or (math.nan,) * width for point in points]
+    return np.array(rows, np.float64).reshape(len(points), width)
