@@ -18,10 +18,7 @@ NAN = math.nan
 
 
 def at(poly, *times):
-    values = [
-        evaluate(np.asarray(poly), np.array(t), np.array(True))
-        for t in times
-    ]
+    values = [evaluate(np.asarray(poly), np.array(t), np.array(True)) for t in times]
     return [tuple(float(each) for each in value) for value in values]
 
 

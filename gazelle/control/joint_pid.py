@@ -1,0 +1,213 @@
+"""Joints brought to positions and velocities by PID."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.control.angles import distance
+from gazelle.control.commands import rows_of
+from gazelle.control.controller import Controller
+from gazelle.control.limits import JointLimits
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
+from gazelle.control.ports import StatePort
+from gazelle.control.values import JointControlState, JointTarget, JointTargets, PidStatus
+
+_EVERY = 10  # updates between two messages of the state
+
+
+class PidControl(Controller):
+    """What controllers of joints by PID have in common: targets, gains, and what they tell."""
+
+    def control(
+        self, names: tuple[str, ...], gains: list[tuple[str, ControllerParameters]]
+    ) -> None:
+        """Claim joints and read their gains.
+
+        Args:
+            names: Of the joints.
+            gains: Namespace of each one's gains, and the parameters in it.
+        """
+        self._joints = self.claim(self.interfaces[0], names)
+        self._pid = Pid([PidGains.read(part) for _, part in gains], self.nworld)
+        self._targets: Floats = np.zeros((self.nworld, len(names)))
+        self._error: Floats = np.zeros_like(self._targets)
+        self._period = 0.0
+        self._updates = 0
+        self._states: StatePort[JointControlState] | None = None
+        self._statuses: list[StatePort[PidStatus]] = []
+        for loop, (place, part) in enumerate(gains):
+            self._open_gains(loop, place, told=part.flag("publish_state", default=False))
+
+    def _open_gains(self, loop: int, place: str, *, told: bool) -> None:
+        self.add_tuning(
+            place, PID_TUNABLES, lambda: pid_values(self._pid, loop), pid_changer(self._pid, loop)
+        )
+        if told:
+            port = self.add_output(f"{place}/state", PidStatus, lambda: self._status(loop))
+            self._statuses.append(port)
+
+    def open_state(self) -> None:
+        """Tell of the one joint now and then."""
+        self._states = self.add_output("state", JointControlState, self._tell)
+
+    def take(self, values: ArrayLike, worlds: Worlds | None) -> None:
+        """Steer to other targets from the next update on."""
+        rows = self.rows(worlds)
+        what = f"command of '{self.name}'"
+        self._targets[rows] = rows_of(what, values, self._targets.shape[1], len(rows))
+
+    def push(self, error: Floats, period: float) -> None:
+        """Command what the PID makes of the errors, shape (nworld, joints)."""
+        self._error, self._period = error, period
+        self._joints.set_command(self._pid.compute(error, period))
+        for port in self._statuses:
+            port.publish()
+        if self._states is not None and self._updates % _EVERY == 0:
+            self._states.publish()
+        self._updates += 1
+
+    def measured(self) -> tuple[Floats, Floats]:
+        """What is controlled, and its rate, shape (nworld, joints)."""
+        return self._joints.position, self._joints.velocity
+
+    def begin(self, rows: Worlds) -> None:
+        """Begin anew in some worlds."""
+        self._targets[rows] = 0.0
+        self._pid.reset(rows)
+
+    def starting(self, time: float) -> None:  # noqa: ARG002  at any time
+        """Keep the joints as they are."""
+        self._updates = 0
+        self.begin(np.arange(self.nworld))
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Keep the joints as they were put."""
+        self.begin(self.rows(worlds))
+
+    def _tell(self) -> JointControlState:
+        value, rate = self.measured()
+        gains = self._pid.gains[0]
+        return JointControlState(
+            self.now_ns,
+            self._targets[:, 0].copy(),
+            value[:, 0],
+            rate[:, 0],
+            self._error[:, 0].copy(),
+            self._period,
+            self._joints.command()[:, 0],
+            gains.p,
+            gains.i,
+            gains.d,
+            gains.i_max,
+            gains.antiwindup,
+        )
+
+    def _status(self, loop: int) -> PidStatus:
+        pid, gains = self._pid, self._pid.gains[loop]
+        error, rate = pid.p_error[:, loop].copy(), pid.d_error[:, loop].copy()
+        return PidStatus(
+            self.now_ns,
+            self._period,
+            error,
+            rate,
+            error,
+            pid.i_error[:, loop].copy(),
+            rate,
+            gains.p * error,
+            pid.i_term[:, loop],
+            gains.d * rate,
+            gains.i_max,
+            gains.i_min,
+            pid.output[:, loop].copy(),
+        )
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Targets and sums."""
+        kept = {f"pid/{name}": value for name, value in self._pid.state().items()}
+        return {"targets": self._targets.copy(), "updates": np.array(self._updates), **kept}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._targets[:] = state["targets"]
+        self._updates = int(state["updates"])
+        self._pid.restore({name: state[f"pid/{name}"] for name in ("p", "i", "last")})
+
+
+class PositionTargets(PidControl):
+    """Positions by PID, within the limits of the URDF."""
+
+    def limit(self, names: tuple[str, ...]) -> None:
+        """Read the limits of the joints."""
+        described = [self.description_of(name) for name in names]
+        limits = [JointLimits.of_joint(joint) for joint in described]
+        self._lower = np.array([each.lower for each in limits])
+        self._upper = np.array([each.upper for each in limits])
+        self._turning = np.array([joint.type != "prismatic" for joint in described], bool)
+        self._endless = self._turning & np.isinf(self._lower) & np.isinf(self._upper)
+
+    def begin(self, rows: Worlds) -> None:
+        """Hold positions, within limits."""
+        super().begin(rows)
+        self._targets[rows] = np.clip(self._joints.position[rows], self._lower, self._upper)
+
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  at any time
+        """Push towards the targets, the way round that limits allow."""
+        self._targets[:] = np.clip(self._targets, self._lower, self._upper)
+        position = self._joints.position
+        turned = distance(position, self._targets, self._endless, self._lower, self._upper)
+        self.push(np.where(self._turning, turned, self._targets - position), period)
+
+
+class JointPositionController(PositionTargets):
+    """One joint to a position, by efforts or by velocities."""
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read ``joint`` and ``pid``."""
+        names = (parameters.text("joint"),)
+        self.limit(names)
+        self.control(names, [("pid", parameters.part("pid"))])
+        self.open_state()
+        self.add_input("command", JointTarget, self._receive)
+
+    def _receive(self, target: JointTarget, worlds: Worlds | None) -> None:
+        self.take(target.value, worlds)
+
+
+class JointGroupPositionController(PositionTargets):
+    """Several joints to positions, by efforts."""
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read ``joints`` and ``JOINT/pid``."""
+        names = parameters.names("joints")
+        self.limit(names)
+        self.control(names, [(f"{name}/pid", parameters.part(f"{name}/pid")) for name in names])
+        self.add_input("command", JointTargets, self._receive)
+
+    def _receive(self, targets: JointTargets, worlds: Worlds | None) -> None:
+        self.take(targets.values, worlds)
+
+
+class JointVelocityController(PidControl):
+    """One joint to a velocity, by efforts."""
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read ``joint`` and ``pid``."""
+        self.control((parameters.text("joint"),), [("pid", parameters.part("pid"))])
+        self.open_state()
+        self.add_input("command", JointTarget, self._receive)
+
+    def _receive(self, target: JointTarget, worlds: Worlds | None) -> None:
+        self.take(target.value, worlds)
+
+    def measured(self) -> tuple[Floats, Floats]:
+        """Velocities; of accelerations nothing is known, and efforts are told as in the original."""
+        return self._joints.velocity, self._joints.effort
+
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  at any time
+        """Push towards the targets."""
+        self.push(self._targets - self._joints.velocity, period)

@@ -1,0 +1,66 @@
+"""Controllers that publish sensors of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Worlds
+from gazelle.control.controller import Controller
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.publishing import PublishingSchedule
+from gazelle.control.values import ImuSample, StampedWrench
+
+
+class SensorController(Controller):
+    """Publishes each sensor of its interface below the sensor's name, at ``publish_rate``."""
+
+    kind: type[Any]
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read ``publish_rate``, open the ports."""
+        names = self.hardware.interface(self.interfaces[0]).resources
+        self._schedule = PublishingSchedule(parameters.number("publish_rate"))
+        measures: list[Callable[[], Any]] = self.resources(self.interfaces[0], names)
+        self._ports = [
+            self.add_output(name, self.kind, measure, topic=name, queue_size=4)
+            for name, measure in zip(names, measures, strict=True)
+        ]
+
+    def starting(self, time: float) -> None:  # noqa: ARG002  the manager's clock is exact
+        """Publish at the next update."""
+        self._schedule.start(self.now_ns)
+
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  as above
+        """Publish when it is due."""
+        if self._schedule.is_due(self.now_ns):
+            for port in self._ports:
+                port.publish()
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Publish at once if time began anew."""
+        if worlds is None:
+            self._schedule.start(self.now_ns)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """When it is due."""
+        return self._schedule.state()
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._schedule.restore(state)
+
+
+class ImuSensorController(SensorController):
+    """IMUs: ``imu_sensor_controller``."""
+
+    kind = ImuSample
+
+
+class ForceTorqueSensorController(SensorController):
+    """Force-torque sensors: ``force_torque_sensor_controller``."""
+
+    kind = StampedWrench

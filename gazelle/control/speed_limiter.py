@@ -1,0 +1,74 @@
+"""Limits of the velocity, acceleration and jerk of a base."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.control.parameters import ControllerParameters
+from gazelle.errors import ControlError
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedLimiter:
+    """Bounds of one velocity: least and greatest; infinite where there are none.
+
+    Attributes:
+        velocity: [m/s or rad/s].
+        acceleration: [m/s² or rad/s²].
+        jerk: [m/s³ or rad/s³].
+    """
+
+    velocity: tuple[float, float] = (-math.inf, math.inf)
+    acceleration: tuple[float, float] = (-math.inf, math.inf)
+    jerk: tuple[float, float] = (-math.inf, math.inf)
+
+    @classmethod
+    def read(cls, given: ControllerParameters) -> SpeedLimiter:
+        """From ``has_X_limits``, ``max_X`` and ``min_X``, which is ``-max_X`` if missing.
+
+        Raises:
+            ControlError: There are limits without a ``max_X``, or the wrong way round.
+        """
+        return cls(
+            _bounds(given, "velocity"), _bounds(given, "acceleration"), _bounds(given, "jerk")
+        )
+
+    def limit(self, wanted: Floats, before: Floats, earlier: Floats, dt: float) -> Floats:
+        """What may be driven, shape (n,): jerk first, then acceleration, then velocity.
+
+        Args:
+            wanted: Velocity now, shape (n,).
+            before: The last one, likewise.
+            earlier: The one before that, likewise.
+            dt: Since the last one [s].
+        """
+        held = wanted
+        if math.isfinite(self.jerk[0]) or math.isfinite(self.jerk[1]):
+            change, last = held - before, before - earlier
+            square = 2.0 * dt * dt
+            held = before + last + _clip(change - last, self.jerk, square)
+        if math.isfinite(self.acceleration[0]) or math.isfinite(self.acceleration[1]):
+            held = before + _clip(held - before, self.acceleration, dt)
+        return _clip(held, self.velocity, 1.0)
+
+
+def _clip(values: Floats, bounds: tuple[float, float], factor: float) -> Floats:
+    low, high = (bound * factor if math.isfinite(bound) else bound for bound in bounds)
+    held: Floats = np.minimum(np.maximum(values, low), high)
+    return held
+
+
+def _bounds(given: ControllerParameters, what: str) -> tuple[float, float]:
+    if not given.flag(f"has_{what}_limits", default=False):
+        return (-math.inf, math.inf)
+    most = given.number(f"max_{what}")
+    least = given.number(f"min_{what}", -most)
+    if least > most:
+        raise ControlError(
+            f"'{given.place}/min_{what}' ({least:g}) is above 'max_{what}' ({most:g})"
+        )
+    return least, most
