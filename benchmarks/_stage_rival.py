@@ -18,7 +18,7 @@ from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
 from gazelle.native.system import System
 from gazelle.simulation.stage import Controller, StageSimulation, register_controller
-from gazelle.simulation.stage.layout import layout_of
+from gazelle.engines.planar.stage_layout import layout_of
 from gazelle.simulation.stage.opening import stage_of
 
 ABSENT = """

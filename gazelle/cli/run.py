@@ -33,12 +33,10 @@ if TYPE_CHECKING:
     from gazelle.bridges.stage import StageServer
     from gazelle.description.stage import StageWorld
     from gazelle.simulation import Simulation
-    from gazelle.simulation.stage import StageSimulation
-
-    Running = Simulation | StageSimulation
 
 _STATUS_EVERY = 0.5
 _SLICE = 0.05
+_MANY = 20  # models beyond which their names are not listed
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -99,25 +97,20 @@ def run(args: argparse.Namespace) -> int:
     _listen_to_signals()
     sys.path[:0] = args.plugins
     world = formats.load(args.file)
-    fleet = world.stage is not None and args.engine in {None, "planar"}
-    args.rate = _pace(args.rate, world.stage)
+    _take_from_file(args, world.stage)
     if args.ros:
         from gazelle.bridges import refuse_twin
 
-        refuse_twin("stageros" if fleet else "gazebo")
-    if world.stage is not None and fleet:
-        return _run_fleet(world.stage, args)
+        refuse_twin("stageros" if world.stage and args.engine == "planar" else "gazebo")
     from gazelle.simulation import Simulation
 
-    engine = args.engine or "mujoco"
-    with Simulation(world, engine, seed=args.seed) as sim:
+    with Simulation(world, args.engine, seed=args.seed) as sim:
         for plugin in args.system:
             sim.load_plugin(plugin)
         said = [spawn(sim, robot) for robot in args.spawn]
-        models = ", ".join(sim.robots) or "no models"
-        sys.stdout.write(f"world '{sim.world.name}': {models}\n")
+        sys.stdout.write(f"world '{sim.world.name}': {_listed(sim)}\n")
         sys.stdout.writelines(f"{line}\n" for line in said if line)
-        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {engine}\n")
+        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
         with viewing(sim, args):
             return _serve(sim, args) if args.ros else _go(sim, args)
@@ -130,24 +123,23 @@ def _listen_to_signals() -> None:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
-def _run_fleet(world: StageWorld, args: argparse.Namespace) -> int:
-    """Run a Stage file's robots in the plane."""
-    from gazelle.simulation.stage import StageSimulation
-
-    if args.spawn:
-        args.parser.error("--spawn puts robots into worlds in space; this is a Stage file")
-    if args.seconds is None and not args.paused and world.quit_time > 0.0:
-        args.seconds = world.quit_time
-    with StageSimulation(world, seed=args.seed) as sim:
-        count = len(sim.robots)
-        sys.stdout.write(f"Stage world '{world.name}': {count} robot{'s' * (count != 1)}\n")
-        sys.stdout.write(f"step {sim.clock.step_ns / 1e6:g} ms, in the plane\n")
-        sys.stdout.flush()
-        with viewing(sim, args):
-            return _serve_fleet(sim, args) if args.ros else _go(sim, args)
+def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
+    """Engine, pace, pause and end as a Stage file says, where nothing else is asked for."""
+    if stage is None:
+        args.engine, args.rate = args.engine or "mujoco", _pace(args.rate, 1.0)
+        return
+    args.engine, args.rate = args.engine or "planar", _pace(args.rate, stage.speedup)
+    if args.seconds is None and not args.paused and stage.quit_time > 0.0:
+        args.seconds = stage.quit_time
 
 
-def _go(sim: Running, args: argparse.Namespace) -> int:
+def _listed(sim: Simulation) -> str:
+    """The models, or how many there are if they are many."""
+    names = list(sim.robots)
+    return ", ".join(names) or "no models" if len(names) <= _MANY else f"{len(names)} models"
+
+
+def _go(sim: Simulation, args: argparse.Namespace) -> int:
     """Run until the end of the time, or Ctrl-C."""
     status = _Status(sim)
     try:
@@ -164,7 +156,7 @@ def _go(sim: Running, args: argparse.Namespace) -> int:
 class _Status:
     """A line with simulated time and real-time factor, rewritten in place on a terminal."""
 
-    def __init__(self, sim: Running) -> None:
+    def __init__(self, sim: Simulation) -> None:
         self._sim = sim
         self._live = sys.stderr.isatty()
         self._start = time.monotonic()
@@ -184,7 +176,7 @@ class _Status:
         sys.stderr.flush()
 
 
-def _advance(sim: Running, seconds: float | None, rate: float | None, status: _Status) -> None:
+def _advance(sim: Simulation, seconds: float | None, rate: float | None, status: _Status) -> None:
     """Step in slices of wall time, so that the status and Ctrl-C are prompt."""
     least = sim.clock.step_ns / 1e9
     piece = max(_SLICE * (rate or 1.0), least)
@@ -203,27 +195,21 @@ def _advance(sim: Running, seconds: float | None, rate: float | None, status: _S
 def _serve(sim: Simulation, args: argparse.Namespace) -> int:
     """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
     from gazelle.bridges import serve_ros
+    from gazelle.bridges.stage import serve_stage
 
     if args.paused:
         sim.pause()
+    if sim.stage is not None:
+        with serve_stage(sim, rate=args.rate) as server:
+            if sim.paused:
+                sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
+            return _attend(sim, server, args)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     with serve_ros(sim) as door:
         return _attend(sim, door, args)
 
 
-def _serve_fleet(sim: StageSimulation, args: argparse.Namespace) -> int:
-    """Be the ROS node that stage_ros would be, until Ctrl-C or the end of the time."""
-    from gazelle.bridges.stage import serve_stage
-
-    if args.paused:
-        sim.pause()
-    with serve_stage(sim, rate=args.rate) as server:
-        if sim.paused:
-            sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
-        return _attend(sim, server, args)
-
-
-def _attend(sim: Running, door: RosDoor | StageServer, args: argparse.Namespace) -> int:
+def _attend(sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespace) -> int:
     sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n")
     sys.stdout.flush()
     status = _Status(sim)
@@ -236,7 +222,7 @@ def _attend(sim: Running, door: RosDoor | StageServer, args: argparse.Namespace)
     return 0
 
 
-def _hold(sim: Running) -> None:
+def _hold(sim: Simulation) -> None:
     """Wait while the simulation is paused."""
     sim.pause()
     sys.stderr.write("paused; Ctrl-C ends it\n")
@@ -249,8 +235,7 @@ def _rate(text: str) -> float:
     return math.inf if text == "max" else positive_float(text)
 
 
-def _pace(asked: float | None, stage: StageWorld | None) -> float | None:
+def _pace(asked: float | None, usual: float) -> float | None:
     """The real-time factor to keep to, None for as fast as possible."""
-    if asked is None and stage is not None:
-        asked = stage.speedup if stage.speedup > 0.0 else math.inf
-    return None if asked == math.inf else asked or 1.0
+    wanted = asked or (usual if usual > 0.0 else math.inf)
+    return None if wanted == math.inf else wanted

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation
-    from gazelle.simulation.stage import StageSimulation
 
 
 def add_view(parser: argparse.ArgumentParser) -> None:
@@ -24,9 +23,7 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def viewing(
-    sim: Simulation | StageSimulation, args: argparse.Namespace
-) -> AbstractContextManager[object]:
+def viewing(sim: Simulation, args: argparse.Namespace) -> AbstractContextManager[object]:
     """The page while the simulation runs, if it is wanted.
 
     Raises:

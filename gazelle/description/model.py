@@ -11,6 +11,7 @@ from gazelle.description.parameters import Parameters
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
+from gazelle.description.stage import StageModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +69,7 @@ class Model:
         plugins: In file order.
         transmissions: From URDF.
         extras: Elements kept whole: gripper, ...
+        stage: All that a Stage file says of it, which the links are made of; else None.
     """
 
     name: str
@@ -85,6 +87,7 @@ class Model:
     plugins: tuple[Plugin, ...] = ()
     transmissions: tuple[Transmission, ...] = ()
     extras: tuple[Parameters, ...] = ()
+    stage: StageModel | None = field(default=None, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
     def walk(self, prefix: str = "", pose: Pose | None = None) -> Iterator[PlacedModel]:

@@ -12,6 +12,7 @@ from gazelle.engines.engine import (
     Hits,
     Motion,
     Placement,
+    changes_of,
 )
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.engines.registry import EngineFactory, find
@@ -32,6 +33,7 @@ __all__ = [
     "Placement",
     "SystemEngine",
     "Wrench",
+    "changes_of",
     "engine_names",
     "make_engine",
     "register_engine",

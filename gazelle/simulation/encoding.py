@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gazelle import description
-from gazelle.description import Pose
+from gazelle.description import Pose, StagePose, StageSize
 from gazelle.engines import Call
 from gazelle.errors import SimulationError
 
@@ -55,6 +55,7 @@ _WRITERS: tuple[tuple[Any, Callable[[Any], Any]], ...] = (
     (Pose, lambda v: {"#": "pose", "position": v.position, "quaternion": v.quaternion}),
     (Path, lambda v: {"#": "path", "path": str(v)}),
     (Call, lambda v: {"#": "call", "method": v.method, "arguments": encode(v.arguments)}),
+    ((StagePose, StageSize), lambda v: {"#": type(v).__name__, "items": list(v)}),
     (tuple, lambda v: {"#": "tuple", "items": [encode(each) for each in v]}),
     (list, lambda v: [encode(each) for each in v]),
     (Mapping, lambda v: {"#": "map", "items": [[encode(k), encode(x)] for k, x in v.items()]}),
@@ -98,5 +99,7 @@ _READERS: dict[str, Callable[[dict[str, Any]], Any]] = {
     "map": lambda v: {decode(key): decode(each) for key, each in v["items"]},
     "path": lambda v: Path(v["path"]),
     "pose": _pose,
+    "StagePose": lambda v: StagePose(*v["items"]),
+    "StageSize": lambda v: StageSize(*v["items"]),
     "tuple": lambda v: tuple(decode(each) for each in v["items"]),
 }

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.simulation.loading import adopt
+from gazelle.simulation.loading import adopt, is_plain, run_stage
 from gazelle.simulation.robot import Robot
+from gazelle.simulation.robots import MadeOnDemand
 from gazelle.simulation.sensors import SensorUnit
 from gazelle.simulation.stepping import ScheduledPlugin
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 
 class EntityManager:
@@ -30,7 +33,9 @@ class EntityManager:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        self.robots: dict[str, Robot] = {}
+        self.robots: MadeOnDemand[Robot] = MadeOnDemand(self._make)
+        self._awaited: dict[str, Model] = {}
+        self._stage: StageFleet | None = None
         self.sensors: list[SensorUnit] = []
         self.plugins: list[ScheduledPlugin] = []
 
@@ -51,13 +56,49 @@ class EntityManager:
         self._simulation.events.spawned.tell(robot)
         return robot
 
+    @property
+    def stage(self) -> StageFleet | None:
+        """All robots of Stage files, as arrays; None without."""
+        return self._stage
+
+    def adopt_all(self, models: Sequence[Model]) -> None:
+        """Make the handles of models that the engine has, and start their plugins.
+
+        Those of Stage files are run all together, so that a handle can wait until it is needed.
+        """
+        self._look_for_stage(models)
+        for model in models:
+            if self._stage is not None and is_plain(model):
+                self._awaited[model.name] = model
+                self.robots.put_off(model.name)
+            else:
+                self.adopt(model, "")
+
     def adopt(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model that the engine has, and start its plugins."""
-        robot = Robot(self._simulation, model, namespace)
+        self._look_for_stage((model,))
+        stage = self._stage if model.stage is not None else None
+        robot = Robot(self._simulation, model, namespace, stage)
         self.robots[model.name] = robot
         self.sensors.extend(robot.sensors.values())
-        adopt(self._simulation, model, robot)
+        adopt(self._simulation, model, robot, stage)
         return robot
+
+    def _look_for_stage(self, models: Sequence[Model]) -> None:
+        """Run models of Stage files as Stage does, if the engine can."""
+        simulation = self._simulation
+        of_stage = simulation.world.stage is not None
+        if self._stage is None and (of_stage or any(m.stage is not None for m in models)):
+            self._stage = run_stage(simulation)
+
+    def _make(self, name: str) -> Robot:
+        """The handle of a model that was put off."""
+
+        def make() -> Robot:
+            model = self._awaited.pop(name, None)
+            return self.robots[name] if model is None else self.adopt(model, "")
+
+        return self._simulation.requests.call(make)
 
     def delete(self, name: str) -> None:
         """Take a model out of every world, with its plugins.
@@ -72,6 +113,7 @@ class EntityManager:
             )
         self.plugins[:] = [entry for entry in self.plugins if entry.owner != name]
         gone = self.robots.pop(name, None)
+        self._awaited.pop(name, None)
         self.sensors[:] = [unit for unit in self.sensors if unit.robot is not gone]
         simulation.loads.forget(name)
         simulation.parameters.pose.forget(name)
@@ -90,7 +132,7 @@ class EntityManager:
         rewind = worlds is None and time
         if rewind:
             simulation.clock.now_ns = 0
-        for ports in (simulation.ports, *self.robots.values()):
+        for ports in (simulation.ports, *self.robots.made()):
             for port in ports.inputs.values():
                 port.clear(worlds)
             for output in ports.outputs.values():

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, cast
 
 from gazelle import description
-from gazelle.description import Model
+from gazelle.description import Link, Model
 from gazelle.errors import SimulationWarning, located
+from gazelle.formats.stage.plugins import STAND_INS, without_stand_ins
 from gazelle.simulation import registry
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
 from gazelle.simulation.plugin_errors import warn_of_fault
@@ -17,6 +19,7 @@ from gazelle.simulation.stepping import make_scheduled, title
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 _PLACES: dict[type[Plugin], str] = {
     ModelPlugin: "model",
@@ -26,8 +29,50 @@ _PLACES: dict[type[Plugin], str] = {
 }
 
 
-def adopt(simulation: Simulation, model: Model, robot: Robot) -> None:
-    """Start the plugins of a model that the engine has, in file order."""
+def run_stage(simulation: Simulation) -> StageFleet | None:
+    """Run the models of Stage files as Stage does; None if the engine moves them in another way."""
+    from gazelle.engines.planar import PlanarEngine
+    from gazelle.simulation.stage.fleet import StageFleet
+    from gazelle.simulation.stage.running import StageRunner
+
+    engine = simulation.engine
+    if not isinstance(engine, PlanarEngine):
+        return None
+    fleet = StageFleet(engine, simulation.clock, simulation.requests, simulation.seed)
+    runner = StageRunner(fleet, simulation.loop, lambda: simulation.native is not None)
+    simulation.plugins.append(make_scheduled(runner, "stage", ""))
+    return fleet
+
+
+def is_plain(model: Model) -> bool:
+    """Whether a model is all of a Stage file, without plugins of its own."""
+    return model.stage is not None and not any(
+        plugin.filename not in STAND_INS
+        for plugin in (*model.plugins, *(p for link in model.links for p in _plugins_on(link)))
+    )
+
+
+def _plugins_on(link: Link) -> Iterator[description.Plugin]:
+    for visual in link.visuals:
+        yield from visual.plugins
+    for sensor in link.sensors:
+        yield from sensor.plugins
+
+
+def adopt(
+    simulation: Simulation, model: Model, robot: Robot, stage: StageFleet | None = None
+) -> None:
+    """Start the plugins of a model that the engine has, in file order.
+
+    Args:
+        simulation: Runs.
+        model: That.
+        robot: Its handle.
+        stage: Moves it, and lets it see; plugins that do so in other engines are left out.
+    """
+    if stage is not None:
+        robot.inputs.update(stage.open(model.name))
+        model = without_stand_ins(model)
     for placed in model.walk():
         for plugin in placed.model.plugins:
             _start(simulation, ModelPlugin, robot, plugin, robot)
@@ -36,7 +81,8 @@ def adopt(simulation: Simulation, model: Model, robot: Robot) -> None:
                 _start(simulation, VisualPlugin, robot, plugin, robot)
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
-            _start(simulation, SensorPlugin, unit, plugin, robot)
+            if stage is None or plugin.filename not in STAND_INS:
+                _start(simulation, SensorPlugin, unit, plugin, robot)
 
 
 def load_world_plugin(simulation: Simulation, plugin: description.Plugin) -> None:

@@ -13,31 +13,31 @@ from gazelle.simulation.inputs import number
 _SLICE = 0.02
 
 
-def run_paced(advance: Callable[[float], None], seconds: float, rate: float | None) -> None:
-    """Advance by simulated seconds, at ``rate`` simulated seconds a wall second at most.
+def run_paced(advance: Callable[[int], None], count: int, step: float, rate: float | None) -> None:
+    """Advance by steps, at ``rate`` simulated seconds a wall second at most.
 
     Args:
-        advance: Steps by simulated seconds.
-        seconds: How long in all [s].
+        advance: Makes steps.
+        count: How many in all.
+        step: Of simulated time [s].
         rate: Real-time factor to keep to; None means as fast as possible.
 
     Raises:
         SimulationError: No such pace can be kept to.
     """
     if rate is None:
-        advance(seconds)
+        advance(count)
         return
     if not 0.0 < number("a real-time factor", rate) < math.inf:
         raise SimulationError(
             f"a real-time factor must be positive and finite, not {rate!r}",
             hint="leave it out to run as fast as possible",
         )
-    start = time.monotonic()
-    done = 0.0
-    while done < seconds - 1e-12:
-        piece = min(_SLICE, seconds - done)
+    start, done, most = time.monotonic(), 0, max(1, int(_SLICE / step))
+    while done < count:
+        piece = min(most, count - done)
         advance(piece)
         done += piece
-        ahead = done / rate - (time.monotonic() - start)
+        ahead = done * step / rate - (time.monotonic() - start)
         if ahead > 0.0:
             time.sleep(ahead)

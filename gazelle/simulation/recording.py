@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.closing import Closeable
-from gazelle.engines import CHANGES, Call, DivergenceError, Engine
+from gazelle.engines import Call, DivergenceError, Engine, changes_of
 from gazelle.errors import Error
 from gazelle.simulation.encoding import encode
 
@@ -73,14 +73,14 @@ class Recorder(Closeable):
         self._write(first)
         # What systems change is not called: plugins do it themselves meanwhile.
         self._native, simulation.native = simulation.native, None
-        for name in CHANGES:
+        for name in changes_of(self._engine):
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
         with self._simulation.requests:
             if not self._file.closed:
-                for name in CHANGES:
+                for name in changes_of(self._engine):
                     delattr(self._engine, name)
                 self._simulation.native = self._native
                 self._flush()

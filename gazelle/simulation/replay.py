@@ -9,7 +9,7 @@ from typing import Any
 
 from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
-from gazelle.engines import CHANGES, DivergenceError
+from gazelle.engines import DivergenceError, changes_of
 from gazelle.errors import EngineError, SimulationError
 from gazelle.simulation.encoding import decode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
@@ -102,7 +102,7 @@ class Replay(Closeable):
             simulation.spawn(_bare(arguments[0]))
         elif name == "delete":
             simulation.delete(arguments[0])
-        elif name not in CHANGES:
+        elif name not in changes_of(engine):
             raise ValueError(f"there is no change '{name}'")
         else:
             options = decode(event["options"]) if "options" in event else {}

@@ -23,6 +23,7 @@ from gazelle.simulation.sensors import SensorUnit
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 T = TypeVar("T")
 
@@ -36,7 +37,7 @@ class Named(Mapping[str, T]):
         scope: May stand before the names, with ``::`` between them, as in Gazebo.
     """
 
-    def __init__(self, kind: str, items: dict[str, T], scope: str = "") -> None:
+    def __init__(self, kind: str, items: Mapping[str, T], scope: str = "") -> None:
         self._kind = kind
         self._items = items
         self._scope = f"{scope}::" if scope else ""
@@ -79,7 +80,13 @@ class Robot(Ports):
         managers: Of its controllers, by namespace; one for each ``libgazebo_ros_control.so`` that it has.
     """
 
-    def __init__(self, simulation: Simulation, model: Model, namespace: str = "") -> None:
+    def __init__(
+        self,
+        simulation: Simulation,
+        model: Model,
+        namespace: str = "",
+        stage: StageFleet | None = None,
+    ) -> None:
         super().__init__(simulation.requests)
         self.simulation = simulation
         self._requests = simulation.requests
@@ -94,7 +101,7 @@ class Robot(Ports):
             f"moving joint {own}", _joint_handles(simulation, model), self.name
         )
         self.sensors: Mapping[str, SensorUnit] = Named(
-            f"sensor {own}", _sensor_units(self, model), self.name
+            f"sensor {own}", _sensor_units(self, model, stage), self.name
         )
 
     @property
@@ -311,8 +318,14 @@ def _joint_handles(simulation: Simulation, model: Model) -> dict[str, JointHandl
     }
 
 
-def _sensor_units(robot: Robot, model: Model) -> dict[str, SensorUnit]:
+def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[str, SensorUnit]:
     simulation = robot.simulation
+    if stage is not None:
+        base = f"{model.name}::{model.links[0].name}"
+        return {
+            sensor.name: SensorUnit(robot, sensor, f"{base}::{sensor.name}", made)
+            for sensor, made in stage.sensor_models(model)
+        }
     units: dict[str, SensorUnit] = {}
     for mount in mounts(simulation.engine, model, simulation.seed):
         made = sensor_model(mount)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.description import World
 from gazelle.errors import Error, SimulationError
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.ports import TwistInput
@@ -63,7 +64,7 @@ def _gather(simulation: Simulation) -> dict[str, NDArray[Any]]:
     header |= {
         "seed": simulation.seed,
         "history": encode(simulation.engine.history()),
-        "laws": encode(replace(simulation.engine.world, models=(), plugins=())),
+        "laws": encode(_laws_of(simulation.engine.world)),
         "loads": encode(simulation.loads.state()),
         "parameters": encode(simulation.parameters.state()),
     }
@@ -148,8 +149,9 @@ def _restore_engine(simulation: Simulation, header: dict[str, Any], state: Any) 
     """Bring laws, motors, attachments and parameters back, then the state."""
     engine = simulation.engine
     laws = decode(header["laws"])
-    if _plain(replace(engine.world, models=(), plugins=())) != header["laws"]:
-        engine.update_world(replace(laws, plugins=engine.world.plugins))
+    if _plain(_laws_of(engine.world)) != header["laws"]:
+        world = engine.world
+        engine.update_world(replace(laws, plugins=world.plugins, stage=world.stage))
         simulation.clock.set_step(engine.time_step)
     if _plain(engine.history()) != header["history"]:
         engine.adopt(decode(header["history"]))
@@ -171,6 +173,11 @@ def _parts(simulation: Simulation) -> Mapping[str, Any]:
 
 def _names(simulation: Simulation) -> list[str]:
     return [*simulation.engine.link_names, *sorted(_parts(simulation))]
+
+
+def _laws_of(world: World) -> World:
+    """All of a world but what files put into it."""
+    return replace(world, models=(), plugins=(), stage=None)
 
 
 def _plain(value: Any) -> Any:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from threading import get_ident
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,7 @@ from gazelle.engines import Engine, SystemEngine, make_engine
 from gazelle.errors import SimulationError
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
-from gazelle.simulation.clock import Clock
+from gazelle.simulation.clock import NANOSECONDS, Clock
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.events import Events
 from gazelle.simulation.faults import Fault, FaultLog
@@ -38,6 +38,9 @@ from gazelle.simulation.sharing import shared
 from gazelle.simulation.stepping import ScheduledPlugin, indices_of
 from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
+
+if TYPE_CHECKING:
+    from gazelle.simulation.stage.fleet import StageFleet
 
 
 class Simulation(Closeable):
@@ -107,8 +110,7 @@ class Simulation(Closeable):
         with self.requests:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
-            for model in loaded.models:
-                self.entities.adopt(model, "")
+            self.entities.adopt_all(loaded.models)
 
     # -- what there is -----------------------------------------------------------------
 
@@ -147,6 +149,14 @@ class Simulation(Closeable):
         """Simulated time [s]."""
         return self.clock.now
 
+    @property
+    def stage(self) -> StageFleet | None:
+        """All robots of a Stage file as arrays: poses, commands, scans, what else they sense.
+
+        None without such robots, and with an engine that does not move them as Stage does.
+        """
+        return self.entities.stage
+
     # -- time --------------------------------------------------------------------------
 
     def step(self, count: int = 1) -> None:
@@ -172,10 +182,15 @@ class Simulation(Closeable):
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
         pacing.run_paced(
-            lambda piece: self.loop.walk(self.clock.steps_in(piece), lambda: self.paused),
-            inputs.duration(seconds),
+            lambda count: self.loop.walk(count, lambda: self.paused),
+            self.clock.steps_in(inputs.duration(seconds)),
+            self.clock.step_ns / NANOSECONDS,
             rate,
         )
+
+    def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Have something called after every step, between two steps; returns what ends it."""
+        return self.requests.call(lambda: self.loop.listen(listener))
 
     def pause(self) -> None:
         """Let ``run`` refuse to run."""

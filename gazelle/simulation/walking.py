@@ -45,6 +45,7 @@ class StepLoop:
 
     Attributes:
         cut: Whether the last steps ended for the sake of others, with nothing due.
+        followers: Called after every step, before sensors measure.
     """
 
     def __init__(
@@ -59,6 +60,18 @@ class StepLoop:
         self._schedules: list[Schedule] = []
         self._most = 1
         self.cut = False
+        self.followers: list[Callable[[], None]] = []
+        self._listeners: list[Callable[[], None]] = []
+
+    def listen(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Have something called after every step, when sensors have measured."""
+        self._listeners.append(listener)
+
+        def end() -> None:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+
+        return end
 
     def walk(self, count: int, stop: Callable[[], bool]) -> None:
         """Make steps, and what others ask for between two of them.
@@ -107,6 +120,8 @@ class StepLoop:
             raise SimulationError(CLOSED)
         if loads.any:
             loads.update(clock.now_ns)
+        if self.followers or self._listeners:
+            most = 1
         steps = steps_to_next(plugins, sensors, clock, most)
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
@@ -120,13 +135,21 @@ class StepLoop:
             self._give_up(error, steps)
         else:
             clock.advance(steps)
-        update_sensors(sensors, clock.now_ns)
+        self._look_back()
         return steps
+
+    def _look_back(self) -> None:
+        """After steps: move what follows, measure, tell who listens."""
+        for follower in tuple(self.followers):
+            follower()
+        update_sensors(self._entities.sensors, self._simulation.clock.now_ns)
+        for listener in tuple(self._listeners):
+            listener()
 
     def _step(self, count: int) -> None:
         """Make steps, and update systems whenever they are due."""
         native = self._simulation.native
-        if native is None or not self._systems:
+        if native is None:
             self._engine.step(count)
             return
         native.run(self._systems, count, self._simulation.clock.now_ns)

@@ -13,7 +13,6 @@ from PIL import Image
 from gazelle.array_types import Picture
 from gazelle.errors import Error, did_you_mean
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan import TopView
 
 _STILLS = (".png", ".jpg", ".jpeg", ".webp")
@@ -21,7 +20,7 @@ _FILMS = (".gif", ".mp4")
 
 
 def take_plan(
-    simulation: Simulation | StageSimulation,
+    simulation: Simulation,
     path: str | Path,
     *,
     world: int = 0,
@@ -31,7 +30,7 @@ def take_plan(
     """Draw a world of the planar engine from above into a file; needs no screen.
 
     Args:
-        simulation: A Stage world, or any with ``engine="planar"``.
+        simulation: Of a world with ``engine="planar"``.
         path: ``.png``, ``.jpg`` or ``.webp``.
         world: Which world of a batch.
         size: Width and height [pixel].
@@ -51,7 +50,7 @@ def take_plan(
 
 
 def film_plan(
-    simulation: Simulation | StageSimulation,
+    simulation: Simulation,
     path: str | Path,
     seconds: float,
     *,
@@ -89,9 +88,7 @@ def film_plan(
     return count + 1
 
 
-def _shots(
-    simulation: Simulation | StageSimulation, view: TopView, count: int, period: float
-) -> Iterator[Picture]:
+def _shots(simulation: Simulation, view: TopView, count: int, period: float) -> Iterator[Picture]:
     """The first picture, and one after each period."""
     start = simulation.time
     yield view.look()

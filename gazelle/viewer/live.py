@@ -13,7 +13,6 @@ from typing import Any, ClassVar
 from gazelle.closing import Closeable
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.live_world import LiveWorld
 
 _HOST = "127.0.0.1"
@@ -33,7 +32,7 @@ class LiveView(Closeable):
     can change anything through it. While no page is open it costs nothing.
 
     Args:
-        simulation: A Stage world, or any with ``engine="planar"``.
+        simulation: Of a world with ``engine="planar"``.
         world: Which world of a batch.
         port: Of the server; any free one if 0.
         rate: Pictures a second.
@@ -48,7 +47,7 @@ class LiveView(Closeable):
 
     def __init__(
         self,
-        simulation: Simulation | StageSimulation,
+        simulation: Simulation,
         *,
         world: int = 0,
         port: int = 0,

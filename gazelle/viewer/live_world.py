@@ -11,7 +11,6 @@ from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan import colour_of, extent_of, fleet_of, rays_of
 from gazelle.viewer.plan_scans import scanners_of
 
@@ -25,14 +24,14 @@ class LiveWorld:
     """Looks at one world; called between two steps only.
 
     Args:
-        simulation: A Stage world, or any with ``engine="planar"``.
+        simulation: Of a world with ``engine="planar"``.
         world: Which world of a batch.
 
     Raises:
         Error: The simulation is not in the plane, or there is no such world.
     """
 
-    def __init__(self, simulation: Simulation | StageSimulation, world: int) -> None:
+    def __init__(self, simulation: Simulation, world: int) -> None:
         self._simulation, self._world = simulation, world
         self._fleet = fleet_of(simulation)
         if not 0 <= world < self._fleet.nworld:

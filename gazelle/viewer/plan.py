@@ -14,7 +14,6 @@ from gazelle.engines.planar import Fleet, PlanarEngine, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageSimulation
 from gazelle.viewer.plan_scans import scanners_of
 
 Colour = tuple[int, int, int]
@@ -38,7 +37,7 @@ class TopView:
     """Draws a world of the planar engine from above; needs no screen.
 
     Args:
-        simulation: A Stage world, or any with ``engine="planar"``.
+        simulation: Of a world with ``engine="planar"``.
         world: Which world of a batch.
         size: Width and height of pictures [pixel].
         scans: Whether to show what rangers and lidars meet.
@@ -51,7 +50,7 @@ class TopView:
 
     def __init__(
         self,
-        simulation: Simulation | StageSimulation,
+        simulation: Simulation,
         *,
         world: int = 0,
         size: tuple[int, int] = (960, 720),
@@ -161,14 +160,12 @@ class _Frame:
         return left, top, right, bottom
 
 
-def fleet_of(simulation: Simulation | StageSimulation) -> Fleet:
+def fleet_of(simulation: Simulation) -> Fleet:
     """The bodies in the plane.
 
     Raises:
         Error: The simulation is not in the plane.
     """
-    if isinstance(simulation, StageSimulation):
-        return simulation.fleet
     if isinstance(simulation.engine, PlanarEngine):
         return simulation.engine.fleet
     raise Error(

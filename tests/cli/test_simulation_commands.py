@@ -144,7 +144,8 @@ def test_run_of_a_stage_file_goes_in_the_plane(cli, tmp_path):
     file.write_text(STAGE, encoding="utf-8")
     code, out, err = cli("run", file, "--for", 2, "--rate", "max")
     assert code == 0, err
-    assert "Stage world 'yard': 2 robots" in out
+    assert "world 'yard': ground_plane, wall, a, b" in out
+    assert "step 100 ms, engine planar" in out
     assert "simulated 2.00 s" in err
 
 
@@ -161,12 +162,15 @@ def test_run_keeps_to_the_speedup_and_quit_time_of_a_stage_file(cli, tmp_path):
     assert cli("run", file, "--for", 0.3, "--rate", 1)[0] == 0
 
 
-def test_run_of_a_stage_file_spawns_nothing_else(cli, tmp_path):
+def test_run_of_a_stage_file_takes_other_robots_too(cli, tmp_path):
     file = tmp_path / "yard.world"
     file.write_text(STAGE, encoding="utf-8")
-    code, _, err = cli("run", file, "--spawn", "turtlebot3_burger", "--for", 1)
-    assert code == 2
-    assert "--spawn puts robots into worlds in space" in err
+    code, out, err = cli(
+        "run", file, "--spawn", "turtlebot3_burger@-3,0", "--for", 1, "--rate", "max"
+    )
+    assert code == 0, err
+    assert "wall, a, b, turtlebot3_burger" in out
+    assert "simulated 1.00 s" in err
 
 
 def test_run_says_where_its_view_is(cli):

@@ -13,7 +13,7 @@ from gazelle.formats import load
 from gazelle.navigation import Limits
 from gazelle.ros import Master, Node
 from gazelle.ros.messages import UnknownTypeError, register
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 
 WORLD = """
 interval_sim 100
@@ -35,7 +35,7 @@ def running(tmp_path):
     assert isinstance(world, World)
     with (
         Master(port=0) as master,
-        StageSimulation(world) as simulation,
+        Simulation(world, "planar") as simulation,
         serve_stage(simulation, master.uri, rate=20.0) as server,
     ):
         thread = threading.Thread(target=server.run, args=(1e9,))
@@ -53,11 +53,11 @@ def test_an_agv_moves_and_tells_how_long_it_took(running, poses):
         agv.wait()
         took = agv.move_l(4.0, 0.0, timeout=40.0)
         assert 4.0 <= took <= 20.0
-        x, y, heading = simulation.poses[0, 0]
+        x, y, heading = simulation.stage.poses[0, 0]
         assert math.hypot(x - 4.0, y) < 0.03
         assert agv.move_c(math.pi / 2) >= 1.5
         agv.move_ofsc(-math.pi / 2)
-        heading = simulation.poses[0, 0, 2]
+        heading = simulation.stage.poses[0, 0, 2]
         assert abs(heading + math.pi / 2) < 0.02
 
 
@@ -68,7 +68,7 @@ def test_a_fleet_moves_all_at_once(running):
         fleet.wait()
         took = fleet.move_l([3.0, 3.0, 3.0], [0.0, 3.0, -3.0], timeout=40.0)
         assert (took > 3.0).all()
-        away = simulation.poses[0, :, :2] - [[3.0, 0.0], [3.0, 3.0], [3.0, -3.0]]
+        away = simulation.stage.poses[0, :, :2] - [[3.0, 0.0], [3.0, 3.0], [3.0, -3.0]]
         assert np.hypot(*away.T).max() < 0.1
 
 

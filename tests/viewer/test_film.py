@@ -9,7 +9,7 @@ from PIL import Image
 import gazelle
 from gazelle import assets
 from gazelle.errors import Error
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 from gazelle.viewer import TopView, film_plan, take_picture, take_plan
 
 ROOM = """
@@ -25,7 +25,7 @@ robot ( name "r" pose [-1 0 0 0] )
 def room(tmp_path):
     file = tmp_path / "room.world"
     file.write_text(ROOM)
-    with StageSimulation(file) as simulation:
+    with Simulation(file, "planar") as simulation:
         yield simulation
 
 
@@ -44,7 +44,7 @@ def test_a_picture_of_a_stage_world_shows_its_robot_and_what_that_sees(room, tmp
 def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
     view = TopView(room, size=(320, 240), scans=False)
     before = view.look()
-    room.commands[0, 0, 0] = 1.0
+    room.stage.commands[0, 0, 0] = 1.0
     room.run(2.0)
     with_trail = view.look()
     view.forget()
@@ -57,7 +57,7 @@ def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
 
 
 def test_a_film_has_as_many_pictures_as_asked_for(room, tmp_path):
-    room.commands[0, 0, 0] = 0.5
+    room.stage.commands[0, 0, 0] = 0.5
     assert film_plan(room, tmp_path / "room.gif", 2.0, rate=5.0, speed=2.0) == 6
     assert room.time == pytest.approx(2.0)
     with Image.open(tmp_path / "room.gif") as film:
@@ -92,7 +92,7 @@ def test_worlds_of_the_planar_engine_are_drawn_too_and_keep_their_random_numbers
 
 
 def test_the_bundled_fleet_is_drawn():
-    with StageSimulation(assets.world("fleet")) as simulation:
+    with Simulation(assets.world("fleet"), "planar") as simulation:
         picture = TopView(simulation, size=(480, 320)).look()
     assert (picture[..., 0] > 200).any()
 

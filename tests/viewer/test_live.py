@@ -12,7 +12,7 @@ import pytest
 import gazelle
 from gazelle import assets
 from gazelle.errors import Error
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 from gazelle.viewer import LiveView
 
 ROOM = """
@@ -28,7 +28,7 @@ robot ( name "r" pose [-1 0 0 90] )
 def room(tmp_path):
     file = tmp_path / "room.world"
     file.write_text(ROOM)
-    with StageSimulation(file, threads=1) as simulation:
+    with Simulation(file, "planar", threads=1) as simulation:
         yield simulation
 
 
@@ -109,10 +109,10 @@ def test_states_follow_the_simulation(room):
         assert len(scan["met"]) == 46
         assert scan["ends"][47] == pytest.approx(1.4, abs=2e-3)  # a degree beside the middle
         assert scan["met"][23] == 1
-        room.commands[0, 0, 0] = 1.0
+        room.stage.commands[0, 0, 0] = 1.0
         room.run(1.0)
         later = next(state for state in stream if state["time"] >= 1.0)
-        assert later["poses"][1] == pytest.approx(room.poses[0, 0, 1], abs=1e-3)
+        assert later["poses"][1] == pytest.approx(room.stage.poses[0, 0, 1], abs=1e-3)
         room.run(1.0)
         stalled = next(state for state in stream if state["time"] >= 2.0)
         assert stalled["stalled"] == [0]
@@ -174,12 +174,12 @@ def test_random_numbers_of_a_run_do_not_depend_on_a_page(tmp_path):
     (tmp_path / "noisy.world").write_text(text)
     scans = []
     for watched in (False, True):
-        with StageSimulation(tmp_path / "noisy.world", seed=1, threads=1) as sim:
+        with Simulation(tmp_path / "noisy.world", "planar", seed=1, threads=1) as sim:
             if watched:
                 with LiveView(sim, rate=100) as view:
                     next(states(view))
             sim.step()
-            scans.append(sim.scan_of("r"))
+            scans.append(sim.stage.scan_of("r"))
     assert (scans[0] == scans[1]).all()
 
 

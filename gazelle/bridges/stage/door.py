@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
 from gazelle.bridges.stage.parameters import read_parameters
-from gazelle.bridges.stage.place import GraphRobot
+from gazelle.bridges.stage.place import GraphRobot, stage_of
 from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
@@ -16,8 +16,8 @@ from gazelle.bridges.stage.watchdog import Watchdog
 from gazelle.closing import Closeable
 from gazelle.ros import Node, Time, load_message
 from gazelle.ros.rosout_log import report_on_rosout
+from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
-from gazelle.simulation.stage import StageSimulation
 
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
@@ -46,7 +46,7 @@ class StageDoor(Closeable):
 
     def __init__(
         self,
-        simulation: StageSimulation,
+        simulation: Simulation,
         node: Node,
         *,
         world: int = 0,
@@ -55,6 +55,9 @@ class StageDoor(Closeable):
     ) -> None:
         self.rate = rate
         self._simulation, self._node, self._world = simulation, node, world
+        self._stage = stage = stage_of(simulation)
+        if stage.stage.paused and simulation.time == 0.0:
+            simulation.pause()
         self._stop = threading.Event()
         self._make_time()
         node.on_new_master.append(self._make_time)
@@ -62,20 +65,18 @@ class StageDoor(Closeable):
         asked = read_parameters(node)
         self._monotonic, self._offset_ns = asked.monotonic_clock, 0
         self.naming = Naming(
-            [robot.name for robot in simulation.robots],
+            [robot.name for robot in stage.robots],
             model_names=model_names,
             slashed_frames=asked.slashed_frames,
         )
         self._schedule = Schedule(asked.publish_rate)
-        self._watchdog = Watchdog(simulation, asked.base_watchdog_timeout, world)
+        self._watchdog = Watchdog(stage, asked.base_watchdog_timeout, world)
         self._clock = node.advertise(
             "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
         )
         self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
         messages = Messages()
-        robots = [
-            GraphRobot(simulation, robot, node, self.naming, world) for robot in simulation.robots
-        ]
+        robots = [GraphRobot(stage, robot, node, self.naming, world) for robot in stage.robots]
         metres = asked.is_depth_canonical
         self._topics = [RobotTopics(robot, messages, metres=metres) for robot in robots]
         self._inputs = [
@@ -85,7 +86,7 @@ class StageDoor(Closeable):
             for robot in robots
         ]
         self._services = Services(simulation, node, self, world)
-        self._poses = PoseServices(simulation, node, self.naming, world, asked.pose_service)
+        self._poses = PoseServices(stage, node, self.naming, world, asked.pose_service)
         self._unsubscribe = simulation.subscribe(self._after_step)
         node.on_shutdown.append(lambda _reason: self.stop())
 
@@ -102,7 +103,7 @@ class StageDoor(Closeable):
     def publish(self) -> None:
         """Publish what is true now, and the time, to all who listen."""
         self._tick()
-        facts = facts_of(self._simulation, self._world, self.now())
+        facts = facts_of(self._stage, self._world, self.now())
         for topics in self._topics:
             topics.publish(facts)
         if self._tf.has_listener and self._topics:
@@ -152,7 +153,7 @@ class StageDoor(Closeable):
         Args:
             seconds: Simulated time at which to end; None for the file's ``quit_time``.
         """
-        end = self._simulation.stage.quit_time if seconds is None else seconds
+        end = self._stage.stage.quit_time if seconds is None else seconds
         while not self._stop.is_set():
             if self._simulation.paused:
                 self._stop.wait(_SLICE)
@@ -166,11 +167,11 @@ class StageDoor(Closeable):
     def _stretch(self, end: float) -> bool:
         """Run at one pace until it changes, or there is a pause; False at the end."""
         simulation, rate = self._simulation, self.rate
-        step, start, done = simulation.time_step, time.monotonic(), 0
+        step, start, done = simulation.engine.time_step, time.monotonic(), 0
         while not (self._stop.is_set() or simulation.paused) and self.rate == rate:
             if end > 0.0 and simulation.time >= end - step / 2.0:
                 return False
-            simulation.step_on()
+            self._step_on()
             if rate is None:
                 continue
             done += 1
@@ -179,6 +180,13 @@ class StageDoor(Closeable):
                 return True
             self._wait(start + done * step / rate)
         return True
+
+    def _step_on(self) -> None:
+        """Make one step unless there is a pause: once that is answered, none is made."""
+        with self._simulation.requests:
+            self._simulation.requests.drain()
+            if not self._simulation.paused:
+                self._simulation.step()
 
     def _wait(self, until: float) -> None:
         """Wait for a wall time, but not when there is a pause, another pace or the end."""

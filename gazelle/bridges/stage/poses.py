@@ -9,7 +9,7 @@ from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, load_service
 from gazelle.ros.messages import InvalidDefinitionError
 from gazelle.ros.messages.registry import package_names
-from gazelle.simulation.stage import StageRobot, StageSimulation
+from gazelle.simulation.stage import StageFleet, StageRobot
 
 USUAL_TYPE = "sim_agv/AgvPose"
 """Its response is float64 x, y [m] and angle [degrees]; the request is empty."""
@@ -36,7 +36,7 @@ class PoseServices:
     """
 
     def __init__(
-        self, simulation: StageSimulation, node: Node, naming: Naming, world: int, kind: str
+        self, simulation: StageFleet, node: Node, naming: Naming, world: int, kind: str
     ) -> None:
         self._simulation, self._world = simulation, world
         service = _service(kind)

@@ -15,7 +15,7 @@ from gazelle.bridges.stage.finders import FinderTopics
 from gazelle.bridges.stage.grippers import GripperTopics
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
-from gazelle.simulation.stage import Ranger, StageSimulation
+from gazelle.simulation.stage import Ranger, StageFleet
 
 Values = list[float]
 
@@ -41,7 +41,7 @@ class Facts:
     stalled: list[bool]
 
 
-def facts_of(simulation: StageSimulation, world: int, stamp: Time) -> Facts:
+def facts_of(simulation: StageFleet, world: int, stamp: Time) -> Facts:
     """The state now; arrays become lists at once, as messages want them."""
     return Facts(
         stamp,

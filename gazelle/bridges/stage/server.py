@@ -7,9 +7,10 @@ import threading
 from collections.abc import Sequence
 
 from gazelle.bridges.stage.door import StageDoor
+from gazelle.bridges.stage.place import stage_of
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.signals import stopping
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -20,8 +21,8 @@ def main(arguments: Sequence[str]) -> int:
     found = parse_arguments(arguments, "stageros")
     options = _options(found.plain)
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
-    with found.start() as node, StageSimulation(options.world) as sim:
-        speedup = sim.stage.speedup
+    with found.start() as node, Simulation(options.world, "planar") as sim:
+        speedup = stage_of(sim).stage.speedup
         door = StageDoor(
             sim, node, rate=speedup if speedup > 0.0 else None, model_names=options.model_names
         )

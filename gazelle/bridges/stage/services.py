@@ -9,10 +9,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from gazelle.bridges.pacing import ACCEPTED, read_factor
+from gazelle.bridges.stage.place import stage_of
 from gazelle.bridges.stage.robot import heading_of
 from gazelle.errors import SimulationError
 from gazelle.ros import Node, Time, load_service
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 
 Answer = dict[str, Any]
 
@@ -44,8 +45,9 @@ class Services:
         world: Which world of a batch the graph commands.
     """
 
-    def __init__(self, simulation: StageSimulation, node: Node, door: Door, world: int) -> None:
+    def __init__(self, simulation: Simulation, node: Node, door: Door, world: int) -> None:
         self._simulation, self._door, self._world = simulation, door, world
+        self._stage = stage_of(simulation)
         self._servers = []
         for name, kind, handler in (
             ("reset_positions", "std_srvs/Empty", self.reset_positions),
@@ -67,7 +69,7 @@ class Services:
 
     def reset_positions(self, _request: Any) -> Answer:
         """Robots back to where they were, standing, odometry and stall cleared; time goes on."""
-        self._simulation.reset_positions(np.array([self._world]))
+        self._stage.reset_positions(np.array([self._world]))
         self._door.publish()
         return {}
 
@@ -109,15 +111,15 @@ class Services:
             index = self._find(request.name)
         except SimulationError as error:
             return {"success": False, "status_message": f"SetPose: {error}"}
-        self._simulation.set_pose_of(index, where, np.array([self._world]))
+        self._stage.set_pose_of(index, where, np.array([self._world]))
         self._door.publish()
         return {"success": True, "status_message": "SetPose: done"}
 
     def _find(self, name: str) -> int:
-        known, plain = self._simulation.named, name.strip("/")
-        count, number = len(self._simulation.robots), plain.removeprefix("robot_")
+        known, plain = self._stage.named, name.strip("/")
+        count, number = len(self._stage.robots), plain.removeprefix("robot_")
         if name in known or not (number != plain and number.isdecimal()):
-            return self._simulation.robot(name).index
+            return self._stage.robot(name).index
         if int(number) >= count:
             hint = f"there are robot_0 to robot_{count - 1}" if count else "there are no robots"
             raise SimulationError(f"there is no robot '{name}'", hint=hint)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from gazelle.bridges.serving import join_graph
 from gazelle.bridges.stage.door import StageDoor
+from gazelle.bridges.stage.place import stage_of
 from gazelle.closing import Closeable
 from gazelle.ros import Master, Node
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation import Simulation
 
 
 class StageServer(Closeable):
@@ -43,7 +44,7 @@ class StageServer(Closeable):
 
 
 def serve_stage(
-    simulation: StageSimulation,
+    simulation: Simulation,
     on: str | Node | None = None,
     *,
     name: str = "stageros",
@@ -76,7 +77,7 @@ def serve_stage(
             simulation,
             node,
             world=world,
-            rate=_pace(simulation.stage.speedup) if isinstance(rate, str) else rate,
+            rate=_pace(stage_of(simulation).stage.speedup) if isinstance(rate, str) else rate,
             model_names=model_names,
         )
     except BaseException:

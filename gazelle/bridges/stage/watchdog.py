@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation.stage import StageFleet
 
 
 class Watchdog:
@@ -19,7 +19,7 @@ class Watchdog:
         world: Which world of a batch.
     """
 
-    def __init__(self, simulation: StageSimulation, timeout: float, world: int) -> None:
+    def __init__(self, simulation: StageFleet, timeout: float, world: int) -> None:
         self._simulation, self._world = simulation, world
         self._timeout_ns = round(timeout * 1e9) if np.isfinite(timeout) else 0
         self._due = np.full(len(simulation.robots), np.iinfo(np.int64).max, np.int64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -354,7 +355,7 @@ def rows_of(worlds: Worlds | None) -> slice | Worlds:
     return slice(None) if worlds is None else worlds
 
 
-def _look_up(kind: str, name: str, known: dict[str, T]) -> T:
+def _look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
     try:
         return known[name]
     except KeyError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from gazelle.description import Model, Pose
@@ -44,6 +44,46 @@ class Anatomy:
     def leaning(self) -> bool:
         """Whether its frame does not stand upright."""
         return abs(self.tilt.quaternion[3]) < 1.0 - 1e-15
+
+
+class Anatomies(Mapping[str, Anatomy]):
+    """The models of a world by name; each is looked at when it is first asked for.
+
+    Args:
+        models: Of the world.
+        kinematic: Names of those that only move when told to.
+    """
+
+    def __init__(self, models: Iterable[Model], kinematic: Collection[str]) -> None:
+        self._models = {model.name: model for model in models}
+        self._kinematic = kinematic
+        self._known: dict[str, Anatomy] = {}
+
+    def __getitem__(self, name: str) -> Anatomy:
+        found = self._known.get(name)
+        if found is None:
+            found = anatomy_of(self._models[name], kinematic=name in self._kinematic)
+            self._known[name] = found
+        return found
+
+    def owners(self) -> dict[str, str]:
+        """The model of each link, by scoped name."""
+        found = {}
+        for name, model in self._models.items():
+            if model.stage is None:
+                found.update(dict.fromkeys(self[name].skeleton.bones, name))
+            else:
+                found.update((f"{name}::{link.name}", name) for link in model.links)
+        return found
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._models
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._models)
+
+    def __len__(self) -> int:
+        return len(self._models)
 
 
 def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:

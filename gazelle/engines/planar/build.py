@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.description import World
-from gazelle.engines.planar.anatomy import Anatomy, anatomy_of, body_of, levels_of, statics_of
+from gazelle.description import Model, World
+from gazelle.engines.planar.anatomy import Anatomies, Anatomy, body_of, levels_of, statics_of
 from gazelle.engines.planar.cuts import Levels
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.wheels import grouped, rolling
+from gazelle.engines.planar.shapes import joined, primitives_of
+from gazelle.engines.planar.stage_layout import StageLayout, layout_of
+from gazelle.engines.planar.wheels import Wheel, grouped, rolling
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +65,10 @@ class Layout:
         rollings: Bases with motors on their wheels.
         levels: Heights at which shapes are cut.
         limits: Least and greatest value of each joint axis, shape (2, axes).
+        stage: Models of Stage files, which move and are seen as in Stage.
     """
 
-    models: dict[str, Anatomy]
+    models: Anatomies
     bodies: dict[str, int]
     owners: dict[str, str]
     joints: dict[str, tuple[int, int]]
@@ -73,6 +76,7 @@ class Layout:
     rollings: tuple[RollingBase, ...]
     levels: Levels
     limits: Floats
+    stage: StageLayout
 
     @property
     def axes(self) -> int:
@@ -87,45 +91,76 @@ def build(recipe: Recipe, nworld: int, threads: int | None) -> tuple[Fleet, Layo
         EngineError: The world cannot be simulated.
         FormatError: A mesh cannot be read.
     """
-    models = {
-        model.name: anatomy_of(model, kinematic=model.name in recipe.kinematic)
-        for model in recipe.world.models
-    }
-    levels = levels_of(models.values(), recipe.rays)
-    movers = [each for each in models.values() if not each.still]
-    statics = [part for each in models.values() if each.still for part in statics_of(each, levels)]
-    bodies = [body_of(each, levels) for each in movers]
+    of_stage, others = _parted(recipe.world.models)
+    anatomies = Anatomies(others, recipe.kinematic)
+    movers = [each for each in anatomies.values() if not each.still]
+    stage = layout_of(of_stage, kinematic=recipe.kinematic, others=len(movers))
+    levels = levels_of(anatomies.values(), recipe.rays | _heights_of(stage))
+    parts = [part for each in anatomies.values() if each.still for part in statics_of(each, levels)]
+    profile = recipe.world.profile
     fleet = Fleet(
-        bodies,
-        statics,
+        [*stage.bodies, *(body_of(each, levels) for each in movers), *stage.riders],
+        joined(stage.statics, primitives_of(parts)) if of_stage else parts,
         nworld=nworld,
         time_step=recipe.time_step,
-        sweep=bool(recipe.world.profile.speculative_contacts),
+        euler=profile.integrator == "euler",
+        sweep=bool(profile.speculative_contacts),
         threads=threads,
     )
-    names = [each.model.name for each in movers]
-    return fleet, _layout_of(models, names, recipe.motors, levels)
+    names = [*stage.names, *(each.model.name for each in movers)]
+    robots = {robot.name for robot in stage.robots}
+    kinematic = recipe.kinematic.union(name for name in stage.names if name not in robots)
+    models = Anatomies(recipe.world.models, kinematic)
+    return fleet, _layout_of(models, list(anatomies), names, recipe.motors, levels, stage)
+
+
+def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
+    """Models of Stage files, and all others."""
+    parted: tuple[list[Model], list[Model]] = [], []
+    for model in models:
+        parted[model.stage is None].append(model)
+    return parted
+
+
+def _heights_of(stage: StageLayout) -> frozenset[float]:
+    """At which the rangers of Stage's robots look [m]."""
+    heights = [body.z for body in stage.bodies]
+    return frozenset(
+        round(heights[mount.body] + mount.z, 4)
+        for mounts in stage.mounts
+        for mount in mounts
+        if mount.body < len(heights)
+    )
 
 
 def _layout_of(
-    models: dict[str, Anatomy], movers: list[str], motors: Iterable[str], levels: Levels
+    models: Anatomies,
+    jointed: Iterable[str],
+    movers: list[str],
+    motors: Iterable[str],
+    levels: Levels,
+    stage: StageLayout,
 ) -> Layout:
     joints: dict[str, tuple[int, int]] = {}
-    columns: dict[str, int] = {}
+    columns = dict.fromkeys(models, 0)
     limits: list[tuple[float, float]] = []
-    for name, each in models.items():
+    for name in jointed:
         columns[name] = len(limits)
-        for hinge in each.skeleton.hinges.values():
+        for hinge in models[name].skeleton.hinges.values():
             joints[hinge.name] = (len(limits), len(hinge.joint.axes))
             limits += [(axis.lower, axis.upper) for axis in hinge.joint.axes]
     bodies = {name: index for index, name in enumerate(movers)}
     wanted = list(motors)
     rollings = []
-    for name, index in bodies.items():
-        wheels = grouped(models[name].skeleton.wheels, wanted) if models[name].loose else ()
+    for name in jointed:
+        wheels = _wheels_of(models[name], wanted) if name in bodies else ()
         if wheels:
             own = np.array([joints[wheel.joint][0] for wheel in wheels])
-            rollings.append(RollingBase(index, own, rolling(wheels)))
-    owners = {link: name for name, each in models.items() for link in each.skeleton.bones}
+            rollings.append(RollingBase(bodies[name], own, rolling(wheels)))
     bounds = np.array(limits).reshape(-1, 2).T.copy()
-    return Layout(models, bodies, owners, joints, columns, tuple(rollings), levels, bounds)
+    rolled = tuple(rollings)
+    return Layout(models, bodies, models.owners(), joints, columns, rolled, levels, bounds, stage)
+
+
+def _wheels_of(each: Anatomy, motors: list[str]) -> tuple[Wheel, ...]:
+    return grouped(each.skeleton.wheels, motors) if each.loose else ()

@@ -39,6 +39,9 @@ class PlanarEngine(Refusals, PlanarAccess):
     Bases are kinematic: they go as their wheels roll, or as they were told to, and stop at
     what they would run into. Nothing falls, and nothing is pushed. What is in the way is looked
     for where each step ends; on the way too if the profile's ``speculative_contacts`` is true.
+    Bases go along the arc of their velocity; straight on, and then turn, if the profile's
+    ``integrator`` is ``euler``. Models of Stage files have the shapes, drives and bounds that
+    Stage gives them, and the world then has Stage's time step.
 
     Args:
         world: What to simulate; collision shapes are cut at the height of lidars and bases.
@@ -46,9 +49,14 @@ class PlanarEngine(Refusals, PlanarAccess):
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         threads: Native threads; all processors if None. The results do not depend on it.
 
+    Attributes:
+        own_changes: Methods that change it beside those of every engine.
+
     Raises:
         EngineError: The world cannot be simulated.
     """
+
+    own_changes = ("command", "place_body")
 
     def __init__(
         self,
@@ -58,6 +66,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         time_step: float | None = None,
         threads: int | None = None,
     ) -> None:
+        world = _at_pace(world)
         step = physics_step(world.profile.max_step_size if time_step is None else time_step)
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
@@ -78,6 +87,8 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._casters, self._recent = {}, {}
         self._joints = self._joints_of(layout)
         self._loops: tuple[Sequence[System], SystemLoop] | None = None
+        self._before: tuple[System, ...] = ()
+        self._after: tuple[System, ...] = ()
 
     def _joints_of(self, layout: Layout) -> Joints:
         """Joints and rolling bases as kernels see them."""
@@ -98,7 +109,8 @@ class PlanarEngine(Refusals, PlanarAccess):
         if self._loops is None or self._loops[0] != systems:
             fleet, joints = self._fleet, self._joints
             last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
-            made = [*systems, Rolling(fleet.bodies, joints), *fleet.systems(), *last]
+            first = [*systems, *self._before, Rolling(fleet.bodies, joints)]
+            made = [*first, *fleet.systems(), *last, *self._after]
             self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.pool)
         return self._loops[1]
 
@@ -157,6 +169,15 @@ class PlanarEngine(Refusals, PlanarAccess):
         """Let a path carry a model, which has to be kinematic."""
         path.carry(self._fleet.bodies, self._layout.bodies[model])
 
+    def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
+        """Have systems updated at the beginning and the end of every step, until models change.
+
+        Those that are given to ``run`` come before them.
+        """
+        around = tuple(before), tuple(after)
+        if around != (self._before, self._after):
+            (self._before, self._after), self._loops = around, None
+
     @property
     def bodies(self) -> dict[str, int]:
         """Index in the fleet of each model that can move."""
@@ -183,6 +204,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         loop.step = round(self._fleet.time_step * NANOSECONDS)
         loop.time = now_ns
         loop.run(now_ns + count * loop.step, self._fleet.threads)
+        self._fleet.changes += 1
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""
@@ -190,6 +212,31 @@ class PlanarEngine(Refusals, PlanarAccess):
         rows = rows_of(worlds)
         self._angles[rows], self._rates[rows] = 0.0, 0.0
         self._targets[rows] = np.where(np.isnan(self._targets[rows]), math.nan, 0.0)
+
+    def command(self, wanted: ArrayLike) -> None:
+        """Set what drives of all bodies are told, shape (nworld, nbody, 3); see ``Drive``."""
+        self._fleet.command[:] = np.asarray(wanted, np.float64)
+
+    def place_body(
+        self,
+        body: int,
+        pose: ArrayLike,
+        worlds: Worlds | None = None,
+        *,
+        height: ArrayLike | None = None,
+    ) -> None:
+        """Put a body somewhere, whatever is there; what it is told stays.
+
+        Args:
+            body: Its index in the fleet.
+            pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
+            worlds: Which worlds.
+            height: Of its frame [m], shape () or (n,); as it was if None.
+        """
+        self._fleet.place(body, pose, worlds)
+        self._fleet.stalled[rows_of(worlds), body] = False
+        if height is not None:
+            self._fleet.heights[rows_of(worlds), body] = height
 
     # -- change ------------------------------------------------------------------------
 
@@ -328,3 +375,12 @@ class PlanarEngine(Refusals, PlanarAccess):
     def close(self) -> None:
         """Free threads."""
         self._fleet.close()
+
+
+def _at_pace(world: World) -> World:
+    """The world of a Stage file with Stage's time step, at the pace that the file asks for."""
+    if world.stage is None:
+        return world
+    profile, step = world.profile, world.stage.interval_sim
+    rate = profile.real_time_update_rate * profile.max_step_size / step
+    return with_profile(world, replace(profile, max_step_size=step, real_time_update_rate=rate))

@@ -91,6 +91,9 @@ class Fleet:
         cell: Side of the grid's cells [m].
         threads: How many share the work; all processors if None.
 
+    Attributes:
+        changes: Grows whenever bodies move or are put somewhere.
+
     Raises:
         EngineError: A shape, drive or number cannot be.
     """
@@ -111,6 +114,7 @@ class Fleet:
         threads = None if threads is None else whole_number("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
         self.euler = euler
+        self.changes = 0
         self.pool = WorkerPool(threads)
         self._describe(bodies)
         first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
@@ -314,6 +318,7 @@ class Fleet:
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:
         """Keep the lists of the grid right for some bodies, which were put somewhere."""
+        self.changes += 1
         which = np.arange(len(self.rows))[rows]
         if not len(which):
             return
@@ -335,6 +340,7 @@ class Fleet:
             self._loop = SystemLoop(self.systems(), self.nworld, 1, self.pool)
         self._loop.time = 0
         self._loop.run(count, self.threads)
+        self.changes += 1
 
     def systems(self) -> list[System]:
         """What makes a step: to be updated in this order.

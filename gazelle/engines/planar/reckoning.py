@@ -5,6 +5,10 @@
 from __future__ import annotations
 
 import cython
+import numpy as np
+from cython.cimports.gazelle.engines.planar.bodies import Bodies
+from cython.cimports.gazelle.engines.planar.columns import CAR, DRIVE_KIND, WHEELBASE, YAW, X, Y
+from cython.cimports.gazelle.engines.planar.drive_motion import bounded
 from cython.cimports.gazelle.native.elementary import cos, sin
 from cython.cimports.gazelle.native.system import System
 from cython.cimports.libc.math import floor
@@ -66,3 +70,57 @@ class Reckoning(System):
             if abs(yaw) > PI:
                 yaw -= 2.0 * PI * floor(yaw / (2.0 * PI) + 0.5)
             self.pose[i, 2] = yaw
+
+
+@cython.cclass
+class PoseMemory(System):
+    """Remembers where bodies are, a row each: at the beginning of a step, for its end.
+
+    Args:
+        bodies: Which.
+
+    Attributes:
+        poses: x, y [m] and heading [rad], shape (nworld * nbody, 3).
+    """
+
+    def __init__(self, bodies: Bodies) -> None:
+        System.__init__(self, max(1, bodies.nbody))
+        self.bodies, self.poses = bodies, np.zeros((bodies.nworld * bodies.nbody, 3))
+
+    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
+        """Remember some of them."""
+        for b in range(first, min(last, self.poses.shape[0])):
+            self.poses[b, 0] = self.bodies.rows[b, X]
+            self.poses[b, 1] = self.bodies.rows[b, Y]
+            self.poses[b, 2] = self.bodies.rows[b, YAW]
+
+
+@cython.cclass
+class DriveVelocities(System):
+    """How drives move their bodies, a row each: of cars not what they are told.
+
+    Args:
+        bodies: Which.
+
+    Attributes:
+        velocities: In the bodies' own frames: x, y [m/s], yaw [rad/s], shape (nworld * nbody, 3).
+    """
+
+    def __init__(self, bodies: Bodies) -> None:
+        System.__init__(self, max(1, bodies.nbody))
+        self.bodies, self.velocities = bodies, np.zeros((bodies.nworld * bodies.nbody, 3))
+
+    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
+        """Work out some of them."""
+        for b in range(first, min(last, self.velocities.shape[0])):
+            note_velocity(self.bodies, b, self.velocities)
+
+
+def note_velocity(w: Bodies, b: int, velocities: Floats) -> None:
+    """Write down how the drive of a body moves it."""
+    k = b % w.drives.shape[0]
+    vx, turn = w.velocity[b, 0], w.velocity[b, 2]
+    if w.drives[k, DRIVE_KIND] == CAR:
+        vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
+        vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
+    velocities[b, 0], velocities[b, 1], velocities[b, 2] = vx, w.velocity[b, 1], turn

@@ -90,6 +90,14 @@ class Table:
     raster: Raster | None = None
 
 
+def joined(first: Table, second: Table) -> Table:
+    """The primitives of two tables; the raster is that of the first, if it has one."""
+    if not len(second.rows):
+        return first
+    rows, tags = np.vstack((first.rows, second.rows)), np.concatenate((first.tags, second.tags))
+    return Table(rows, tags, first.raster)
+
+
 @dataclass(frozen=True, slots=True)
 class Pieces:
     """Convex pieces that bump, and their corners.

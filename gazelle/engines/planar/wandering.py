@@ -61,7 +61,7 @@ class Wandering(System):
             self.update(first, last, time)
 
     def update(self, first: int, last: int, time: int) -> None:
-        """Choose the commands of robots first to last; ``time`` counts steps."""
+        """Choose the commands of robots first to last."""
         for i in range(first, last):
             b = self.owners[i]
             ahead, right, left = room(self.ranges, self.sensors[i])

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from gazelle.description import Parameters, Plugin, Sensor
+from gazelle.description import Model, Parameters, Plugin, Sensor
 
 _DRIVE = "libgazebo_ros_planar_move.so"
 _LASER = "libgazebo_ros_laser.so"
+STAND_INS = frozenset((_DRIVE, _LASER))
+"""Plugins that drive and see for Stage's models where nobody runs these as Stage does."""
+
 _TIMEOUT = 0.2
 """After which a robot without a command stands, as in stage_ros [s]."""
 
@@ -58,6 +61,12 @@ class Names:
             ),
         )
         return replace(sensor, plugins=(plugin,))
+
+
+def without_stand_ins(model: Model) -> Model:
+    """A model without those of ``STAND_INS`` that are its own."""
+    kept = tuple(plugin for plugin in model.plugins if plugin.filename not in STAND_INS)
+    return replace(model, plugins=kept)
 
 
 @lru_cache(maxsize=64)

@@ -151,6 +151,7 @@ class _Builder:
             static=model.position is None,
             links=(link,),
             plugins=plugins,
+            stage=model,
             source=model.source,
         )
 

@@ -1,12 +1,13 @@
 """Stage worlds that run: fleets of robots in the plane."""
 
 from gazelle.engines.planar.pictures import Pictures
+from gazelle.engines.planar.stage_layout import Ranger, StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import Camera, cameras_of
 from gazelle.simulation.stage.controllers import FleetController, register_controller
 from gazelle.simulation.stage.finders import Blob, Fiducial
+from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
-from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.simulation.stage.simulation import StageSimulation
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "GripperState",
     "Pictures",
     "Ranger",
+    "StageFleet",
     "StageRobot",
     "StageSimulation",
     "cameras_of",

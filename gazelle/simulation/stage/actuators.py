@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.engines.planar.stage_layout import Rider, StageRobot
 from gazelle.errors import SimulationError
-from gazelle.simulation.stage.layout import Rider, StageRobot
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 
 class Actuator:
@@ -31,7 +32,7 @@ class Actuator:
         position: [m or rad], shape (nworld,); to be read.
     """
 
-    def __init__(self, simulation: StageSimulation, robot: StageRobot, rider: Rider) -> None:
+    def __init__(self, simulation: StageFleet, robot: StageRobot, rider: Rider) -> None:
         self._simulation, self._robot, self._rider = simulation, robot, rider
         self._device = rider.device
         count = simulation.nworld
@@ -88,8 +89,8 @@ class Actuator:
             ),
             axis=1,
         )
-        fleet.place(self._rider.body, where)
-        fleet.heights[:, self._rider.body] = fleet.heights[:, self._robot.index] + base.z + z
+        height = fleet.heights[:, self._robot.index] + base.z + z
+        self._simulation.engine.place_body(self._rider.body, where, height=height)
 
     def _offsets(self) -> tuple[Floats, Floats, Floats, Floats]:
         """From its place at position zero, in the frame of that."""
@@ -107,8 +108,12 @@ class Actuator:
         self._goal[which], self._towards[which] = 0.0, False
         self.follow()
 
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Everything that changes, to be read or written, each of shape (nworld,)."""
+        return {"position": self.position, "goal": self._goal, "towards": self._towards}
 
-def actuators_of(simulation: StageSimulation) -> dict[int, list[Actuator]]:
+
+def actuators_of(simulation: StageFleet) -> dict[int, list[Actuator]]:
     """The actuators of each robot that has some, by its index."""
     return {
         robot.index: [Actuator(simulation, robot, rider) for rider in robot.riders]

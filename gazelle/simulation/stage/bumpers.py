@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import StageBumper, StageModel, StagePose
 from gazelle.simulation.stage.finders import Surroundings
-from gazelle.simulation.stage.sight import Outlines
+from gazelle.simulation.stage.outlines import Outlines
 
 
 def find_bumps(around: Surroundings, robot: int, which: int, world: int) -> tuple[str | None, ...]:

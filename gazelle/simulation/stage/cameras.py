@@ -10,9 +10,8 @@ import numpy as np
 from gazelle.array_types import Worlds
 from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
 from gazelle.engines.planar.pictures import Lens, Painter, Pictures, View
+from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
-from gazelle.simulation.stage.finders import still_models
-from gazelle.simulation.stage.layout import StageRobot
 from gazelle.simulation.stage.scenery import scenery_of
 
 if TYPE_CHECKING:
@@ -62,12 +61,9 @@ class Cameras:
 
     def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
         self._simulation = simulation
-        self._painter = Painter(simulation.fleet, scenery_of(still_models(simulation), models))
+        self._painter = Painter(simulation.fleet, scenery_of(simulation.still, models))
         self._seen: dict[tuple[int, int, int], Pictures] = {}
-
-    def forget(self) -> None:
-        """Something moved."""
-        self._seen.clear()
+        self._changes = -1
 
     def picture(self, robot: int, which: int, world: int) -> Pictures:
         """What one camera sees, shape (height, width, ...).
@@ -75,6 +71,10 @@ class Cameras:
         Raises:
             SimulationError: The robot has no camera of this number.
         """
+        changes = self._simulation.fleet.changes
+        if self._changes != changes:  # something moved
+            self._changes = changes
+            self._seen.clear()
         key = (robot, which, world)
         if key not in self._seen:
             many = self.pictures([robot], which, np.array([world]))

@@ -10,17 +10,18 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
+from gazelle.engines.planar.stage_layout import Ranger, StageRobot
 from gazelle.engines.planar.wandering import Wandering
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
 from gazelle.native.system import System
-from gazelle.simulation.stage.layout import Ranger, StageRobot
 from gazelle.streams import Stream
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 
 CRUISE = 0.4  # [m/s]
@@ -47,11 +48,22 @@ class FleetController(Protocol):
     def reset(self) -> None:
         """Start over."""
 
+    def rebind(self) -> None:
+        """Other models came or went; the robots are the same."""
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:  # noqa: ARG002  of others
+        """Put back what ``state`` gave."""
+        return
+
 
 Wanted = list[tuple[StageRobot, str]]
 """The robots whose ``ctrl`` names a controller, each with what comes after the name."""
 
-Maker = Callable[["StageSimulation", Wanted], list[FleetController]]
+Maker = Callable[["StageFleet", Wanted], list[FleetController]]
 
 
 def register_controller(name: str, make: Maker) -> None:
@@ -71,7 +83,7 @@ def register_controller(name: str, make: Maker) -> None:
     known_controllers.add(name)
 
 
-def make_controllers(simulation: StageSimulation) -> list[FleetController]:
+def make_controllers(simulation: StageFleet) -> list[FleetController]:
     """Those that the world's robots name; others have been warned of when it was loaded."""
     named: dict[str, Wanted] = {}
     for robot in simulation.robots:
@@ -86,7 +98,7 @@ def make_controllers(simulation: StageSimulation) -> list[FleetController]:
     return made
 
 
-class Wander:
+class Wander(FleetController):
     """Goes ahead until something is near, then turns away from it for a while.
 
     Args:
@@ -96,25 +108,30 @@ class Wander:
     """
 
     def __init__(
-        self, simulation: StageSimulation, robots: list[tuple[StageRobot, Ranger]], scanner: int
+        self, simulation: StageFleet, robots: list[tuple[StageRobot, Ranger]], scanner: int
     ) -> None:
-        fleet = simulation.fleet
         self._simulation, self._scanner = simulation, scanner
-        own = np.array([robot.index for robot, _ in robots], np.int64)
-        places = np.array([ranger.places[0][1] for _, ranger in robots], np.int64)
-        worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
-        self._bodies = (worlds * fleet.nbody + own).ravel()
-        self._sensors = (worlds * len(simulation.mounts[scanner]) + places).ravel()
+        self._own = np.array([robot.index for robot, _ in robots], np.int64)
+        self._places = np.array([ranger.places[0][1] for _, ranger in robots], np.int64)
+        self.rebind()
         self._mood = np.zeros((len(self._bodies), 2), np.int64)
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
         self._seed = int(key >> np.uint64(1))
+
+    def rebind(self) -> None:
+        """Find the robots and what they see with among all."""
+        simulation = self._simulation
+        worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
+        self._bodies = (worlds * simulation.fleet.nbody + self._own).ravel()
+        count = len(simulation.mounts[self._scanner])
+        self._sensors = (worlds * count + self._places).ravel()
         self._made: tuple[Floats, Wandering] | None = None
 
     def update(self) -> None:
         """Look, and choose speed and turn of every robot."""
-        law, steps = self._law(self._simulation.scan(self._scanner)), self._simulation.steps
+        law, now = self._law(self._simulation.scan(self._scanner)), self._simulation.clock.now_ns
         self._simulation.fleet.pool.share(
-            lambda first, last, _: law.choose(first, last, steps), len(self._bodies), _SHARE
+            lambda first, last, _: law.choose(first, last, now), len(self._bodies), _SHARE
         )
 
     def systems(self) -> list[System] | None:
@@ -125,6 +142,14 @@ class Wander:
     def reset(self) -> None:
         """Start over."""
         self._mood[:] = 0
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """For how long each still turns."""
+        return {"mood": self._mood.copy()}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        self._mood[:] = state["mood"]
 
     def _law(self, ranges: Floats) -> Wandering:
         """What chooses by what is seen; kept while that is written to the same place."""
@@ -148,15 +173,20 @@ class Wander:
         return self._made[1]
 
 
-class LaserNoise:
+class LaserNoise(FleetController):
     """Adds white noise to what the rangers of some robots measure; it acts in the scan itself."""
 
-    def __init__(self, simulation: StageSimulation, robots: Wanted) -> None:
-        for robot, arguments in robots:
+    def __init__(self, simulation: StageFleet, robots: Wanted) -> None:
+        self._simulation, self._robots = simulation, robots
+        self.rebind()
+
+    def rebind(self) -> None:
+        """Have the scanners add it."""
+        for robot, arguments in self._robots:
             deviation = _number(arguments, DEVIATION)
             for ranger in robot.rangers:
                 for scanner, place in ranger.places:
-                    simulation.noise[scanner].constant[place] += deviation
+                    self._simulation.noise[scanner].constant[place] += deviation
 
     def update(self) -> None:
         """Nothing: the noise is in the scans."""
@@ -176,7 +206,7 @@ def _number(text: str, default: float) -> float:
         return default
 
 
-def _make_wander(simulation: StageSimulation, wanted: Wanted) -> list[FleetController]:
+def _make_wander(simulation: StageFleet, wanted: Wanted) -> list[FleetController]:
     groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
     for robot, _ in wanted:
@@ -201,7 +231,7 @@ def _looked_at(robot: StageRobot) -> Ranger | None:
     return next(iter(fine or rangers), None)
 
 
-def _make_noise(simulation: StageSimulation, wanted: Wanted) -> list[FleetController]:
+def _make_noise(simulation: StageFleet, wanted: Wanted) -> list[FleetController]:
     return [LaserNoise(simulation, wanted)]
 
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
+from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.actuators import Actuator, actuators_of
 from gazelle.simulation.stage.grippers import Gripper, grippers_of
-from gazelle.simulation.stage.layout import StageRobot
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 Device = TypeVar("Device", Actuator, Gripper)
 
@@ -27,7 +31,7 @@ class Devices:
         actuators: Likewise.
     """
 
-    def __init__(self, simulation: StageSimulation) -> None:
+    def __init__(self, simulation: StageFleet) -> None:
         self.grippers = grippers_of(simulation)
         self.actuators = actuators_of(simulation)
 
@@ -57,6 +61,43 @@ class Devices:
         for grippers in self.grippers.values():
             for gripper in grippers:
                 gripper.reset(worlds)
+
+    def take_over(
+        self, other: Devices, pairs: Iterable[tuple[int, int]], things: Mapping[int, int]
+    ) -> None:
+        """Go on for those of other robots.
+
+        Args:
+            other: What there was.
+            pairs: Indices of the robots that both have, there and here.
+            things: Where each thing is now that was somewhere.
+        """
+        for there, here in pairs:
+            for old, new in zip(other._of(there), self._of(here), strict=False):
+                for name, values in new.arrays().items():
+                    values[:] = old.arrays()[name]
+            for gripper in self.grippers.get(here, ()):
+                gripper.find(things)
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {name: values.copy() for name, values in self._arrays().items()}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        for name, values in self._arrays().items():
+            values[:] = state[name]
+
+    def _arrays(self) -> dict[str, NDArray[Any]]:
+        return {
+            f"{robot}.{which}.{name}": values
+            for robot in sorted({*self.grippers, *self.actuators})
+            for which, each in enumerate(self._of(robot))
+            for name, values in each.arrays().items()
+        }
+
+    def _of(self, robot: int) -> list[Gripper | Actuator]:
+        return [*self.grippers.get(robot, ()), *self.actuators.get(robot, ())]
 
 
 def pick(known: dict[int, list[Device]], robot: StageRobot, which: int, kind: str) -> Device:

@@ -19,8 +19,8 @@ from gazelle.description import (
 )
 from gazelle.engines.planar import columns as c
 from gazelle.errors import SimulationError
+from gazelle.simulation.stage.outlines import Outlines, distances, joined, outlines_of
 from gazelle.simulation.stage.scenery import color_of
-from gazelle.simulation.stage.sight import Outlines, distances, joined, outlines_of
 
 if TYPE_CHECKING:
     from gazelle.simulation.stage.senses import Senses
@@ -83,7 +83,7 @@ class Surroundings:
     def __init__(self, simulation: Senses) -> None:
         self._simulation = simulation
         self._moving = models_of(simulation)
-        self._still = [placed for model in still_models(simulation) for placed in model.walk()]
+        self._still = [placed for model in simulation.still for placed in model.walk()]
         self._walls = outlines_of(self._still)
         self._shapes: dict[tuple[int, int], Outlines] = {}
 
@@ -145,17 +145,19 @@ class Surroundings:
         return found[which]
 
 
-def still_models(simulation: Senses) -> list[StageModel]:
-    """Models that never move."""
-    moving = {id(m) for m in (*(r.model for r in simulation.robots), *simulation.things)}
-    return [model for model in simulation.stage.models if id(model) not in moving]
-
-
 def models_of(simulation: Senses) -> list[StageModel]:
-    """The model of each body: robots, then things, then what actuators move."""
+    """The model of each body: robots, then things and what is placed, then what actuators move."""
     own = [next(robot.bodies)[1] for robot in simulation.robots]
+    others = [StageModel("model", "")] * _strangers(simulation)
     riders = [rider.model for robot in simulation.robots for rider in robot.riders]
-    return [*own, *simulation.things, *riders]
+    return [*own, *simulation.things, *simulation.placed, *others, *riders]
+
+
+def _strangers(simulation: Senses) -> int:
+    """How many bodies are of no Stage file."""
+    riders = sum(len(robot.riders) for robot in simulation.robots)
+    known = len(simulation.robots) + len(simulation.things) + len(simulation.placed) + riders
+    return simulation.fleet.nbody - known
 
 
 def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> list[Fiducial]:

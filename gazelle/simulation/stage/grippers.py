@@ -7,20 +7,22 @@ lift move by a twentieth of their way each ``update_interval``.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageGripper, StageModel, StagePose
+from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.bumpers import gaps_to
-from gazelle.simulation.stage.layout import StageRobot
-from gazelle.simulation.stage.sight import Outlines, outlines_of
+from gazelle.simulation.stage.outlines import Outlines, outlines_of
 
 if TYPE_CHECKING:
-    from gazelle.simulation.stage.simulation import StageSimulation
+    from gazelle.simulation.stage.fleet import StageFleet
 
 Command = Literal["open", "close", "up", "down"]
 
@@ -65,7 +67,7 @@ class Gripper:
     """
 
     def __init__(
-        self, simulation: StageSimulation, robot: StageRobot, model: StageModel, pose: StagePose
+        self, simulation: StageFleet, robot: StageRobot, model: StageModel, pose: StagePose
     ) -> None:
         self._simulation, self._robot, self._model, self._pose = simulation, robot, model, pose
         self._device = model.device if isinstance(model.device, StageGripper) else StageGripper()
@@ -139,6 +141,21 @@ class Gripper:
         self.carried[which], self._limit[which] = _NONE, 1.0
         self._closing[which] = self._rising[which] = 0
 
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Everything that changes, to be read or written, each of shape (nworld,)."""
+        return {
+            "paddles": self.paddles,
+            "lift": self.lift,
+            "carried": self.carried,
+            "limit": self._limit,
+            "closing": self._closing,
+            "rising": self._rising,
+        }
+
+    def find(self, things: Mapping[int, int]) -> None:
+        """Know things by other indices; one that is gone is carried no longer."""
+        self.carried[:] = [things.get(thing, _NONE) for thing in self.carried.tolist()]
+
     def _move(self, world: int, step: float) -> None:
         """Move the paddles of one world; let go, or take what they touch."""
         position = self.paddles[world] + step * self._closing[world]
@@ -168,9 +185,9 @@ class Gripper:
     def _carry(self, world: int) -> None:
         """Keep what is carried where the gripper is, where nothing meets it."""
         body, at = self._body(int(self.carried[world])), self._place(world)
-        fleet = self._simulation.fleet
-        fleet.place(body, (at.x, at.y, at.yaw), np.array([world]))
-        fleet.heights[world, body] = _NOWHERE
+        self._simulation.engine.place_body(
+            body, (at.x, at.y, at.yaw), np.array([world]), height=_NOWHERE
+        )
 
     def _release(self, world: int) -> None:
         """Put what is carried between the paddles if it fits, else before them."""
@@ -180,9 +197,9 @@ class Gripper:
         narrow = size.y * (1.0 - 2.0 * self._device.paddle_size[1])
         front = 0.5 - self._device.paddle_size[0] if 2.0 * radius < narrow else 0.5
         at = self._place(world).then(StagePose(size.x * front + radius + _CLEAR))
-        fleet, body = self._simulation.fleet, self._body(thing)
-        fleet.place(body, (at.x, at.y, at.yaw), np.array([world]))
-        fleet.heights[world, body] = model.pose.z
+        self._simulation.engine.place_body(
+            self._body(thing), (at.x, at.y, at.yaw), np.array([world]), height=model.pose.z
+        )
         self.carried[world], self._limit[world] = _NONE, 1.0
 
     def _body(self, thing: int) -> int:
@@ -229,7 +246,7 @@ def _crosses(strip: Floats, there: Outlines, low: float, high: float) -> bool:
     return bool(np.count_nonzero(over & right) % 2)
 
 
-def grippers_of(simulation: StageSimulation) -> dict[int, list[Gripper]]:
+def grippers_of(simulation: StageFleet) -> dict[int, list[Gripper]]:
     """The grippers of each robot that has some, by its index."""
     found: dict[int, list[Gripper]] = {}
     for robot in simulation.robots:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar.reckoning import Reckoning
-from gazelle.simulation.stage.layout import StageRobot
+from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.streams import Stream
 
 _WIDTHS = (0.03, 0.03, 0.05)
@@ -32,10 +33,11 @@ class Odometry:
         used: Whether each robot's localization is ``odom``, shape (nrobot,).
         pose: Where they believe they are, shape (nworld, nrobot, 3); without robots if none
             uses it.
+        stream: What shares are drawn from.
     """
 
     def __init__(
-        self, robots: list[StageRobot], nworld: int, seed: int, *, euler: bool = False
+        self, robots: Sequence[StageRobot], nworld: int, seed: int, *, euler: bool = False
     ) -> None:
         positions = [robot.position for robot in robots]
         self.used = np.array([p.localization == "odom" for p in positions], np.bool_)
@@ -45,7 +47,7 @@ class Odometry:
             robots, positions = [], []
         self._given: Floats = np.array([_given(p.odom_error) for p in positions]).reshape(-1, 3)
         self._first = np.array([_start_of(robot) for robot in robots]).reshape(-1, 3)
-        self._stream = Stream(seed, "odometry", nworld)
+        self.stream = Stream(seed, "odometry", nworld)
         self.pose = np.tile(self._first, (nworld, 1, 1))
         self.share = np.zeros_like(self.pose)
         self._draw(None)
@@ -64,12 +66,12 @@ class Odometry:
         rows = slice(None) if worlds is None else worlds
         self.pose[rows] = self._first
         if worlds is None:
-            self._stream.rewind()
+            self.stream.rewind()
         self._draw(worlds)
 
     def _draw(self, worlds: Worlds | None) -> None:
         rows = slice(None) if worlds is None else worlds
-        drawn = self._stream.uniform(self._given.size, worlds)
+        drawn = self.stream.uniform(self._given.size, worlds)
         numbers = drawn.reshape(len(drawn), *self._given.shape)
         own = (numbers - 0.5) * _WIDTHS
         self.share[rows] = np.where(np.isnan(self._given), own, self._given)

@@ -31,7 +31,7 @@ class RangeNoise:
     angle: Floats
 
 
-class Eyes:
+class RangerScanner:
     """All rangers with one fan, in all worlds.
 
     Args:
@@ -39,8 +39,8 @@ class Eyes:
         fan: The beams.
         mounts: Where they are.
         noise: Of each.
+        stream: Of random numbers.
         seed: The run's seed.
-        name: Of their random numbers.
     """
 
     def __init__(
@@ -49,9 +49,9 @@ class Eyes:
         fan: Fan,
         mounts: list[Mount],
         noise: RangeNoise,
+        stream: Stream,
         *,
         seed: int,
-        name: str,
     ) -> None:
         self.fan = fan
         self._fleet, self._mounts, self._noise = fleet, mounts, noise
@@ -60,7 +60,7 @@ class Eyes:
         self._scanner = self._make(named=False)
         self._named = False
         self._shape = (fleet.nworld, len(mounts), fan.count)
-        self._stream = Stream(seed, name, fleet.nworld)
+        self._stream = stream
 
     def scan(self) -> Floats:
         """Distances [m], shape (nworld, sensors, samples); the array is used again."""
@@ -111,10 +111,14 @@ class Eyes:
         found[moving] = self._fleet.looks[indices, c.GLOW]
         return found
 
-    def rewind(self) -> None:
-        """Draw the same random numbers again."""
-        self._stream.rewind()
-        self._scanner.tick = 0
+    @property
+    def tick(self) -> int:
+        """Number of scans so far; settable."""
+        return self._scanner.tick
+
+    @tick.setter
+    def tick(self, count: int) -> None:
+        self._scanner.tick = count
 
     def _make(self, *, named: bool) -> Scanner:
         fleet, fan, mounts, angle = self._fleet, self.fan, self._mounts, self._noise.angle

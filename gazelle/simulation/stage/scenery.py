@@ -19,8 +19,8 @@ from gazelle.description import (
 )
 from gazelle.engines.planar.picture_columns import FACE
 from gazelle.engines.planar.pictures import Rgb, Scenery, plates, prism, walls_between
+from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
 from gazelle.formats.terrain import rectangles
-from gazelle.simulation.stage.walls import bitmap_lines, blocks_of
 
 _STILL = -1
 """Owner of all faces that are on no robot."""

@@ -12,6 +12,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.pictures import Pictures
+from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
 from gazelle.simulation.stage.cameras import Cameras, cameras_of
@@ -25,7 +26,6 @@ from gazelle.simulation.stage.finders import (
     models_of,
 )
 from gazelle.simulation.stage.grippers import Gripper
-from gazelle.simulation.stage.layout import StageRobot
 
 
 class Senses(ABC):
@@ -34,20 +34,45 @@ class Senses(ABC):
     Cameras, bumpers, fiducial and blob finders are made when they are used.
 
     Attributes:
-        stage: What the file says.
-        robots: In file order.
-        things: Models that grippers can take.
-        fleet: The engine.
         nworld: Copies.
-        devices: Grippers and actuators.
     """
 
-    stage: StageWorld
-    robots: tuple[StageRobot, ...]
-    things: tuple[StageModel, ...]
-    fleet: Fleet
     nworld: int
-    devices: Devices
+
+    @property
+    @abstractmethod
+    def stage(self) -> StageWorld:
+        """What the file says of the world."""
+
+    @property
+    @abstractmethod
+    def robots(self) -> tuple[StageRobot, ...]:
+        """In file order."""
+
+    @property
+    @abstractmethod
+    def things(self) -> tuple[StageModel, ...]:
+        """Models that grippers can take."""
+
+    @property
+    @abstractmethod
+    def placed(self) -> Sequence[StageModel]:
+        """Models that are moved only when told to."""
+
+    @property
+    @abstractmethod
+    def still(self) -> Sequence[StageModel]:
+        """Models that never move."""
+
+    @property
+    @abstractmethod
+    def fleet(self) -> Fleet:
+        """The bodies in the plane."""
+
+    @property
+    @abstractmethod
+    def devices(self) -> Devices:
+        """Grippers and actuators."""
 
     @property
     @abstractmethod
@@ -83,9 +108,9 @@ class Senses(ABC):
         return pick(self.devices.actuators, self.robot(name), which, "actuators")
 
     def forget_views(self) -> None:
-        """Something moved: pictures have to be drawn anew."""
-        if "_cameras" in self.__dict__:
-            self._cameras.forget()
+        """Models came or went."""
+        for name in ("_cameras", "_around"):
+            self.__dict__.pop(name, None)
 
     def fiducials(self, name: str, finder: int = 0, world: int = 0) -> list[Fiducial]:
         """What a fiducial finder of a robot sees now, nearest first.

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.simulation.stage.layout import StageRobot
+from gazelle.engines.planar.stage_layout import StageRobot
 
 
 class Steering:
@@ -15,7 +17,7 @@ class Steering:
         robots: All of a world; those that are no cars stay as they are.
     """
 
-    def __init__(self, robots: tuple[StageRobot, ...]) -> None:
+    def __init__(self, robots: Sequence[StageRobot]) -> None:
         cars = [(robot.index, robot.position) for robot in robots if robot.position.drive == "car"]
         self._cars = np.array([index for index, _ in cars], np.intp)
         self._wheelbase = np.array([position.wheelbase for _, position in cars])

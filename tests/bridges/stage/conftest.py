@@ -88,7 +88,7 @@ def stage(tmp_path):
                 with_params.set_param(f"/stageros/{name}", value)
             with_params.close()
         sim = StageSimulation(write(tmp_path, SCANNER + text), threads=1)
-        server = serve_stage(sim, master.uri, **options)
+        server = serve_stage(sim.simulation, master.uri, **options)
         made = Stage(sim, server, master)
         open_things.extend((sim, server, made))
         return made

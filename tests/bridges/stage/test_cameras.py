@@ -111,7 +111,7 @@ def test_the_frame_is_told_while_somebody_looks(stage):
 
 def test_nothing_is_drawn_without_listeners(stage, monkeypatch):
     world = stage(ROBOT)
-    monkeypatch.setattr(world.sim, "picture", lambda *_: pytest.fail("nobody looks"))
+    monkeypatch.setattr(world.sim.stage_fleet, "picture", lambda *_: pytest.fail("nobody looks"))
     world.sim.step(3)
 
 

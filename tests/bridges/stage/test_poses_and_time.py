@@ -219,7 +219,7 @@ def test_a_world_can_be_served_on_a_node_that_is_there(stage):
     world = stage(ROBOT)
     world.server.close()
     with Node("mine", master_uri=world.master.uri, clock=WallClock()) as node:
-        with serve_stage(world.sim, node) as server:
+        with serve_stage(world.sim.simulation, node) as server:
             assert server.node is node
             assert "/odom" in published(world)
         assert not node.closed

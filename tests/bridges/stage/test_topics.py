@@ -157,7 +157,9 @@ def test_topics_can_be_published_less_often_than_steps(stage):
 def test_nothing_is_measured_when_nobody_listens(stage, monkeypatch):
     world = stage(ROBOT + WALL)
     measured, scan = [], world.sim.scan
-    monkeypatch.setattr(world.sim, "scan", lambda *which: measured.append(which) or scan(*which))
+    monkeypatch.setattr(
+        world.sim.stage_fleet, "scan", lambda *which: measured.append(which) or scan(*which)
+    )
     world.step(count=3)
     assert not measured
     world.step(world.listen("/base_scan", "sensor_msgs/LaserScan"))

@@ -14,8 +14,8 @@ from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clearing import clearing_of
 from gazelle.engines.planar.shapes import Table
-from gazelle.simulation.stage.sight import distances, outlines_of
-from gazelle.simulation.stage.walls import table_of
+from gazelle.engines.planar.stage_walls import table_of
+from gazelle.simulation.stage.outlines import distances, outlines_of
 
 REACH = 6.0
 SEEDS = st.integers(0, 2**32 - 1)

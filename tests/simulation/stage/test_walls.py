@@ -10,8 +10,8 @@ from hypothesis.extra.numpy import arrays
 from stage_samples import draw, write
 
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
+from gazelle.engines.planar.stage_walls import outline, parts_of, table_of
 from gazelle.simulation.stage import StageSimulation
-from gazelle.simulation.stage.walls import outline, parts_of, table_of
 
 masks = arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
 

@@ -96,11 +96,12 @@ def world(rate: float) -> Iterator[str]:
     from gazelle import assets
     from gazelle.bridges.stage import serve_stage
     from gazelle.ros import Master
-    from gazelle.simulation.stage import StageSimulation
+    from gazelle.simulation import Simulation
 
-    with Master(port=0) as master, StageSimulation(assets.world("fleet")) as simulation:
+    with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()
-        simulation.subscribe(lambda: stalls.update(np.flatnonzero(simulation.stalled[0]).tolist()))
+        robots = simulation.stage
+        simulation.subscribe(lambda: stalls.update(np.flatnonzero(robots.stalled[0]).tolist()))
         with serve_stage(simulation, master.uri, rate=rate) as server:
             thread = threading.Thread(target=server.run, args=(1e9,))
             thread.start()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
 from gazelle.engines.planar.shapes import Part
-from gazelle.simulation.stage.walls import bitmap_lines, blocks_of
+from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
 
 
 @dataclass(frozen=True, slots=True)

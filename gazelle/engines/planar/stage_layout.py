@@ -1,13 +1,13 @@
-"""A Stage world as bodies, walls and scanners of the planar engine."""
+"""Models of Stage files as bodies, walls and scanners of the planar engine."""
 
 from __future__ import annotations
 
 import math
-import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from gazelle.description import (
+    Model,
     PlacedStageModel,
     StageActuator,
     StageGripper,
@@ -16,13 +16,11 @@ from gazelle.description import (
     StagePosition,
     StageRanger,
     StageSensor,
-    StageWorld,
 )
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Body, Drive
 from gazelle.engines.planar.shapes import Part, Table
-from gazelle.errors import SimulationWarning
-from gazelle.simulation.stage.walls import parts_of, table_of
+from gazelle.engines.planar.stage_walls import parts_of, table_of
 
 _FINEST = 1e-6
 """Least field of view [rad] and reach [m] of a fan."""
@@ -50,6 +48,11 @@ class Ranger:
     pose: StagePose
     direct: bool = True
 
+    def sensor_name(self, number: int) -> str:
+        """What a sensor of it is called on its robot."""
+        own = self.name.partition(".")[2]
+        return own if len(self.sensors) == 1 else f"{own}/{number}"
+
 
 @dataclass(frozen=True, slots=True)
 class Rider:
@@ -74,7 +77,7 @@ class StageRobot:
 
     Attributes:
         index: Its place in all arrays.
-        name: Its name in the file.
+        name: Its name in the world.
         model: What the file says.
         rangers: Those mounted on it directly or on what it carries, in file order; those on
             actuators last.
@@ -101,13 +104,17 @@ class StageRobot:
 
 
 @dataclass(slots=True)
-class Layout:
-    """What a fleet is made of.
+class StageLayout:
+    """What models of Stage files are in a fleet.
 
     Attributes:
-        bodies: One a robot, then one a thing, then one an actuator.
+        bodies: One a robot, then one a thing, then one a model that is only moved when told to.
+        riders: One an actuator; in a fleet they come after all others.
+        names: Of the models that ``bodies`` are of.
         robots: In file order.
         things: Models that grippers can take, if there are grippers.
+        placed: Models that are moved only when told to.
+        still: Models that never move.
         statics: All that never moves.
         fans: Of each scanner.
         mounts: Of each scanner, one a sensor.
@@ -116,31 +123,59 @@ class Layout:
     """
 
     bodies: list[Body] = field(default_factory=list)
+    riders: list[Body] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
     robots: list[StageRobot] = field(default_factory=list)
     things: list[StageModel] = field(default_factory=list)
-    statics: Table | None = None
+    placed: list[StageModel] = field(default_factory=list)
+    still: list[StageModel] = field(default_factory=list)
+    statics: Table = field(default_factory=lambda: table_of(()))
     fans: list[Fan] = field(default_factory=list)
     mounts: list[list[Mount]] = field(default_factory=list)
     noises: list[list[tuple[float, float, float]]] = field(default_factory=list)
 
 
-def layout_of(world: StageWorld) -> Layout:
-    """Robots are the top-level position models; all else stands still, or waits for a gripper."""
-    still: list[PlacedStageModel] = []
-    grips = any(_grips(model) for model in world.robots)
-    others = [model for model in world.models if model.position is None]
-    things = [model for model in others if grips and model.returns.gripper]
-    maker = _Maker(len(world.robots) + len(things))
-    maker.layout.things = things
-    for model in world.robots:
-        maker.robot(model)
-    taken = {id(model) for model in things}
-    for model in others:
-        if id(model) not in taken:
-            still += model.walk()
-    maker.layout.bodies += [*map(_thing, things), *maker.riders]
-    maker.layout.statics = table_of(still)
-    return maker.layout
+def layout_of(
+    models: Sequence[Model], *, kinematic: Collection[str] = (), others: int = 0
+) -> StageLayout:
+    """Robots are the position models; all else stands still, waits for a gripper, or is moved.
+
+    Args:
+        models: Those of Stage files.
+        kinematic: Names of models that are moved only when told to.
+        others: Bodies that come between ``bodies`` and ``riders``.
+    """
+    own = [(model.name, stage) for model in models if (stage := stage_model(model)) is not None]
+    robots = [(name, model) for name, model in own if model.position is not None]
+    rest = [(name, model) for name, model in own if model.position is None]
+    grips = any(_grips(model) for _, model in robots)
+    things = [each for each in rest if grips and each[1].returns.gripper]
+    taken = {name for name, _ in things}
+    placed = [each for each in rest if each[0] in kinematic and each[0] not in taken]
+    taken |= {name for name, _ in placed}
+    maker = _Maker(len(robots) + len(things) + len(placed) + others)
+    layout = maker.layout
+    for name, model in robots:
+        maker.robot(name, model, driven=name not in kinematic)
+    layout.names = [name for name, _ in (*robots, *things, *placed)]
+    layout.things, layout.placed = [m for _, m in things], [m for _, m in placed]
+    layout.still = [model for name, model in rest if name not in taken]
+    layout.bodies += map(_thing, (*layout.things, *layout.placed))
+    layout.statics = table_of(each for model in layout.still for each in model.walk())
+    return layout
+
+
+def stage_model(model: Model) -> StageModel | None:
+    """What a Stage file says of a model, by the name and at the pose that it has now."""
+    stage = model.stage
+    if stage is None:
+        return None
+    if stage.name.removeprefix("/") != model.name:
+        stage = replace(stage, name=model.name)
+    if stage.pose.pose != model.pose:
+        x, y, z = model.pose.position
+        stage = replace(stage, pose=StagePose(x, y, z, model.pose.yaw))
+    return stage
 
 
 def _grips(model: StageModel) -> bool:
@@ -195,12 +230,11 @@ class _Shape:
 @dataclass(slots=True)
 class _Maker:
     first_rider: int = 0
-    riders: list[Body] = field(default_factory=list)
-    layout: Layout = field(default_factory=Layout)
+    layout: StageLayout = field(default_factory=StageLayout)
     shapes: dict[Key, _Shape] = field(default_factory=dict)
     fans: dict[Fan, int] = field(default_factory=dict)
 
-    def robot(self, model: StageModel) -> None:
+    def robot(self, name: str, model: StageModel, *, driven: bool) -> None:
         """Add a robot with its rangers."""
         index = len(self.layout.robots)
         key = (id(model.blocks), id(model.children), id(model.device))
@@ -209,9 +243,8 @@ class _Maker:
             shape = self.shapes[key] = self.shape(model)
         pose = model.pose
         self.layout.bodies.append(
-            Body(shape.parts, (pose.x, pose.y, pose.yaw), pose.z, shape.drive)
+            Body(shape.parts, (pose.x, pose.y, pose.yaw), pose.z, shape.drive if driven else None)
         )
-        name = model.name.removeprefix("/")
         rangers = [
             self.ranger(index, name, placed, sensors, views)
             for placed, sensors, views in shape.rangers
@@ -238,12 +271,12 @@ class _Maker:
         model = replace(
             placed.model, name=f"/{whole}", pose=StagePose(), device=replace(device, start=0.0)
         )
-        body = self.first_rider + len(self.riders)
+        body = self.first_rider + len(self.layout.riders)
         shape = self.shape(model)
         at = self.layout.bodies[robot]
         own = StagePose(at.pose[0], at.pose[1], at.z, at.pose[2])
         x, y, z, yaw = own.then(base).then(StagePose(*device.offset))
-        self.riders.append(Body(shape.parts, (x, y, yaw), z, family=-1 - robot))
+        self.layout.riders.append(Body(shape.parts, (x, y, yaw), z, family=-1 - robot))
         rangers = [
             self.ranger(body, whole, there, sensors, views)
             for there, sensors, views in shape.rangers
@@ -273,7 +306,6 @@ class _Maker:
     def shape(self, model: StageModel) -> _Shape:
         """What is on a robot, in its frame."""
         own = list(replace(without_actuators(model), pose=StagePose()).walk())
-        _warn_of_riders(own[1:])
         rangers = []
         for placed in own:
             device = placed.model.device
@@ -301,16 +333,6 @@ class _Maker:
 def _all_parts(own: list[PlacedStageModel]) -> Iterator[Part]:
     for placed in own:
         yield from parts_of(placed)
-
-
-def _warn_of_riders(carried: list[PlacedStageModel]) -> None:
-    for placed in carried:
-        if placed.model.position is not None:
-            warnings.warn(
-                f"'{placed.name}' is mounted on a robot, and does not drive by itself",
-                SimulationWarning,
-                stacklevel=2,
-            )
 
 
 def _drive_of(position: StagePosition) -> Drive:
