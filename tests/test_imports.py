@@ -214,9 +214,9 @@ KNOWN_CIRCLES = (
             "controllers",
             "devices",
             "finders",
+            "fleet",
             "grippers",
             "senses",
-            "simulation",
         ]
     },
 )

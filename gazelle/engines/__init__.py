@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description import World
+from gazelle.engines.changes import changes_of
 from gazelle.engines.engine import (
     CHANGES,
     PARAMETERS,
@@ -12,7 +13,6 @@ from gazelle.engines.engine import (
     Hits,
     Motion,
     Placement,
-    changes_of,
 )
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.engines.registry import EngineFactory, find

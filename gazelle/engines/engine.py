@@ -137,12 +137,6 @@ CHANGES = (
 )
 
 
-def changes_of(engine: Engine) -> tuple[str, ...]:
-    """Those of an engine: ``CHANGES``, and what it names as its ``own_changes``."""
-    own: tuple[str, ...] = getattr(engine, "own_changes", ())
-    return (*CHANGES, *own)
-
-
 class Engine(Protocol):
     """A batch of copies of one world, all made of the same models."""
 

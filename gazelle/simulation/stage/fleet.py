@@ -24,7 +24,7 @@ from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import FleetController, make_controllers
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.drive_input import DriveInput
-from gazelle.simulation.stage.motion import Motion
+from gazelle.simulation.stage.drive_state import DriveState
 from gazelle.simulation.stage.ranger_model import RangerModel
 from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.scans import RangeNoise
@@ -90,7 +90,7 @@ class StageFleet(Senses):
         self._still, self._placed = layout.still, layout.placed
         self._named = {robot.name: robot for robot in self._robots}
         self._rangers = Rangers(fleet, layout, self.seed)
-        self._motion = Motion(self._robots, fleet, self.seed)
+        self._motion = DriveState(self._robots, fleet, self.seed)
         self._devices = Devices(self)
         self.forget_views()
 
@@ -337,7 +337,7 @@ class StageFleet(Senses):
     # -- for the simulation ------------------------------------------------------------
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> DriveState:
         """Odometry, and where bodies were before the step."""
         self.refresh()
         return self._motion
@@ -349,16 +349,27 @@ class StageFleet(Senses):
             return []
         known = {sensor.name: sensor for link in model.links for sensor in link.sensors}
         return [
-            (known[name], RangerModel(self, robot.name, which, number))
+            (known[name], self._ranger_model(robot.name, which, number))
             for which, ranger in enumerate(robot.rangers)
             for number in range(len(ranger.sensors))
             if (name := ranger.sensor_name(number)) in known
         ]
 
+    def _ranger_model(self, name: str, which: int, number: int) -> RangerModel:
+        def ranges() -> Floats:  # other models may have come or gone
+            scanner, place = self.robot(name).rangers[which].places[number]
+            seen: Floats = self.scan(scanner)[:, place]
+            return seen
+
+        return RangerModel(self.robot(name).rangers[which].sensors[number], ranges)
+
     def open(self, name: str) -> dict[str, TwistInput]:
         """The inputs of a model: ``cmd_vel`` of a robot."""
-        robot = self.named.get(name)
-        return {} if robot is None else {"cmd_vel": DriveInput(self, name)}
+        if name not in self.named:
+            return {}
+        return {
+            "cmd_vel": DriveInput(self.nworld, lambda: self.commands[:, self.robot(name).index])
+        }
 
 
 def _pairs(old: Sequence[str], new: Sequence[str]) -> list[tuple[int, int]]:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.description import StageSensor
 from gazelle.sensors import LaserScan
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
 
 
 class RangerModel:
@@ -20,22 +18,17 @@ class RangerModel:
     Noise is that of the scanner, which measures for all of its sensors once a step.
 
     Args:
-        fleet: All robots.
-        robot: Name of the one that carries it.
-        ranger: Number of the ranger on that.
-        sensor: Number of the sensor on that.
+        sensor: What the file says of it.
+        ranges: What it measures now, its reach where nothing is met, shape (nworld, samples).
     """
 
-    def __init__(self, fleet: StageFleet, robot: str, ranger: int, sensor: int) -> None:
-        self._fleet, self._robot, self._ranger, self._number = fleet, robot, ranger, sensor
-        self._sensor = fleet.robot(robot).rangers[ranger].sensors[sensor]
+    def __init__(self, sensor: StageSensor, ranges: Callable[[], Floats]) -> None:
+        self._sensor, self._ranges = sensor, ranges
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  Stage's noise does not drift
         """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``."""
-        scanner, place = self._fleet.robot(self._robot).rangers[self._ranger].places[self._number]
-        ranges = self._fleet.scan(scanner)[:, place]
-        rows = slice(None) if worlds is None else worlds
-        found: Floats = np.where(ranges[rows] < self._sensor.range[1], ranges[rows], np.inf)
+        ranges = self._ranges()[slice(None) if worlds is None else worlds]
+        found: Floats = np.where(ranges < self._sensor.range[1], ranges, np.inf)
         return found
 
     def reading(self, values: Floats, stamp: int) -> LaserScan:

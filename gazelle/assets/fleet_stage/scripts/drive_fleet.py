@@ -100,8 +100,8 @@ def world(rate: float) -> Iterator[str]:
 
     with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()
-        robots = simulation.stage
-        simulation.subscribe(lambda: stalls.update(np.flatnonzero(robots.stalled[0]).tolist()))
+        if (robots := simulation.stage) is not None:
+            simulation.subscribe(lambda: stalls.update(np.flatnonzero(robots.stalled[0]).tolist()))
         with serve_stage(simulation, master.uri, rate=rate) as server:
             thread = threading.Thread(target=server.run, args=(1e9,))
             thread.start()

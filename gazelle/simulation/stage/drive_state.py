@@ -17,7 +17,7 @@ from gazelle.simulation.stage.odometry import Odometry
 from gazelle.simulation.stage.steering import Steering
 
 
-class Motion:
+class DriveState:
     """What is updated with every step of some robots, in native code.
 
     Args:
@@ -65,7 +65,7 @@ class Motion:
         self.odometry.reset(worlds)
         self.remember(worlds)
 
-    def take_over(self, other: Motion, pairs: Iterable[tuple[int, int]]) -> None:
+    def take_over(self, other: DriveState, pairs: Iterable[tuple[int, int]]) -> None:
         """Go on for another; robots that both have are given by their indices there and here."""
         for there, here in pairs:
             self._poses[:, here] = other._poses[:, there]  # its own class
