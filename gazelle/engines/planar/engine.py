@@ -288,6 +288,8 @@ class PlanarEngine(Refusals, PlanarAccess):
             raise EngineError(f"the physics step must be positive, not {step:g} s")
         models = self.world.models
         self._recipe = replace(self._recipe, world=replace(world, models=models), time_step=step)
+        if step != self._fleet.time_step:
+            self._revision += 1
         self._fleet.time_step = step
         self._fleet.sweep = bool(world.profile.speculative_contacts)
         self._loops = None

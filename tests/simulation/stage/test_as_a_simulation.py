@@ -242,3 +242,14 @@ def test_other_engines_run_its_bodies(tmp_path):
         sim.robots["a"].inputs["cmd_vel"].send(0.4)
         sim.run(0.5)
         assert sim.robots["a"].pose.x > 0.05  # it stands 0.2 s after its last command
+
+
+def test_odometry_goes_on_with_another_time_step(open_file):
+    sim = open_file(WORLD.format(""))
+    sim.stage.commands[:, 1] = (0.3, 0.1, 0.2)
+    sim.run(1.0)
+    sim.physics.time_step = 0.01
+    sim.run(1.0)
+    assert sim.time == pytest.approx(2.0)
+    turned = sim.stage.odometry[0, 1, 2]
+    assert turned == pytest.approx(0.4, rel=0.03)  # its share of error is 2.5 % at most
