@@ -17,7 +17,7 @@ from _stage_itself import Spent, Stage
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
 from gazelle.native.system import System
-from gazelle.simulation.stage import Controller, StageSimulation, register_controller
+from gazelle.simulation.stage import FleetController, StageSimulation, register_controller
 from gazelle.engines.planar.stage_layout import layout_of
 from gazelle.simulation.stage.opening import stage_of
 
@@ -149,7 +149,7 @@ def until(file: Path, seconds: float) -> Path:
     return ending
 
 
-class Roam(Controller):
+class Roam(FleetController):
     """What ``stage_probe roam`` does, in native code here as there."""
 
     def __init__(self, sim: StageSimulation) -> None:
