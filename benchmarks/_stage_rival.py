@@ -14,12 +14,12 @@ import numpy as np
 from _stage_goals import Goals, shown
 from _stage_itself import Spent, Stage
 
+from gazelle import formats
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
+from gazelle.engines.planar.stage_layout import layout_of
 from gazelle.native.system import System
 from gazelle.simulation.stage import FleetController, StageSimulation, register_controller
-from gazelle.engines.planar.stage_layout import layout_of
-from gazelle.simulation.stage.opening import stage_of
 
 ABSENT = """
 Stage not found: its figures here are those of docs/benchmarks.md, measured once on a machine of
@@ -178,8 +178,8 @@ def of_fleet(file: Path, threads: int) -> float:
     """Of a fleet of the same robots and walls that roams by itself, in times real time."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        world = stage_of(file)
-    layout = layout_of(world)
+        world = formats.load(file)
+    layout = layout_of([model for model in world.models if model.stage is not None])
     step = world.interval_sim
     fleet = Fleet(layout.bodies, layout.statics, time_step=step, euler=True, threads=threads)
     scanner = Scanner(fleet, layout.fans[0], layout.mounts[0]) if layout.fans else None

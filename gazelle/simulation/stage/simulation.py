@@ -120,7 +120,10 @@ class StageSimulation(Closeable):
 
 
 def _uncontrolled(model: Model) -> Model:
-    return model if model.stage is None else replace(model, stage=_without_controllers(model.stage))
+    stage = model.stage
+    if stage is None or not any(placed.model.controllers for placed in stage.walk()):
+        return model
+    return replace(model, stage=_without_controllers(stage))
 
 
 def _without_controllers(model: StageModel) -> StageModel:
