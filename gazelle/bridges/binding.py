@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -10,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401  they teach kinds
-from gazelle.bridges.conversions import ConversionContext, decoder_of, encoder_of, service_of
+from gazelle.bridges.conversions import ConversionContext, decoder_of, service_of
 from gazelle.bridges.graph import Graph
+from gazelle.bridges.listening import HeardTopic
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import RosError, SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
@@ -99,47 +99,21 @@ class Binding:
             warnings.warn(SimulationWarning(f"parameter: {error}"), stacklevel=2)
 
     def _publish(self, output: Output[Any]) -> None:
-        encoder = encoder_of(output.kind)
-        message_class = load_message(encoder.message)
         view = ConversionContext(
             output.frame, self._graph.world, self._graph.stamp, self._prefix(output)
         )
-        ending: list[Callable[[], None]] = []
-
-        def send(value: Any) -> None:
-            message = message_class()
-            encoder.fill(message, value, view)
-            publisher.publish(message)
-
-        def follow(_peer: str) -> None:
-            """Listen while somebody does."""
-
-            def work() -> None:
-                if publisher.num_connections and not ending:
-                    ending.append(output.subscribe(send))
-                elif not publisher.num_connections and ending:
-                    ending.pop()()
-
-            self._simulation.requests.post(work)
-
-        publisher = self._node.advertise(
+        topic = HeardTopic(
+            self._graph,
             output.topic,
-            message_class,
+            output.kind,
+            output.subscribe,
+            view,
             queue_size=output.queue_size,
             latch=output.latch,
-            on_connect=follow,
-            on_disconnect=follow,
         )
         if output.latch:
-            send(output.last)
-
-        def close() -> None:
-            publisher.close()
-            while ending:
-                with contextlib.suppress(ValueError):
-                    ending.pop()()
-
-        self._closing.append(close)
+            topic.send(output.last)
+        self._closing.append(topic.close)
 
     def _prefix(self, output: Output[Any]) -> str:
         """What goes before the names of an output's frames."""
@@ -194,7 +168,7 @@ class Binding:
 
     def _tune(self, tuning: Tuning) -> None:
         if self._is_free(f"{tuning.topic}/set_parameters"):
-            server = ReconfigureServer(self._node, tuning, self._simulation)
+            server = ReconfigureServer(self._node, tuning.topic, tuning)
             self._closing.append(server.close)
 
     def _is_free(self, service: str) -> bool:

@@ -2,10 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, Protocol
+
 from gazelle.ros import Node, Time
 from gazelle.simulation import Simulation
 
 _SECOND = 1_000_000_000
+
+
+class TimedGraph(Protocol):
+    """A node for something that has a time of its own: a simulation, or a robot.
+
+    Attributes:
+        node: On the graph.
+        world: Which world of a batch the graph sees and commands.
+    """
+
+    node: Node
+    world: int
+
+    def now(self) -> Time:
+        """The time."""
+
+    def stamp(self, nanoseconds: int, /) -> Time:
+        """A time of what is shown [ns] as the graph sees it."""
+
+    def own_ns(self, time: Time, /) -> int:
+        """A time of the graph as that of what is shown [ns]."""
+
+    def post(self, work: Callable[[], Any], /) -> object:
+        """Have something done when nothing is being computed, without waiting for it."""
 
 
 class Graph:
@@ -40,7 +67,15 @@ class Graph:
 
     def seconds(self, time: Time) -> float:
         """A time of the graph as simulated time [s]."""
-        return (time.to_nsec() - self._offset_ns) / _SECOND
+        return self.own_ns(time) / _SECOND
+
+    def own_ns(self, time: Time) -> int:
+        """A time of the graph as simulated time [ns]."""
+        return time.to_nsec() - self._offset_ns
+
+    def post(self, work: Callable[[], Any]) -> None:
+        """Have something done between two steps, without waiting for it."""
+        self.simulation.requests.post(work)
 
     def rewound(self) -> None:
         """Simulated time began again."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 from gazelle.ros import Node, load_message, load_service
-from gazelle.simulation import Simulation, Tuning
 
 _LISTS = {bool: "bools", int: "ints", str: "strs", float: "doubles"}
 _MESSAGES = {
@@ -19,18 +19,56 @@ _WORDS = {bool: "bool", int: "int", str: "str", float: "double"}
 Values = dict[str, Any]
 
 
+class TunedValue(Protocol):
+    """A number, flag or text that can be changed."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def default(self) -> Any:
+        """Its type is that of all values: bool, int, str or float."""
+
+    @property
+    def least(self) -> Any:
+        """Smallest value."""
+
+    @property
+    def most(self) -> Any:
+        """Largest value."""
+
+    @property
+    def description(self) -> str:
+        """For people."""
+
+
+class Tuned(Protocol):
+    """Values that are changed together, from any thread."""
+
+    @property
+    def tunables(self) -> Mapping[str, TunedValue]:
+        """What can be changed."""
+
+    @property
+    def values(self) -> Values:
+        """What holds now."""
+
+    def send(self, /, **wanted: Any) -> Values:
+        """Change some values; returns what holds then."""
+
+
 class ReconfigureServer:
     """Offers a tuning, and keeps what holds on the parameter server.
 
     Args:
         node: Serves and publishes.
+        namespace: Of the service and the topics.
         tuning: What can be changed.
-        simulation: Whose it is; changes are made between two steps.
     """
 
-    def __init__(self, node: Node, tuning: Tuning, simulation: Simulation) -> None:
-        self._tuning, self._requests = tuning, simulation.requests
-        self._node, namespace = node, tuning.topic
+    def __init__(self, node: Node, namespace: str, tuning: Tuned) -> None:
+        self._tuning, self._node, self._namespace = tuning, node, namespace
         self._descriptions = node.advertise(
             f"{namespace}/parameter_descriptions", _message("ConfigDescription"), latch=True
         )
@@ -43,7 +81,7 @@ class ReconfigureServer:
             self._set,
         )
         self._descriptions.publish(self._describe())
-        self._tell(self._requests.call(lambda: tuning.values))
+        self._tell(tuning.values)
 
     def close(self) -> None:
         """Take it off the graph."""
@@ -59,13 +97,13 @@ class ReconfigureServer:
             for each in getattr(request.config, kind)
             if each.name in self._tuning.tunables
         }
-        return {"config": self._tell(self._requests.call(lambda: self._tuning.send(**wanted)))}
+        return {"config": self._tell(self._tuning.send(**wanted))}
 
     def _tell(self, values: Values) -> Any:
         config = _config(values)
         self._updates.publish(config)
         for name, value in values.items():
-            self._node.set_param(f"{self._tuning.topic}/{name}", value)
+            self._node.set_param(f"{self._namespace}/{name}", value)
         return config
 
     def _describe(self) -> Any:

@@ -49,7 +49,8 @@ class PhysicsReconfigure:
         self._world = world
         self._physics = context.simulation.physics
         tuning = Tuning(context.node.name, _PHYSICS, self._change, self._now)
-        self._server = ReconfigureServer(context.node, tuning, context.simulation)
+        tuning.bind(context.simulation.requests)
+        self._server = ReconfigureServer(context.node, tuning.topic, tuning)
 
     def close(self) -> None:
         """Take it off the graph."""

@@ -210,7 +210,7 @@ class ActionClient:
             feedback_cb: Called with the handle and each feedback.
         """
         message = self.types.action_goal(
-            header=header(self.node), goal_id=goal_id(self.node), goal=goal
+            header=header(self.node.clock), goal_id=goal_id(self.node), goal=goal
         )
         machine = GoalMachine(self, message, transition_cb, feedback_cb)
         with self._lock:

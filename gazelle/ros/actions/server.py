@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.ros.actions.spec import ActionTypes, goal_id, header, now
+from gazelle.ros.actions.spec import ActionTypes, Now, goal_id, header, now
 from gazelle.ros.actions.states import FINAL, GoalStatus
 from gazelle.ros.errors import NodeClosedError
 from gazelle.ros.messages import load_message
@@ -160,7 +160,7 @@ class ServerGoalHandle:
                 return False
             self.status.status, self.status.text = after, text
             if over:
-                self.finished = max(1, self._server.node.clock.now())
+                self.finished = max(1, self._server.clock.now())
                 given = self._server.types.result() if result is None else result
                 self._server.publish_result(self.status, given)
             else:
@@ -192,8 +192,10 @@ class ActionServer:
         goal_cb: Called with each new goal.
         cancel_cb: Called with each goal somebody wants given up.
         auto_start: Start at once.
+        clock: What time it is, if not the node's; rates of topics are those of the wall's clock.
 
     Attributes:
+        clock: What time it is.
         status_list: The goals it speaks of, oldest first.
 
     Raises:
@@ -209,8 +211,10 @@ class ActionServer:
         cancel_cb: GoalCallback | None = None,
         *,
         auto_start: bool = True,
+        clock: Now | None = None,
     ) -> None:
         self.node = node
+        self.clock: Now = clock or node.clock
         self.ns = name
         self.types = ActionTypes.of(spec)
         self.goal_callback = goal_cb
@@ -296,7 +300,7 @@ class ActionServer:
         with self.lock:
             self._forget_old()
             message: Any = self._status_array()
-            message.header = header(self.node)
+            message.header = header(self.clock)
             message.status_list = [handle.status for handle in self.status_list]
             self._send(self._status, message)
 
@@ -304,7 +308,7 @@ class ActionServer:
         """Say what came of a goal."""
         with self.lock:
             message = self.types.action_result(
-                header=header(self.node), status=status, result=result
+                header=header(self.clock), status=status, result=result
             )
             self._send(self._result, message)
             self.publish_status()
@@ -313,7 +317,7 @@ class ActionServer:
         """Say what is going on with a goal."""
         with self.lock:
             message = self.types.action_feedback(
-                header=header(self.node), status=status, feedback=feedback
+                header=header(self.clock), status=status, feedback=feedback
             )
             self._send(self._feedback, message)
 
@@ -324,7 +328,7 @@ class ActionServer:
             self._stopped = True
 
     def _forget_old(self) -> None:
-        limit = self.node.clock.now() - self.status_list_timeout.to_nsec()
+        limit = self.clock.now() - self.status_list_timeout.to_nsec()
         self.status_list = [h for h in self.status_list if not h.finished or h.finished > limit]
 
     # What comes in -----------------------------------------------------------------------------
@@ -343,10 +347,10 @@ class ActionServer:
             status: Any = self._goal_status()
             status.goal_id = goal.goal_id
             if not status.goal_id.id:
-                status.goal_id = goal_id(self.node)
+                status.goal_id = goal_id(self.node, clock=self.clock)
             stamped = bool(goal.goal_id.stamp)
             if not stamped:
-                status.goal_id.stamp = now(self.node)
+                status.goal_id.stamp = now(self.clock)
             handle = ServerGoalHandle(self, status, goal)
             self.status_list.append(handle)
             if stamped and goal.goal_id.stamp <= self._last_cancel:
@@ -361,7 +365,7 @@ class ActionServer:
             handle.status.status = GoalStatus.RECALLED
             self.publish_result(handle.status, self.types.result())
         if handle.status.status in FINAL:
-            handle.finished = max(1, self.node.clock.now())
+            handle.finished = max(1, self.clock.now())
 
     def _take_cancel(self, request: Any) -> None:
         with self.lock:
@@ -388,5 +392,5 @@ class ActionServer:
         status: Any = self._goal_status()
         status.goal_id, status.status = request, GoalStatus.RECALLING
         handle = ServerGoalHandle(self, status, None)
-        handle.finished = max(1, self.node.clock.now())
+        handle.finished = max(1, self.clock.now())
         self.status_list.append(handle)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.errors import RosError
 from gazelle.ros.clock import SECOND
@@ -57,25 +57,32 @@ class ActionTypes:
         return cls(*(type(part) for part in parts), *(type(part) for part in inner))
 
 
-def now(node: Node) -> Time:
-    """The node's time."""
-    stamp = node.clock.now()
+class Now(Protocol):
+    """Tells the time."""
+
+    def now(self) -> int:
+        """The time [ns]."""
+
+
+def now(clock: Now) -> Time:
+    """A clock's time."""
+    stamp = clock.now()
     return Time(stamp // SECOND, stamp % SECOND)
 
 
-def goal_id(node: Node, name: str | None = None) -> Any:
-    """A ``GoalID`` nobody else has."""
-    stamp = now(node)
+def goal_id(node: Node, name: str | None = None, clock: Now | None = None) -> Any:
+    """A ``GoalID`` nobody else has; its name and time are the node's if not given."""
+    stamp = now(clock or node.clock)
     made: Any = load_message("actionlib_msgs/GoalID")()
     made.stamp = stamp
     made.id = f"{name or node.name}-{next(_count)}-{stamp.secs}.{stamp.nsecs}"
     return made
 
 
-def header(node: Node) -> Any:
-    """A ``Header`` with the node's time."""
+def header(clock: Now) -> Any:
+    """A ``Header`` with a clock's time."""
     made: Any = load_message("std_msgs/Header")()
-    made.stamp = now(node)
+    made.stamp = now(clock)
     return made
 
 

@@ -25,4 +25,4 @@ class HandleTrackerDeleter:
         del ptr
         if self.action_server:
             with self.action_server.lock:
-                self.status_tracker.handle_destruction_time = now(process.require())
+                self.status_tracker.handle_destruction_time = now(process.require().clock)

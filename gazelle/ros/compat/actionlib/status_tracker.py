@@ -34,4 +34,4 @@ class StatusTracker:
         if not self.status.goal_id.id:
             self.status.goal_id = self.id_generator.generate_ID()
         if not self.status.goal_id.stamp:
-            self.status.goal_id.stamp = now(process.require())
+            self.status.goal_id.stamp = now(process.require().clock)

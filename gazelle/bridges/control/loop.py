@@ -1,0 +1,126 @@
+"""A robot of one's own, with its controllers on a ROS graph, without a simulation."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.bridges.control.binding import ManagerBinding
+from gazelle.closing import Closeable
+from gazelle.control import ControllerManager
+from gazelle.errors import ControlError, ControlWarning, Error
+from gazelle.ros import Node, Time
+from gazelle.ros.clock import SECOND
+from gazelle.ros.errors import NodeClosedError, TimeMovedBackwardsError
+
+
+class LiveGraph:
+    """A node for a robot whose time is the node's.
+
+    Args:
+        node: On the graph.
+        manager: Of the robot's controllers.
+    """
+
+    def __init__(self, node: Node, manager: ControllerManager) -> None:
+        self.node, self.world = node, 0
+        self._call = manager.call
+
+    def now(self) -> Time:
+        """The time."""
+        return Time(nsecs=self.node.clock.now())
+
+    def stamp(self, nanoseconds: int) -> Time:
+        """A time of the robot's."""
+        return Time(nsecs=nanoseconds)
+
+    def own_ns(self, time: Time) -> int:
+        """A time of the graph [ns]."""
+        return time.to_nsec()
+
+    def post(self, work: Callable[[], Any]) -> None:
+        """Do something between two control periods."""
+        self._call(work)
+
+
+class ControlLoop(Closeable):
+    """Reads a robot, updates its controllers and commands it, again and again, on a ROS graph.
+
+    ::
+
+        manager = ControllerManager(MyRobot(), namespace="/arm")
+        with ControlLoop(Node("arm"), manager, rate=100.0) as loop:
+            loop.run()
+
+    Args:
+        node: On the graph; its time, simulated or the wall's, is that of the controllers.
+        manager: With the robot's hardware.
+        rate: Of control periods [Hz].
+
+    Attributes:
+        graph: What the robot is shown by.
+    """
+
+    def __init__(self, node: Node, manager: ControllerManager, rate: float = 100.0) -> None:
+        if not rate > 0.0:
+            raise ControlError(f"the rate of control periods must be positive, not {rate}")
+        self._node, self._manager = node, manager
+        self._period_ns = round(SECOND / rate)
+        self._last_ns = 0
+        self._over = threading.Event()
+        self._thread: threading.Thread | None = None
+        self.graph = LiveGraph(node, manager)
+        self._binding = ManagerBinding(self.graph, manager)
+        node.on_shutdown.append(lambda _reason: self._over.set())
+
+    def step(self) -> None:
+        """One control period, as long as it is since the one before."""
+        now = self._node.clock.now()
+        passed = now - self._last_ns if 0 < self._last_ns < now else self._period_ns
+        self._last_ns, period, time = now, passed / SECOND, now / SECOND
+        hardware, manager = self._manager.hardware, self._manager
+
+        def work() -> None:
+            hardware.read(time, period)
+            manager.update(now, period)
+            hardware.write(time, period)
+
+        manager.call(work)
+
+    def run(self) -> None:
+        """Go on until ``close``, or until the node ends."""
+        clock = self._node.clock
+        due = clock.now()
+        while not self._over.is_set() and not self._node.closed:
+            try:
+                self.step()
+            except NodeClosedError:
+                break
+            due = max(due + self._period_ns, clock.now())
+            with contextlib.suppress(TimeMovedBackwardsError):
+                clock.sleep(due - clock.now(), self._over.is_set)
+            if due - clock.now() > self._period_ns:
+                due = clock.now()  # simulated time began again
+
+    def start(self) -> ControlLoop:
+        """Let ``run`` go on in a thread of its own; returns this."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._work, name="control", daemon=True)
+            self._thread.start()
+        return self
+
+    def _work(self) -> None:
+        try:
+            self.run()
+        except Error as error:
+            warnings.warn(ControlWarning(f"the control loop ends: {error}"), stacklevel=2)
+
+    def close(self) -> None:
+        """End the loop, and take the controllers off the graph; the node stays."""
+        self._over.set()
+        if self._thread is not None:
+            self._thread.join()
+        self._binding.close()
