@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from gazelle.bridges.control.description import find_model
 from gazelle.control import (
     BASE_CLASS,
     ControllerManager,
@@ -74,6 +75,8 @@ class ManagerServices:
         def load() -> None:
             # Asked here, not where the robot steps: the master may be far away.
             found = self._node.get_param(f"{self._space}/{name}", None) if name else None
+            if self._manager.model is None:
+                self._manager.model = find_model(self._node, self._space)
             self._manager.load(name, found if isinstance(found, dict) else {})
 
         return {"ok": _done(load)}
