@@ -28,6 +28,14 @@ from gazelle.simulation import (
 )
 from gazelle.simulation.plugin_errors import warn_of_fault
 
+_LOOK_S = 0.1
+_MISSING = (None, "")
+"""What no value is; launch files set an empty text where they have nothing to say."""
+
+
+def _nothing() -> None:
+    """Do nothing."""
+
 
 class Binding:
     """The ports of one owner as topics and services, until it is closed.
@@ -48,9 +56,10 @@ class Binding:
         self._node = graph.node
         self._worlds = np.array([graph.world])
         self._closing: list[Callable[[], None]] = []
+        self._closed = False
         self._prefixes, self._namespace = FramePrefixes(graph.node), namespace
-        for setting in ports.settings.values():
-            self._look_up(setting)
+        self._awaited = [each for each in ports.settings.values() if not self._look_up(each)]
+        self._when_known: Callable[[], None] = _nothing
         self._outputs: list[Output[Any]] = []
         for output in ports.outputs.values():
             if self._open(self._publish, output):
@@ -76,6 +85,7 @@ class Binding:
 
     def close(self) -> None:
         """Take the topics and services off the graph."""
+        self._closed = True
         while self._closing:
             self._closing.pop()()
 
@@ -89,10 +99,54 @@ class Binding:
             return False
         return True
 
-    def _look_up(self, setting: Setting[Any]) -> None:
-        value = self._node.get_param(setting.name, None)
-        if value is None:
+    def when_known(self, act: Callable[[], None]) -> None:
+        """Do something between two steps, once all settings are known that must be."""
+        if not self._awaited:
+            act()
             return
+        self._when_known = act
+        self._look_later()
+
+    def _look_later(self) -> None:
+        """Look again soon for what is awaited; on a worker, for the master may be far away."""
+        self._node.loop.call_later(_LOOK_S, lambda: self._node.loop.submit(self._look_again))
+
+    def _look_again(self) -> None:
+        if self._closed or self._node.closed:
+            return
+        found = [(each, self._value_of(each)) for each in self._awaited]
+        if any(value in _MISSING for _, value in found):
+            self._look_later()
+            return
+
+        def take() -> None:
+            if not self._closed:
+                self._awaited.clear()
+                for setting, value in found:
+                    self._give(setting, value)
+                self._when_known()
+
+        self._simulation.requests.post(take)
+
+    def _look_up(self, setting: Setting[Any]) -> bool:
+        """Whether nobody waits for it any more."""
+        value = self._value_of(setting)
+        if value in _MISSING:
+            return not setting.awaited
+        self._give(setting, value)
+        return True
+
+    def _value_of(self, setting: Setting[Any]) -> Any:
+        """The parameter of a setting, or the nearest one above; None if there is none."""
+        space, _, name = setting.name.rpartition("/")
+        while True:
+            value = self._node.get_param(f"{space}/{name}", None)
+            if value is not None or not space or not setting.search:
+                return value
+            space = space.rpartition("/")[0]
+
+    @staticmethod
+    def _give(setting: Setting[Any], value: Any) -> None:
         try:
             setting.send(value)
         except SimulationError as error:

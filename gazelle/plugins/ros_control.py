@@ -68,7 +68,10 @@ class RosControl(ControlLoop):
         if "robotParam" in parameters or not robot.description.transmissions:
             name = parameters.get("robotParam", "robot_description")
             full = absolute(self._namespace, name)
-            robot.settings[name] = Setting(full, "", self.take_description)
+            awaited = not robot.description.transmissions
+            robot.settings[name] = Setting(
+                full, "", self.take_description, search=True, awaited=awaited
+            )
 
     def _press(self, stop: EmergencyStop, worlds: Worlds | None) -> None:
         self.press(worlds, on=stop.on)

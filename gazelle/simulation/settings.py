@@ -25,13 +25,23 @@ class Setting(StatePart, Generic[T]):
         default: Its type is that of all values; ints will do for a float.
         receive: Called with each value that is given. Ports are put on a graph after that,
             and may get other topics here.
+        search: Whether a value in a namespace above will do, as of ``/robot_description``.
+        awaited: Whether to go on looking for a value until there is one.
 
     Attributes:
         value: What holds now.
     """
 
-    def __init__(self, name: str, default: T, receive: Callable[[T], None] | None = None) -> None:
-        self.name = name
+    def __init__(
+        self,
+        name: str,
+        default: T,
+        receive: Callable[[T], None] | None = None,
+        *,
+        search: bool = False,
+        awaited: bool = False,
+    ) -> None:
+        self.name, self.search, self.awaited = name, search, awaited
         self.value = default
         self._kind = type(default)
         self._receive = receive

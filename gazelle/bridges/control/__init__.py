@@ -1,6 +1,6 @@
 """Controllers of robots on a ROS graph, as ros_control puts them there."""
 
 from gazelle.bridges.control.binding import ManagerBinding
-from gazelle.bridges.control.loop import ControlLoop
+from gazelle.bridges.control.hardware_loop import HardwareLoop
 
-__all__ = ["ControlLoop", "ManagerBinding"]
+__all__ = ["HardwareLoop", "ManagerBinding"]

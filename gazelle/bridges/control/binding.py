@@ -38,14 +38,17 @@ class ManagerBinding:
     Args:
         graph: Where.
         manager: Of a robot; its topics and services are in its namespace.
+
+    Raises:
+        RosError: The node serves another manager in this namespace already.
     """
 
     def __init__(self, graph: TimedGraph, manager: ControllerManager) -> None:
-        self._graph, self._manager = graph, manager
+        self._graph = graph
         self._space = f"/{manager.namespace.strip('/')}".rstrip("/")
         self._bound: dict[str, ControllerBinding] = {}
-        self._end_watch = manager.watch(self._bind, self._unbind)
         self._services = ManagerServices(graph.node, self._space, manager)
+        self._end_watch = manager.watch(self._bind, self._unbind)
 
     def close(self) -> None:
         """Take it off the graph."""

@@ -32,6 +32,9 @@ class ManagerServices:
         node: Serves.
         space: Namespace of the manager, without a slash at its end.
         manager: Does it.
+
+    Raises:
+        RosError: The node has such services already.
     """
 
     def __init__(self, node: Node, space: str, manager: ControllerManager) -> None:

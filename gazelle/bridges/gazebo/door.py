@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any
 
 from gazelle.array_types import Worlds
 from gazelle.bridges.binding import Binding
+from gazelle.bridges.control import ManagerBinding
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.finite import Handler, ignoring, refusing
 from gazelle.bridges.gazebo.joints import JointServices
@@ -17,6 +19,7 @@ from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockPublisher, PerformancePublisher, StatesPublisher
 from gazelle.bridges.gazebo.world import WorldServices
 from gazelle.closing import Closeable
+from gazelle.errors import ControlWarning, RosError
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.rosout_log import report_on_rosout
@@ -58,6 +61,7 @@ class GazeboDoor(Closeable):
         self._simulation, self._node = simulation, node
         self._closing: list[Callable[[], None]] = []
         self._bindings: dict[str, Binding] = {}
+        self._managers: dict[str, list[ManagerBinding]] = {}
         self._make_time()
         node.on_new_master.append(self._make_time)
         self._closing.append(lambda: node.on_new_master.remove(self._make_time))
@@ -119,9 +123,26 @@ class GazeboDoor(Closeable):
 
     def _bind(self, name: str, ports: Ports | Robot) -> None:
         namespace = ports.namespace if isinstance(ports, Robot) else ""
-        self._bindings[name] = Binding(self.context, ports, namespace)
+        bound = self._bindings[name] = Binding(self.context, ports, namespace)
+        if isinstance(ports, Robot):
+            bound.when_known(lambda: self._bind_controllers(ports))
+
+    def _bind_controllers(self, robot: Robot) -> None:
+        """Controllers come onto the graph when the robot is known that they control."""
+        bound = self._managers[robot.name] = []
+        for manager in robot.managers.values():
+            try:
+                bound.append(ManagerBinding(self.context, manager))
+            except RosError as error:
+                text = (
+                    f"the controllers of '{robot.name}' stay off the graph: {error}; give its "
+                    "libgazebo_ros_control.so a <robotNamespace> of its own"
+                )
+                warnings.warn(ControlWarning(text), stacklevel=2)
 
     def _unbind(self, name: str) -> None:
+        for manager in self._managers.pop(name, ()):
+            manager.close()
         bound = self._bindings.pop(name, None)
         if bound is not None:
             bound.close()

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from control.stand_in import Frictionless
 
-from gazelle.bridges.control import ControlLoop
+from gazelle.bridges.control import HardwareLoop
 from gazelle.control import ControllerManager
 from gazelle.ros import Master, Node, load_message, load_service
 
@@ -25,7 +25,7 @@ class ControlGraph:
 
     node: Node
     manager: ControllerManager
-    loop: ControlLoop
+    loop: HardwareLoop
     clients: dict = field(default_factory=dict)
 
     @property
@@ -88,7 +88,7 @@ def control_graph(hardware=None, *, namespace="", model=None, rate=200.0, run=Tr
         Node("client", master_uri=master.uri) as client,
     ):
         manager = ControllerManager(hardware, namespace=namespace, model=model)
-        with ControlLoop(robot, manager, rate) as loop:
+        with HardwareLoop(robot, manager, rate) as loop:
             if run:
                 loop.start()
             yield ControlGraph(client, manager, loop)

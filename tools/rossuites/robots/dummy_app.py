@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.bridges.control import ControlLoop
+from gazelle.bridges.control import HardwareLoop
 from gazelle.control import (
     EFFORT,
     POSITION,
@@ -98,7 +98,7 @@ def main() -> int:
     robot = RobotHardware()
     robot.register_joints(JOINTS, {EFFORT: JOINTS, VELOCITY: JOINTS})
     node = parse_arguments(sys.argv[1:], "DummyApp").start()
-    with node, ControlLoop(node, ControllerManager(robot), RATE_HZ) as loop:
+    with node, HardwareLoop(node, ControllerManager(robot), RATE_HZ) as loop:
         loop.start()
         return spin(node)
 

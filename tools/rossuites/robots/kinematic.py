@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges.control import ControlLoop
+from gazelle.bridges.control import HardwareLoop
 from gazelle.control import POSITION, VELOCITY, ControllerManager, RobotHardware
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.builtin.arguments import parse_arguments, spin
@@ -55,7 +55,7 @@ class Kinematic(RobotHardware):
         """Offer ``start`` and ``stop``."""
         empty = load_service("std_srvs/Empty")
 
-        def switch(running: bool) -> Any:
+        def switch(*, running: bool) -> Any:
             def answer(_request: Any) -> dict[str, Any]:
                 self.running = running
                 return {}
@@ -82,14 +82,14 @@ def run(name: str, hardware: RobotHardware, *, makes_time: bool, offer: Any = No
             node.set_param("/use_sim_time", True)
         if offer is not None:
             offer(node)
-        with ControlLoop(node, ControllerManager(hardware), 1.0 / PERIOD_S) as loop:
+        with HardwareLoop(node, ControllerManager(hardware), 1.0 / PERIOD_S) as loop:
             if clock is None:
                 loop.start()
                 return spin(node)
             return _make_time(node, clock, loop)
 
 
-def _make_time(node: Node, clock: SimulatedClock, loop: ControlLoop) -> int:
+def _make_time(node: Node, clock: SimulatedClock, loop: HardwareLoop) -> int:
     kind: Any = load_message("rosgraph_msgs/Clock")
     publisher = node.advertise("/clock", kind, 1)
     now, due = 0, time.monotonic()

@@ -46,13 +46,13 @@ class LiveGraph:
         self._call(work)
 
 
-class ControlLoop(Closeable):
+class HardwareLoop(Closeable):
     """Reads a robot, updates its controllers and commands it, again and again, on a ROS graph.
 
     ::
 
         manager = ControllerManager(MyRobot(), namespace="/arm")
-        with ControlLoop(Node("arm"), manager, rate=100.0) as loop:
+        with HardwareLoop(Node("arm"), manager, rate=100.0) as loop:
             loop.run()
 
     Args:
@@ -105,7 +105,7 @@ class ControlLoop(Closeable):
             if due - clock.now() > self._period_ns:
                 due = clock.now()  # simulated time began again
 
-    def start(self) -> ControlLoop:
+    def start(self) -> HardwareLoop:
         """Let ``run`` go on in a thread of its own; returns this."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, name="control", daemon=True)
