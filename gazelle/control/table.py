@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from gazelle.control.interfaces import (
     EFFORT,
+    FORCE_TORQUE,
+    IMU,
     JOINT_STATE,
     POS_VEL,
     POS_VEL_ACC,
@@ -45,5 +47,17 @@ CONTROLLERS: Mapping[str, KnownController] = {
     "effort_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (EFFORT,)),
     "pos_vel_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (POS_VEL,)),
     "pos_vel_acc_controllers/JointTrajectoryController": KnownController(_TRAJECTORY, (POS_VEL_ACC,)),
+    "imu_sensor_controller/ImuSensorController": KnownController("sensor_controllers:ImuSensorController", (IMU,)),
+    "force_torque_sensor_controller/ForceTorqueSensorController": KnownController("sensor_controllers:ForceTorqueSensorController", (FORCE_TORQUE,)),
+    "effort_controllers/JointPositionController": KnownController("joint_pid:JointPositionController", (EFFORT,)),
+    "velocity_controllers/JointPositionController": KnownController("joint_pid:JointPositionController", (VELOCITY,)),
+    "effort_controllers/JointVelocityController": KnownController("joint_pid:JointVelocityController", (EFFORT,)),
+    "effort_controllers/JointGroupPositionController": KnownController("joint_pid:JointGroupPositionController", (EFFORT,)),
+    "position_controllers/GripperActionController": KnownController("gripper:GripperActionController", (POSITION,)),
+    "effort_controllers/GripperActionController": KnownController("gripper:GripperActionController", (EFFORT,)),
+    "diff_drive_controller/DiffDriveController": KnownController("diff_drive_controller:DiffDriveController", (VELOCITY,)),
+    "ackermann_steering_controller/AckermannSteeringController": KnownController("ackermann:AckermannSteeringController", (VELOCITY, POSITION)),
+    "four_wheel_steering_controller/FourWheelSteeringController": KnownController("four_wheel:FourWheelSteeringController", (VELOCITY, POSITION)),
+    "mecanum_drive_controller/MecanumDriveController": KnownController("mecanum:MecanumDriveController", (VELOCITY,)),
 }
 # fmt: on

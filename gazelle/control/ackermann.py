@@ -1,0 +1,82 @@
+"""``ackermann_steering_controller``: a driven wheel behind, a steered one in front."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.control.base_controller import BaseController
+from gazelle.control.interfaces import POSITION, VELOCITY
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.wheel_geometry import joint_origin, wheel_radius
+from gazelle.errors import ControlError
+
+
+class AckermannSteeringController(BaseController):
+    """Drives the rear wheel, and steers the front one by ``angular.z``, which is its angle [rad].
+
+    So it is in the original, too: the turning rate of the command is taken as a steering angle.
+    """
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read the two joints, their sizes and multipliers, and what all bases have."""
+        rear = parameters.text("rear_wheel", "rear_wheel_joint")
+        front = parameters.text("front_steer", "front_steer_joint")
+        self.open_base(parameters)
+        if "wheel_separation_h" in parameters:
+            length = parameters.number("wheel_separation_h")
+        else:
+            places = [joint_origin(self.model, name)[0] for name in (rear, front)]
+            length = abs(places[0] - places[1])
+        if "wheel_radius" in parameters:
+            radius = parameters.number("wheel_radius")
+        else:
+            radius = wheel_radius(self.model, rear)
+        if length <= 0.0 or radius <= 0.0:
+            raise ControlError(
+                f"wheel_separation_h and wheel_radius must be positive, not {length:g} and {radius:g}"
+            )
+        self._radius = radius
+        self._length = length * parameters.number("wheel_separation_h_multiplier", 1.0)
+        self._rolling = radius * parameters.number("wheel_radius_multiplier", 1.0)
+        self._steering = parameters.number("steer_pos_multiplier", 1.0)
+        self._wheel = self.claim(VELOCITY, [rear])
+        self._front = self.claim(POSITION, [front])
+        self._turned: Floats = np.zeros(self.nworld)
+
+    def measure_anew(self, rows: Worlds) -> None:
+        """Count from here."""
+        self._turned[rows] = self._wheel.position[rows, 0]
+
+    def advance(self, period: float) -> bool:
+        """Go on by what the wheel has rolled, in the direction that the front is steered to."""
+        turned, angle = self._wheel.position[:, 0], self._front.position[:, 0]
+        if not (np.isfinite(turned).all() and np.isfinite(angle).all()):
+            return False
+        forward = (turned - self._turned) * self._rolling
+        self._turned = turned
+        turning = np.tan(angle * self._steering) * forward / self._length
+        self.odometry.advance(forward, np.zeros(self.nworld), turning, period)
+        return True
+
+    def drive(self, twist: Floats, period: float) -> None:  # noqa: ARG002  it needs no time
+        """Roll and steer; multipliers count for the odometry alone."""
+        self._wheel.set_command(twist[:, :1] / self._radius)
+        self._front.set_command(twist[:, 2:])
+
+    def stand(self, rows: Worlds) -> None:
+        """Do not roll, steer straight ahead."""
+        self._wheel.set_command(0.0, None, rows)
+        self._front.set_command(0.0, None, rows)
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """With how far the wheel has turned."""
+        return {**super().state(), "turned": self._turned.copy()}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        super().restore(state)
+        self._turned = np.array(state["turned"])

@@ -1,0 +1,151 @@
+"""``diff_drive_controller``: wheels on a left and a right side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.control.base_controller import BaseController
+from gazelle.control.parameters import ControllerParameters
+from gazelle.control.ports import StatePort, TunableValue
+from gazelle.control.values import JointSample, TrajectoryState
+from gazelle.control.wheel_geometry import wheel_distance, wheel_radius
+from gazelle.errors import ControlError
+
+_TUNABLES = (
+    TunableValue("left_wheel_radius_multiplier", 1.0, 0.5, 1.5, "Left wheel radius multiplier."),
+    TunableValue("right_wheel_radius_multiplier", 1.0, 0.5, 1.5, "Right wheel radius multiplier."),
+    TunableValue("wheel_separation_multiplier", 1.0, 0.5, 1.5, "Wheel separation multiplier."),
+    TunableValue("publish_rate", 50.0, 0.0, 2000.0, "Publish rate of odom."),
+    TunableValue("enable_odom_tf", True, False, True, "Publish odom frame to tf."),
+)
+
+
+class DiffDriveController(BaseController):
+    """Drives one or more wheels a side; the odometry goes by the mean of each side."""
+
+    def init(self, parameters: ControllerParameters) -> None:
+        """Read the wheels, their sizes and multipliers, and what all bases have."""
+        left, right = parameters.names("left_wheel"), parameters.names("right_wheel")
+        if len(left) != len(right):
+            raise ControlError(f"#left wheels ({len(left)}) != #right wheels ({len(right)})")
+        self.open_base(parameters)
+        self._size = self._read_sizes(parameters, left[0], right[0])
+        both = parameters.number("wheel_radius_multiplier", 1.0)
+        self._multipliers = np.array(
+            [
+                parameters.number("left_wheel_radius_multiplier", both),
+                parameters.number("right_wheel_radius_multiplier", both),
+                parameters.number("wheel_separation_multiplier", 1.0),
+            ]
+        )
+        self._count = len(left)
+        self._wheels = self.claim(self.interfaces[0], (*left, *right))
+        self._turned: Floats = np.zeros((self.nworld, 2))
+        self._period = 0.0
+        self._states: StatePort[TrajectoryState] | None = None
+        if parameters.flag("publish_wheel_joint_controller_state", default=False):
+            self._states = self.add_output(
+                "wheel_joint_controller_state", TrajectoryState, self._tell, queue_size=100
+            )
+        self.add_tuning("", _TUNABLES, self._tuned, self._tune)
+
+    def _read_sizes(self, given: ControllerParameters, left: str, right: str) -> Floats:
+        """Radius and separation [m], as given or as in the URDF."""
+        if "wheel_separation" in given:
+            separation = given.number("wheel_separation")
+        else:
+            separation = wheel_distance(self.model, left, right)
+        if "wheel_radius" in given:
+            radius = given.number("wheel_radius")
+        else:
+            radius = wheel_radius(self.model, left)
+        if separation <= 0.0 or radius <= 0.0:
+            raise ControlError(
+                f"wheel_separation and wheel_radius must be positive, not {separation:g} and {radius:g}"
+            )
+        return np.array([radius, radius, separation])
+
+    def _tuned(self) -> dict[str, bool | float]:
+        left, right, apart = (float(each) for each in self._multipliers)
+        return {
+            "left_wheel_radius_multiplier": left,
+            "right_wheel_radius_multiplier": right,
+            "wheel_separation_multiplier": apart,
+            "publish_rate": self.schedule.rate,
+            "enable_odom_tf": self.framed,
+        }
+
+    def _tune(self, values: Mapping[str, Any]) -> None:
+        names = [each.name for each in _TUNABLES[:3]]
+        self._multipliers = np.array([values[name] for name in names])
+        self.schedule.set_rate(values["publish_rate"])
+        self.framed = values["enable_odom_tf"]
+
+    def _sides(self) -> Floats:
+        """How far each side has turned [rad], shape (nworld, 2)."""
+        position = self._wheels.position
+        means = (position[:, : self._count], position[:, self._count :])
+        return np.stack([side.mean(axis=1) for side in means], axis=1)
+
+    def measure_anew(self, rows: Worlds) -> None:
+        """Count from here."""
+        self._turned[rows] = self._sides()[rows]
+
+    def advance(self, period: float) -> bool:
+        """Go on by what both sides have rolled."""
+        turned = self._sides()
+        if not np.isfinite(turned).all():
+            return False
+        radii, separation = (self._size * self._multipliers)[:2], self._separation()
+        rolled = (turned - self._turned) * radii
+        self._turned = turned
+        forward = rolled.sum(axis=1) * 0.5
+        angle = (rolled[:, 1] - rolled[:, 0]) / separation
+        self.odometry.advance(forward, np.zeros(self.nworld), angle, period)
+        return True
+
+    def _separation(self) -> float:
+        return float(self._size[2] * self._multipliers[2])
+
+    def drive(self, twist: Floats, period: float) -> None:
+        """Turn both sides."""
+        self._period = period
+        left, right = (self._size * self._multipliers)[:2]
+        half = twist[:, 2] * self._separation() * 0.5
+        speeds = np.empty((self.nworld, 2 * self._count))
+        speeds[:, : self._count] = ((twist[:, 0] - half) / left)[:, None]
+        speeds[:, self._count :] = ((twist[:, 0] + half) / right)[:, None]
+        self._wheels.set_command(speeds)
+        if self._states is not None:
+            self._states.publish()
+
+    def stand(self, rows: Worlds) -> None:
+        """Turn no wheel."""
+        self._wheels.set_command(0.0, None, rows)
+
+    def _tell(self) -> TrajectoryState:
+        position, velocity = self._wheels.position, self._wheels.velocity
+        wanted = self._wheels.command()
+        onward = position + wanted * self._period
+        return TrajectoryState(
+            self.now_ns,
+            self._wheels.names,
+            JointSample(onward, wanted),
+            JointSample(position, velocity),
+            JointSample(onward - position, wanted - velocity),
+            np.full(self.nworld, self._period),
+        )
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """With how far the wheels have turned."""
+        return {**super().state(), "turned": self._turned.copy()}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
+        super().restore(state)
+        self._turned = np.array(state["turned"])
