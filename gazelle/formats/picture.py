@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Bytes
+from gazelle.array_types import Bytes, Floats
 from gazelle.errors import FormatError
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+T = TypeVar("T")
 
 MAX_PIXELS = 2**27
 
@@ -29,14 +33,28 @@ def read_picture(path: Path) -> Bytes:
     Raises:
         FormatError: The file cannot be read, is no picture, or larger than ``MAX_PIXELS``.
     """
+    return _read(path, _pixels)
+
+
+def read_elevations(path: Path) -> Floats:
+    """The values of a picture of one channel, as they are, shape (height, width); top row first.
+
+    Raises:
+        FormatError: As ``read_picture``, or it has several channels.
+    """
+    return _read(path, _elevations)
+
+
+def _read(path: Path, values_of: Callable[[Image], T]) -> T:
     import PIL.Image
 
+    _teach_doubles()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", PIL.Image.DecompressionBombWarning)
             with PIL.Image.open(path) as picture:
                 _check_size(picture, path)
-                return _pixels(picture)
+                return values_of(picture)
     except FormatError:
         raise
     except PIL.UnidentifiedImageError:
@@ -46,17 +64,38 @@ def read_picture(path: Path) -> Bytes:
         raise FormatError(f"the picture cannot be read: {text}", file=str(path)) from error
 
 
+@cache
+def _teach_doubles() -> None:
+    """Let Pillow open TIFF files of 64-bit numbers: it can decode those, and has no row for them."""
+    from PIL.TiffImagePlugin import II, MM, OPEN_INFO
+
+    for order, kind in ((II, "F;64F"), (MM, "F;64BF")):
+        OPEN_INFO.setdefault((order, 1, (3,), 1, (64,), ()), ("F", kind))
+
+
 def _check_size(picture: Image, path: Path) -> None:
     if picture.width * picture.height > MAX_PIXELS:
         raise FormatError(f"the picture has more than {MAX_PIXELS} pixels", file=str(path))
+
+
+def _elevations(picture: Image) -> Floats:
+    channels = len(picture.getbands())
+    if channels != 1 or picture.mode == "P":
+        what = "a palette of colours" if picture.mode == "P" else f"{channels} channels"
+        raise FormatError(
+            f"a picture of elevations has one channel, this has {what}",
+            hint="save it as grey, of 8, 16 or 32 bits or with fractions",
+        )
+    values: Floats = np.asarray(picture).astype(np.float64)
+    return values
 
 
 def _pixels(picture: Image) -> Bytes:
     mode = picture.mode
     if mode == "F":
         raise FormatError(
-            "a picture of elevations, with fractions, cannot be read",
-            hint="save it as a grey PNG; <size> says how high white is",
+            "a picture of elevations, with fractions, has no colours",
+            hint="save it as a grey PNG",
         )
     if mode.startswith("I"):
         deep: NDArray[np.int64] = np.asarray(picture).astype(np.int64)

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bytes, Floats
 from gazelle.description import Heightmap, Image, Source
 from gazelle.errors import FormatError
-from gazelle.formats.picture import read_picture
+from gazelle.formats.picture import read_elevations, read_picture
+
+T = TypeVar("T")
+
+_ELEVATION_FILES = {".tif", ".tiff"}
+_LEAST = 1e-6
+"""Elevation that counts as none."""
 
 
 def load_heights(shape: Heightmap) -> Floats:
@@ -16,17 +26,43 @@ def load_heights(shape: Heightmap) -> Floats:
 
     Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
     ``size``. As in Gazebo Classic the brightest pixel has the height ``size[2]`` and black
-    none; where that is negative, heights h become 1 - h.
+    none; where that is negative, heights h become 1 - h. A TIFF holds elevations: as in Gazebo
+    built with GDAL the highest is scaled to ``size[2]`` and 0 stays the sea, below which nothing
+    lies; the lowest is put to height 0.
 
     Raises:
         FormatError: The picture was not found or cannot be read; it names the place in the
             description.
     """
-    grey = _grey(_pixels(shape))
-    brightest = float(grey.max())
-    scale = abs(shape.size[2]) / brightest if brightest > 0.0 else 0.0
-    heights = grey[::-1] * scale
-    return np.ascontiguousarray(1.0 - heights if shape.size[2] < 0.0 else heights)
+    if shape.path is not None and shape.path.suffix.lower() in _ELEVATION_FILES:
+        heights = _above_ground(_named(shape, read_elevations), shape.size[2])
+    else:
+        grey = _grey(_named(shape, read_picture))
+        brightest = float(grey.max())
+        heights = grey * (abs(shape.size[2]) / brightest if brightest > 0.0 else 0.0)
+        heights = 1.0 - heights if shape.size[2] < 0.0 else heights
+    if min(heights.shape) < 2:
+        raise FormatError(
+            f"the heightmap '{shape.path}' has {heights.shape[1]} x {heights.shape[0]} pixels",
+            source=shape.source,
+            hint="ground needs two heights along each side at least",
+        )
+    return np.ascontiguousarray(heights[::-1])
+
+
+def _above_ground(elevations: Floats, height: float) -> Floats:
+    """Heights of elevations, the lowest of which lies at 0, unless that is below the sea [m].
+
+    What is lower, and what is not known (a large negative number, by custom), is at 0; so it is
+    where ``height`` is negative and all is turned over, but for what is lower.
+    """
+    finite = np.isfinite(elevations)
+    lowest = float(elevations[finite].min()) if finite.any() else 0.0
+    known = np.where(finite, elevations, min(lowest, 0.0))
+    highest = float(known.max())
+    scale = abs(height) / highest if abs(highest) > _LEAST else abs(height)
+    above = (known - max(0.0, float(known.min()))) * scale
+    return np.maximum(above, 0.0) if height >= 0.0 else -above
 
 
 def load_boxes(shape: Image) -> Floats:
@@ -38,7 +74,7 @@ def load_boxes(shape: Image) -> Floats:
     Raises:
         FormatError: As ``load_heights``.
     """
-    dark = _grey(_pixels(shape)) <= shape.threshold
+    dark = _grey(_named(shape, read_picture)) <= shape.threshold
     step = max(1, shape.granularity)
     height, width = dark.shape
     padded = np.zeros((-(-height // step) * step, -(-width // step) * step), bool)
@@ -76,12 +112,13 @@ def _grey(pixels: Bytes) -> Floats:
     return grey
 
 
-def _pixels(shape: Heightmap | Image) -> Bytes:
+def _named(shape: Heightmap | Image, read: Callable[[Path], T]) -> T:
+    """What is read of a shape's picture; errors name the place in the description."""
     kind = type(shape).__name__.lower()
     if shape.path is None:
         raise FormatError(f"the picture '{shape.uri}' was not found", source=shape.source)
     try:
-        return read_picture(shape.path)
+        return read(shape.path)
     except FormatError as error:
         raise FormatError(
             f"the {kind} '{shape.path}' cannot be used: {error.message}",

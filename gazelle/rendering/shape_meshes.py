@@ -22,7 +22,7 @@ from gazelle.description import (
 )
 from gazelle.rendering import tessellation as t
 
-_ELEVATION_FILES = frozenset([".dem", ".tif", ".tiff", ".asc", ".hgt"])
+_ELEVATION_FILES = frozenset([".dem", ".asc", ".hgt"])
 
 
 def triangles_of(shape: Geometry) -> t.TriangleMesh:

@@ -1,5 +1,7 @@
 """Pictures become heights and boxes."""
 
+import struct
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -67,9 +69,102 @@ def test_pictures_that_cannot_be_used_name_the_place(tmp_path, shape):
         assert (caught.value.file, caught.value.line) == ("w.world", 7)
 
 
-def test_elevation_models_are_refused_with_advice(tmp_path):
-    file = tmp_path / "dem.tif"
-    Picture.fromarray(np.full((3, 3), 812.5, np.float32)).save(file)
+def tiff(folder, values, name="dem.tif", **options):
+    Picture.fromarray(np.asarray(values)).save(folder / name, **options)
+    return folder / name
+
+
+def dem(file, height=10.0):
+    return load_heights(Heightmap(file.name, file, size=(4.0, 2.0, height)))
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.int32, np.float32])
+@pytest.mark.parametrize("compression", [None, "tiff_lzw", "tiff_adobe_deflate"])
+def test_elevations_keep_their_bits(tmp_path, kind, compression):
+    """As Gazebo's: (elevation - lowest) * height / highest, the last row at the least y."""
+    values = np.array([[20, 100, 50], [30, 40, 25]], kind)
+    values[0, 1] = 250 if kind is np.uint8 else 40_001
+    highest = float(values.max())
+    options = {} if compression is None else {"compression": compression}
+    heights = dem(tiff(tmp_path, values, **options))
+    np.testing.assert_allclose(heights, (values[::-1].astype(float) - 20.0) * 10.0 / highest)
+
+
+def test_nothing_lies_below_the_sea_and_what_is_not_known_is_at_it(tmp_path):
+    values = np.array([[-9999.0, np.nan, 4.0], [-1.0, 0.0, 8.0]], np.float32)
+    np.testing.assert_allclose(dem(tiff(tmp_path, values)), [[0, 0, 10], [0, 0, 5]])
+    overturned = dem(tiff(tmp_path, values), -10.0)
+    np.testing.assert_allclose(overturned[:, 2], [-10.0, -5.0])
+
+
+def test_elevations_that_are_all_the_sea_are_flat(tmp_path):
+    assert not dem(tiff(tmp_path, np.zeros((3, 3), np.float32))).any()
+    assert not dem(tiff(tmp_path, np.full((3, 3), np.nan, np.float32))).any()
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_elevations_of_64_bits_are_read(tmp_path, order):
+    values = np.array([[1.0, 2.5], [3.25, 5.0]])
+    file = tmp_path / "double.TIF"
+    file.write_bytes(double_tiff(values, order))
+    np.testing.assert_allclose(dem(file), (values[::-1] - 1.0) * 2.0)
+
+
+def double_tiff(values, order):
+    """A TIFF file of 64-bit numbers, which Pillow cannot write: one strip, eight-byte floats."""
+    height, width = values.shape
+    tags = {256: width, 257: height, 258: 64, 259: 1, 262: 1, 273: 8, 277: 1, 278: height}
+    tags |= {279: values.size * 8, 339: 3}
+    head = {"<": b"II", ">": b"MM"}[order] + struct.pack(f"{order}HI", 42, 8 + values.size * 8)
+    entries = b"".join(struct.pack(f"{order}HHII", tag, 4, 1, tags[tag]) for tag in sorted(tags))
+    strip = values.astype(f"{order}f8").tobytes()
+    return head + strip + struct.pack(f"{order}H", len(tags)) + entries + b"\0\0\0\0"
+
+
+def test_tiff_in_colour_is_no_elevation(tmp_path):
+    file = tiff(tmp_path, np.zeros((3, 3, 3), np.uint8))
+    with pytest.raises(FormatError, match="one channel, this has 3 channels") as caught:
+        dem(file)
+    assert "save it as grey" in caught.value.hint
+    Picture.new("P", (3, 3)).save(file)
+    with pytest.raises(FormatError, match="a palette of colours"):
+        dem(file)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 5), (5, 1)])
+@pytest.mark.parametrize("name", ["dem.tif", "dem.png"])
+def test_ground_has_two_heights_along_each_side(tmp_path, shape, name):
+    source = Source("w.world", 7, "heightmap")
+    file = tiff(tmp_path, np.zeros(shape, np.uint8), name)
+    with pytest.raises(FormatError, match=f"has {shape[1]} x {shape[0]} pixels") as caught:
+        load_heights(Heightmap(name, file, source=source))
+    assert caught.value.line == 7
+
+
+def test_a_tiff_with_too_many_pixels_is_refused_before_it_is_read(tmp_path, monkeypatch):
+    monkeypatch.setattr("gazelle.formats.picture.MAX_PIXELS", 8)
+    with pytest.raises(FormatError, match="more than 8 pixels"):
+        dem(tiff(tmp_path, np.zeros((3, 3), np.uint16)))
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")  # Pillow's
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_damaged_tiff_files_are_errors_of_ours(tmp_path_factory, seed):
+    chance = np.random.default_rng(seed)
+    file = tiff(tmp_path_factory.mktemp("dem"), chance.integers(0, 2**16, (9, 9)).astype(np.uint16))
+    content = bytearray(file.read_bytes())
+    for place in chance.integers(0, len(content), 4):
+        content[place] = chance.integers(0, 256)
+    file.write_bytes(content[: chance.integers(0, len(content))])
+    try:
+        assert np.isfinite(dem(file)).all()
+    except FormatError as error:
+        assert str(file) in str(error)  # noqa: PT017  # either may be
+
+
+def test_pictures_of_elevations_are_no_boxes(tmp_path):
+    file = tiff(tmp_path, np.full((3, 3), 812.5, np.float32))
     with pytest.raises(FormatError, match="elevations") as caught:
-        load_heights(Heightmap("dem.tif", file))
+        load_boxes(Image("dem.tif", file))
     assert "grey PNG" in caught.value.hint

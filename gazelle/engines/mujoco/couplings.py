@@ -13,7 +13,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gazelle.description import Joint, Mimic
+from gazelle.description import Inertial, Joint, Mimic, Pose
+from gazelle.engines.mujoco.inertia import inertia_of, possible
+from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.tree import Body, Closure, lost_in_loop
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
 
@@ -22,6 +24,11 @@ _STEPS, _DAMPING_RATIO = 3.0, 1.0
 
 # Distance of the second point that keeps a hinge's axis in line [m].
 _ARM = 0.1
+
+# Mass of a link that a joint needs to close a loop, as a share of the child's: so much is the
+# child harder to move. With MuJoCo's largest impedance the two are apart by one part in a hundred
+# of what the child would be without the joint.
+_LIGHTER, _RIGID = 0.01, [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
 
 def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float) -> None:
@@ -37,15 +44,7 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float)
         if joint is None:
             continue
         if joint.type == "screw":
-            # SDF's pitch is in rad/m and left-handed: angle = -pitch * distance.
-            pitch = joint.thread_pitch
-            if pitch == 0.0:
-                raise EngineError(
-                    f"screw joint '{body.joint_name}' has a thread pitch of 0",
-                    source=joint.source,
-                    hint="give it a <thread_pitch> [rad/m], or make it prismatic",
-                )
-            _tie(spec, f"{body.joint_name}#1", body.joint_name, (0.0, -1.0 / pitch), time_step)
+            _tie_screw(spec, body.joint_name, joint, time_step)
         for index, axis in enumerate(joint.axes):
             if axis.mimic is not None:
                 mimic = axis.mimic
@@ -54,6 +53,18 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float)
                 leader = _coordinate(mimic.joint, mimic.axis)
                 start = mimic.offset - mimic.multiplier * mimic.reference
                 _tie(spec, follower, leader, (start, mimic.multiplier), time_step)
+
+
+def _tie_screw(spec: mujoco.MjSpec, name: str, joint: Joint, time_step: float) -> Any:
+    """Let a screw advance as it turns; SDF's pitch is in rad/m and left-handed."""
+    pitch = joint.thread_pitch
+    if pitch == 0.0:
+        raise EngineError(
+            f"screw joint '{name}' has a thread pitch of 0",
+            source=joint.source,
+            hint="give it a <thread_pitch> [rad/m], or make it prismatic",
+        )
+    return _tie(spec, f"{name}#1", name, (0.0, -1.0 / pitch), time_step)
 
 
 def _require_leader(name: str, joint: Joint, mimic: Mimic, axes: Mapping[str, int]) -> None:
@@ -78,18 +89,10 @@ def add_closure(
     """Close a loop, or couple two joints through a gearbox.
 
     Raises:
-        EngineError: The joint cannot close a loop.
+        EngineError: The joint is none that MuJoCo knows, or a screw has no thread.
     """
-    joint = closure.joint
-    if joint.type not in _CLOSERS:
-        known = ", ".join(sorted(_CLOSERS))
-        raise EngineError(
-            f"joint '{closure.name}' of type '{joint.type}' closes a loop, which is not simulated",
-            source=joint.source,
-            hint=f"let another joint of the loop close it; types that can: {known}",
-        )
     _warn_of_loss(closure)
-    _CLOSERS[joint.type](spec, closure, bodies, time_step)
+    _CLOSERS.get(closure.joint.type, _through_a_link)(spec, closure, bodies, time_step)
 
 
 def _warn_of_loss(closure: Closure) -> None:
@@ -97,7 +100,7 @@ def _warn_of_loss(closure: Closure) -> None:
     joint = closure.joint
     if joint.type == "universal":
         lost = "it is held as a ball joint"
-    elif terms := () if joint.type == "gearbox" else lost_in_loop(joint):
+    elif terms := lost_in_loop(joint) if joint.type in _LOSING else ():
         lost = f"without effect there: {', '.join(terms)}"
     else:
         return
@@ -124,6 +127,50 @@ def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step:
     equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
     equality.name = f"{closure.name}#1"
     equality.data[:3] = far
+
+
+def _through_a_link(
+    spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float
+) -> None:
+    """Give the parent another link, which moves as the joint says, and weld the child to that.
+
+    MuJoCo has no constraint that lets two bodies slide along an axis. The link is where the child
+    is and like it, but lighter; it weighs nothing, and the child is held nearly rigidly.
+    """
+    joint = closure.joint
+    if joint.type == "floating":
+        return  # it holds nothing
+    by_name = {body.name: body for body in bodies}
+    child = by_name[joint.child]
+    place, above = _at_rest(child, by_name), spec.worldbody
+    if joint.parent != "world":
+        above = spec.body(joint.parent)
+        place = _at_rest(by_name[joint.parent], by_name).inverse() * place
+    x, y, z, w = place.quaternion
+    name = f"{closure.name}#link"
+    handle = above.add_body(name=name, pos=list(place.position), quat=[w, x, y, z])
+    add_joint(handle, closure.name, joint, time_step)
+    if joint.type == "screw":
+        _tie_screw(spec, closure.name, joint, time_step).solimp = _RIGID
+    inertial = child.link.inertial or Inertial()
+    moments, quaternion = inertia_of(child)
+    handle.explicitinertial, handle.gravcomp = True, 1.0
+    handle.mass, handle.ipos = _LIGHTER * inertial.mass, list(inertial.pose.position)
+    handle.inertia = (_LIGHTER * possible(moments)).tolist()
+    handle.iquat = quaternion.tolist()
+    equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_WELD, name1=joint.child, name2=name)
+    equality.objtype, equality.name = mujoco.mjtObj.mjOBJ_BODY, closure.name
+    equality.solref = [_STEPS * time_step, _DAMPING_RATIO]
+    equality.solimp = _RIGID
+
+
+def _at_rest(body: Body, by_name: Mapping[str, Body]) -> Pose:
+    """The pose of a body in the world with all joints at zero."""
+    pose = body.pose
+    while body.parent is not None:
+        body = by_name[body.parent]
+        pose = body.pose * pose
+    return pose
 
 
 def _gearbox(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float) -> None:
@@ -159,18 +206,23 @@ _CLOSERS: dict[str, Callable[[mujoco.MjSpec, Closure, list[Body], float], None]]
 }
 
 
+_LOSING = _CLOSERS.keys() - {"gearbox"}
+"""Types that lose what is more than their kind of motion."""
+
+
 def _tie(
     spec: mujoco.MjSpec,
     follower: str,
     leader: str,
     line: tuple[float, float],
     time_step: float,
-) -> None:
+) -> Any:
     """Hold follower = line[0] + line[1] * leader."""
     equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=follower, name2=leader)
     equality.objtype = mujoco.mjtObj.mjOBJ_JOINT
     equality.data[:5] = [line[0], line[1], 0.0, 0.0, 0.0]
     equality.solref = [_STEPS * time_step, _DAMPING_RATIO]
+    return equality
 
 
 def _between(spec: mujoco.MjSpec, kind: Any, closure: Closure, time_step: float) -> Any:

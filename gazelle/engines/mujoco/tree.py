@@ -11,7 +11,7 @@ from gazelle.description import Joint, JointAxis, Link, Model, PlacedModel, Pose
 from gazelle.errors import EngineError, did_you_mean
 
 # Joints that two bodies held at points do not make.
-_ONLY_IN_TREES = ("floating", "planar", "prismatic", "revolute2", "screw", "universal")
+_ONLY_IN_TREES = ("floating", "planar", "prismatic", "revolute2", "universal")
 
 # Limits so far off are none [m or rad].
 _FAR = 1e4
@@ -179,9 +179,11 @@ def _exchanged(closure: Closure, carrying: dict[str, tuple[str, Joint]]) -> Clos
 
 
 def lost_in_loop(joint: Joint) -> tuple[str, ...]:
-    """What of a joint no constraint between two bodies can do, in words; empty for nothing."""
+    """What of a joint is rather kept in the tree, in words; empty for nothing."""
     if joint.type in _ONLY_IN_TREES:
         return (f"type '{joint.type}'",)
+    if joint.type == "screw":  # a link of its own does all that it does
+        return ()
     lost = [
         word
         for axis in joint.axes
