@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.control import RobotHardware
+from gazelle.control import JointCommandInterface, RobotHardware
 
 PREFIX = "hardware_interface/"
 
@@ -22,7 +22,7 @@ class Frictionless(RobotHardware):
     def write(self, time, period):
         states = self.joints
         for interface in self.interfaces.values():
-            if interface is states:
+            if not isinstance(interface, JointCommandInterface):
                 continue
             columns = states.columns(interface.resources)
             fields = interface.commands
