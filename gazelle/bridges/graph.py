@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.ros import Node, Time
-from gazelle.simulation import Simulation
+
+if TYPE_CHECKING:
+    from gazelle.simulation import Simulation
 
 _SECOND = 1_000_000_000
 

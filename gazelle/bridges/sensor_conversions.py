@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.bridges import scan_conversions  # noqa: F401  it teaches the common ones
 from gazelle.bridges.conversions import (
     ConversionContext,
     Decoder,
