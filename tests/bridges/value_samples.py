@@ -1,6 +1,7 @@
 """Random values of every kind that ports publish."""
 
 import numpy as np
+from control_samples import CONTROL_MAKERS
 
 from gazelle.engines import Contacts
 from gazelle.navigation.values import Path
@@ -157,6 +158,7 @@ def bumper(rng, nworld, _stamp):
 
 
 MAKERS = {
+    **CONTROL_MAKERS,
     Odometry: _odometry(Odometry),
     TruePose: _odometry(TruePose),
     JointStates: joint_states,

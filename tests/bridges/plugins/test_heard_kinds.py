@@ -17,6 +17,7 @@ from gazelle.ros import load_message, load_service
 from gazelle.simulation import Transforms
 from gazelle.simulation.values import (
     Bias,
+    EmergencyStop,
     GeoReference,
     JointPath,
     LinkPair,
@@ -112,7 +113,12 @@ def hears_transforms(value, message):
         assert same_turn(one.quaternion[0], each.transform.rotation)
 
 
+def hears_stop(value, message):
+    assert value.on == bool(message.data)
+
+
 HEARS = {
+    EmergencyStop: hears_stop,
     GoalPose: hears_goal,
     JointPath: hears_path,
     Number: hears_number,

@@ -4,11 +4,13 @@ import io
 
 import numpy as np
 import pytest
+from control_samples import CONTROL_SAYS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from value_samples import FRAMES, MAKERS
 
-import gazelle.bridges.binding  # noqa: F401  it teaches all kinds
+import gazelle.bridges.binding
+import gazelle.bridges.control  # noqa: F401  they teach all kinds
 from gazelle.bridges import conversions
 from gazelle.bridges.conversions import ConversionContext, encoder_of
 from gazelle.navigation.values import Path
@@ -296,6 +298,7 @@ def says_flag(message, value, world, _view):
 
 
 SAYS = {
+    **CONTROL_SAYS,
     Odometry: says_odometry,
     TruePose: says_true_pose,
     JointStates: says_joints,
