@@ -96,7 +96,7 @@ def test_interrupt_saves_says_how_to_resume_and_resumes(cli, tmp_path):
          "--out", str(tmp_path)],
         stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 120
     while not list(tmp_path.glob("*/progress.csv")) and time.monotonic() < deadline:
         time.sleep(0.1)
     time.sleep(1.0)

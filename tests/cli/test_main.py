@@ -1,8 +1,8 @@
 from __future__ import annotations
 
+import resource
 import subprocess
 import sys
-import time
 import types
 import warnings
 from pathlib import Path
@@ -152,9 +152,10 @@ def gazelle(*arguments):
 
 
 def test_help_starts_fast_and_imports_nothing_heavy():
-    start = time.perf_counter()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     assert gazelle("--help").returncode == 0
-    assert time.perf_counter() - start < 2.0
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 1.0
     code = (
         "import sys; from gazelle.cli.main import main; main(['--help']);"
         "print([name for name in ('numpy', 'torch', 'mujoco', 'gymnasium') if name in sys.modules])"

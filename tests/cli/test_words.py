@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from ports import free_port
 
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.completion import script_for
@@ -58,8 +59,7 @@ def test_words_that_are_programs_take_the_place_of_the_process(before, words):
 
 @pytest.mark.parametrize("words", [["roscore"], ["exec", "roscore"]])
 def test_roscore_is_a_core(words, tmp_path):
-    with Master(port=0, rosout=False) as free:
-        port = free.port
+    port = free_port()
     env = os.environ | {"ROS_HOME": str(tmp_path)}
     command = [sys.executable, "-m", "gazelle.cli.main", *words, "-p", str(port)]
     with subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True) as process:

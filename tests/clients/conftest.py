@@ -21,7 +21,7 @@ def graph():
         with serve_ros(sim, master.uri) as door:
             thread = threading.Thread(target=door.run)
             thread.start()
-            with Gazebo(master_uri=master.uri, timeout=10.0) as gazebo:
+            with Gazebo(master_uri=master.uri, timeout=60.0) as gazebo:
                 yield SimpleNamespace(sim=sim, master=master, gazebo=gazebo)
             door.stop()
             thread.join()

@@ -59,7 +59,7 @@ def controllers():
         Node("client", master_uri=master.uri) as client,
     ):
         ControllerManager(robot)
-        with contextlib.closing(Controllers(client, "/r1", timeout=5.0)) as made:
+        with contextlib.closing(Controllers(client, "/r1", timeout=60.0)) as made:
             yield made
 
 

@@ -20,7 +20,7 @@ _PLACE = SourceLocation("roscore", 0, "node")
 _LOOK_S = 0.005
 _MASTER_S = 30.0
 """Seconds a master may take to answer, on the slowest of machines."""
-_ROSOUT_S = 2.0
+_ROSOUT_S = 10.0
 """Seconds to wait for rosout; nodes work without, but what they log early would be lost."""
 
 ROSOUT_PROGRAM = Program((sys.executable, "-m", "gazelle.ros.builtin.rosout"), None)

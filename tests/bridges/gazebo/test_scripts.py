@@ -153,7 +153,7 @@ def printed(command, surroundings):
         env=surroundings,
         capture_output=True,
         text=True,
-        timeout=90,
+        timeout=300,
         check=False,
         stdin=subprocess.DEVNULL,
     )

@@ -13,6 +13,7 @@ import warnings
 
 import pytest
 from door_client import Client
+from ports import free_port
 from ros.graph import until
 
 import gazelle
@@ -191,8 +192,9 @@ def test_what_a_running_simulation_warns_of_is_on_rosout(master):
 
 
 def test_a_new_master_learns_that_time_is_simulated(monkeypatch):
-    with Master(port=0, rosout=False) as first:
-        uri, port = first.uri, first.port
+    port = free_port()
+    with Master(port=port, rosout=False) as first:
+        uri = first.uri
         sim = gazelle.Simulation("empty")
         door = serve_ros(sim, uri)
     with sim, door, Master(port=port, rosout=False):
@@ -204,8 +206,7 @@ def test_a_new_master_learns_that_time_is_simulated(monkeypatch):
 
 
 def test_it_waits_for_a_master(world, monkeypatch):
-    with Master(port=0, rosout=False) as gone:
-        port = gone.port
+    port = free_port()
     monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{port}")
     done = []
     thread = threading.Thread(target=lambda: done.append(serve(["--iters", "5", str(world)])))

@@ -169,7 +169,7 @@ for topic, kind, fields in (
 ):
     state = kind(**fields); state.pose.orientation.w = 1.0; state.pose.position.x = x() + 0.5
     said = rospy.Publisher(topic, kind, queue_size=1, latch=True); said.publish(state)
-    for _ in range(200):
+    for _ in range(6000):
         if abs(x() - state.pose.position.x) < 1e-6: break
         rospy.rostime.wallsleep(0.01)
     print(topic, abs(x() - state.pose.position.x) < 1e-6, flush=True)
@@ -230,7 +230,7 @@ def run(uri, classes, *command):
         env=environment(uri) | {"PYTHONPATH": str(classes)},
         capture_output=True,
         text=True,
-        timeout=90,
+        timeout=300,
         check=False,
     )
     assert finished.returncode == 0, finished.stdout + finished.stderr

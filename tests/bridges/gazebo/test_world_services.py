@@ -112,13 +112,13 @@ def test_the_same_seed_gives_the_same_noise(graph):
 
 def test_rqt_reconfigure_sees_and_changes_the_physics(graph):
     config = graph.client.node.wait_for_message(
-        "/gazebo/parameter_updates", load_message("dynamic_reconfigure/Config"), timeout=5.0
+        "/gazebo/parameter_updates", load_message("dynamic_reconfigure/Config"), timeout=60.0
     )
     assert {each.name: each.value for each in config.doubles}["time_step"] == 0.001
     described = graph.client.node.wait_for_message(
         "/gazebo/parameter_descriptions",
         load_message("dynamic_reconfigure/ConfigDescription"),
-        timeout=5.0,
+        timeout=60.0,
     )
     assert len(described.groups[0].parameters) == 15
     request = load_service("dynamic_reconfigure/Reconfigure")._request_class()

@@ -273,4 +273,4 @@ def test_a_kobuki_tells_of_bumps():
 def test_a_lift_is_called_by_a_string():
     with running(LIFT) as graph:
         send(graph, "/elevator", "std_msgs/String", data="1")
-        wait(lambda: graph.sim.robots["lift"].joints["up"].position > 2.8, 40.0)
+        wait(lambda: graph.sim.robots["lift"].joints["up"].position > 2.8)

@@ -27,7 +27,7 @@ say(image.encoding, image.width, image.height, image.step, tuple(image.data[4 * 
 say(depth.encoding, depth.step, round(struct.unpack_from("<f", depth.data, 4 * at)[0], 5))
 say(info.width, round(info.K[0], 6), info.header.frame_id)
 buffer = tf2_ros.Buffer(); listener = tf2_ros.TransformListener(buffer)
-t = buffer.lookup_transform("base_link", "camera", rospy.Time(0), rospy.Duration(10)).transform
+t = buffer.lookup_transform("base_link", "camera", rospy.Time(0), rospy.Duration(60)).transform
 say(*(round(v, 6) + 0.0 for v in (t.translation.z, t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w)))
 """
 

@@ -187,14 +187,14 @@ def test_every_truncation_is_an_error(all_kinds):
 )
 def test_impossible_lengths_are_refused_at_once(name, offset):
     made = load_message(name)
-    begin = time.perf_counter()
+    begin = time.process_time()
     for count in (0xFFFFFFFF, 0x7FFFFFFF, 100_000):
         for more in (0, 1000):
             data = bytes(offset) + struct.pack("<I", count) + bytes(more)
             for arrays in (False, True):
                 with pytest.raises(DeserializationError):
                     made().deserialize(data, numpy=arrays)
-    assert time.perf_counter() - begin < 2.0
+    assert time.process_time() - begin < 2.0
 
 
 def test_very_many_empty_elements_are_refused(all_kinds):
