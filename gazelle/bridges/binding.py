@@ -8,7 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges import plugin_conversions, sensor_conversions  # noqa: F401  they teach kinds
+from gazelle.bridges import (  # noqa: F401  they teach kinds
+    picture_conversions,
+    plugin_conversions,
+    sensor_conversions,
+)
 from gazelle.bridges.conversions import ConversionContext, decoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.bridges.listening import HeardTopic

@@ -6,12 +6,13 @@ from typing import Any, TypeVar
 
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.sensors import ContactModel, ImuModel, LidarModel
+from gazelle.sensors import CameraModel, ContactModel, ImuModel, LidarModel
 from gazelle.simulation import SensorUnit
 
 M = TypeVar("M")
 
 _WORDS: dict[type[Any], str] = {
+    CameraModel: "camera, depth or multicamera",
     LidarModel: "ray or gpu_ray",
     ImuModel: "imu",
     ContactModel: "contact",

@@ -57,6 +57,11 @@ _SENSORS = (
     _simulated("hector_gazebo_ros_gps", "Hector's GPS", "hector_position:HectorGps"),
     _simulated("hector_gazebo_ros_magnetic", "Hector's magnetometer", "hector_position:HectorMagnetic"),
     _simulated("hector_gazebo_ros_baro", "Hector's barometer: height, altitude and pressure", "hector_barometer:HectorBarometer"),
+    _simulated("gazebo_ros_camera gazebo_ros_prosilica", "pictures, JPEG too, and what the lens is", "camera:CameraPlugin"),
+    _simulated("gazebo_ros_triggered_camera", "a picture for each message on `image_trigger`", "camera:TriggeredCameraPlugin"),
+    _simulated("gazebo_ros_multicamera", "cameras that see at once", "camera:MultiCameraPlugin"),
+    _simulated("gazebo_ros_depth_camera", "pictures, depths and points", "depth_camera:DepthCameraPlugin"),
+    _simulated("gazebo_ros_openni_kinect", "the same of a Kinect", "depth_camera:KinectPlugin"),
     _simulated("hector_gazebo_ros_sonar", "Hector's sonar", "hector_sonar:HectorSonar"),
 )
 
@@ -98,9 +103,8 @@ _WORLDS = (
 )
 
 _NOT_SIMULATED = (
-    _left_out("gazebo_ros_camera gazebo_ros_depth_camera gazebo_ros_multicamera gazebo_ros_openni_kinect gazebo_ros_prosilica"
-              " gazebo_ros_thermal_camera gazebo_ros_thermal_depth_camera gazebo_ros_triggered_camera gazebo_ros_triggered_multicamera",
-              "cameras", "cameras are not published yet; its topics stay away"),
+    _left_out("gazebo_ros_thermal_camera gazebo_ros_thermal_depth_camera gazebo_ros_triggered_multicamera",
+              "cameras of heat, triggered pairs", "its pictures are not published yet; its topics stay away"),
     _left_out("gazebo_ros_projector gazebo_ros_video", "pictures on models", "pictures on models are not shown; its topic is not listened to"),
     _left_out("gazebo_ros_control_select_joints", "ros_control for some of the joints", "its joints move freely; libgazebo_ros_control.so is simulated"),
     _left_out("CessnaGUIPlugin HydraDemoPlugin HydraPlugin JoyPlugin KeysToCmdVelPlugin KeysToJointsPlugin PlaneDemoPlugin",

@@ -9,7 +9,8 @@ from gazelle.native import search_path
 __path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.rendering.lens import PinholeLens
+from gazelle.rendering.live_scene import LiveScene
 from gazelle.rendering.renderer import Frames, Renderer
 from gazelle.rendering.visible import VisiblePart
 
-__all__ = ["Frames", "PinholeLens", "Renderer", "VisiblePart"]
+__all__ = ["Frames", "LiveScene", "PinholeLens", "Renderer", "VisiblePart"]

@@ -15,6 +15,7 @@ from gazelle.sensors.altitude import (
     PressureReading,
     air_pressure,
 )
+from gazelle.sensors.camera import CameraImage, CameraModel
 from gazelle.sensors.contact import ContactModel, ContactReading
 from gazelle.sensors.force_torque import ForceTorque, ForceTorqueModel, WrenchReading
 from gazelle.sensors.geodesy import TangentPlane
@@ -33,6 +34,8 @@ __all__ = [
     "Altimeter",
     "AltimeterModel",
     "AltimeterReading",
+    "CameraImage",
+    "CameraModel",
     "ContactModel",
     "ContactReading",
     "ForceTorque",

@@ -17,7 +17,7 @@ from gazelle.states import restore_all, states_of
 class SensorModel(Protocol):
     """Measures one sensor in every world."""
 
-    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
+    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> NDArray[Any]:
         """Measure now, shape (n, channels).
 
         Args:
@@ -25,7 +25,7 @@ class SensorModel(Protocol):
             interval: Time since the last measurement [s].
         """
 
-    def reading(self, values: Floats, stamp: int) -> Any:
+    def reading(self, values: NDArray[Any], stamp: int) -> Any:
         """A measurement by name; ``values`` are of one world, shape (channels,), or of many."""
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING
 from gazelle.description import Imu, Joint, Link, Pose, Sensor
 from gazelle.engines import Engine
 from gazelle.errors import EngineError, SimulationWarning
+from gazelle.rendering import LiveScene
 from gazelle.sensors import (
     AirPressure,
     AirPressureModel,
     Altimeter,
     AltimeterModel,
+    CameraModel,
     ContactModel,
     ForceTorque,
     ForceTorqueModel,
@@ -39,6 +41,7 @@ class SensorMount:
 
     Attributes:
         engine: Of the simulation.
+        scene: Draws what cameras see.
         sensor: What the file says.
         scope: Scoped name of the model that it is in.
         link: The link, or the child of the joint, that it moves with.
@@ -48,6 +51,7 @@ class SensorMount:
     """
 
     engine: Engine
+    scene: LiveScene
     sensor: Sensor
     scope: str
     link: Link
@@ -67,17 +71,21 @@ class SensorMount:
         return f"{self.scope}::{owner}::{self.sensor.name}"
 
 
-def mounts(engine: Engine, model: Model, seed: int) -> Iterator[SensorMount]:
+def mounts(engine: Engine, scene: LiveScene, model: Model, seed: int) -> Iterator[SensorMount]:
     """All sensors of a model and its nested ones, on links and on joints."""
     for placed in model.walk():
         links = {link.name: link for link in placed.model.links}
         for link in placed.model.links:
             for sensor in link.sensors:
-                yield SensorMount(engine, sensor, placed.scope, link, None, model.static, seed)
+                yield SensorMount(
+                    engine, scene, sensor, placed.scope, link, None, model.static, seed
+                )
         for joint in placed.model.joints:
             for sensor in joint.sensors:
                 child = links.get(joint.child) or Link(joint.child)
-                yield SensorMount(engine, sensor, placed.scope, child, joint, model.static, seed)
+                yield SensorMount(
+                    engine, scene, sensor, placed.scope, child, joint, model.static, seed
+                )
 
 
 def sensor_model(mount: SensorMount) -> SensorModel | None:
@@ -102,6 +110,22 @@ def _lidar(mount: SensorMount) -> SensorModel:
     if mount.sensor.lidar is None:
         raise EngineError("it says nothing about its rays")
     return LidarModel(mount.sensor.lidar, *_on_link(mount))
+
+
+def _camera(mount: SensorMount) -> SensorModel:
+    return _camera_model(mount, depth=False)
+
+
+def _depth_camera(mount: SensorMount) -> SensorModel:
+    return _camera_model(mount, depth=True)
+
+
+def _camera_model(mount: SensorMount, *, depth: bool) -> SensorModel:
+    mode = mount.sensor.settings.find("camera/distortion/ignition:legacy_mode")
+    legacy = mode is None or mode.text.strip().lower() not in ("false", "0")
+    return CameraModel(
+        mount.sensor.cameras, mount.scene, *_on_link(mount), depth=depth, legacy=legacy
+    )
 
 
 def _imu(mount: SensorMount) -> SensorModel:
@@ -172,7 +196,10 @@ def _on_link(mount: SensorMount) -> tuple[Engine, str, Pose, int, str]:
 _MODELS: dict[str, Callable[[SensorMount], SensorModel]] = {
     "air_pressure": _air_pressure,
     "altimeter": _altimeter,
+    "camera": _camera,
     "contact": _contact,
+    "depth": _depth_camera,
+    "depth_camera": _depth_camera,
     "force_torque": _force_torque,
     "gps": _gps,
     "gpu_lidar": _lidar,
@@ -180,7 +207,9 @@ _MODELS: dict[str, Callable[[SensorMount], SensorModel]] = {
     "imu": _imu,
     "lidar": _lidar,
     "magnetometer": _magnetometer,
+    "multicamera": _camera,
     "navsat": _gps,
     "ray": _lidar,
+    "rgbd_camera": _depth_camera,
     "sonar": _sonar,
 }

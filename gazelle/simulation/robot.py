@@ -327,7 +327,7 @@ def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[
             for sensor, made in stage.sensor_models(model)
         }
     units: dict[str, SensorUnit] = {}
-    for mount in mounts(simulation.engine, model, simulation.seed):
+    for mount in mounts(simulation.engine, simulation.live_scene, model, simulation.seed):
         made = sensor_model(mount)
         if made is not None:
             units[mount.sensor.name] = SensorUnit(robot, mount.sensor, mount.name, made)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.description import Sensor
 from gazelle.sensors import SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
@@ -44,7 +44,7 @@ class SensorUnit:
         self._shared_model = shared(model, self._requests)
         self.schedule = Schedule(sensor.update_rate)
         self.schedule.done(robot.simulation.clock.now_ns)
-        self._values: Floats | None = None
+        self._values: NDArray[Any] | None = None
         self._stale = _NO_WORLDS
         self._stamp = 0
         self._awake = False
@@ -67,7 +67,7 @@ class SensorUnit:
             self.schedule.rate = rate
 
     @between_steps
-    def measure(self, worlds: Worlds | None = None) -> Floats:
+    def measure(self, worlds: Worlds | None = None) -> NDArray[Any]:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
         return self._model.measure(worlds, self._period())
 
@@ -80,13 +80,13 @@ class SensorUnit:
         return self.reading(self.latest()[world])
 
     @between_steps
-    def latest(self) -> Floats:
+    def latest(self) -> NDArray[Any]:
         """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
         self._awake = True
         return self.current()
 
     @between_steps
-    def current(self) -> Floats:
+    def current(self) -> NDArray[Any]:
         """The same without waking it: measured now if it sleeps or never measured."""
         if not self.awake:
             return self.measure()
@@ -99,7 +99,7 @@ class SensorUnit:
         return self._values
 
     @between_steps
-    def reading(self, values: Floats) -> Any:
+    def reading(self, values: NDArray[Any]) -> Any:
         """Values by name."""
         return self._model.reading(values, self._stamp)
 
@@ -110,7 +110,7 @@ class SensorUnit:
         return lambda: self._listeners.remove(listener)
 
     @between_steps
-    def update(self, now_ns: int) -> Floats:
+    def update(self, now_ns: int) -> NDArray[Any]:
         """Measure in turn; returns what ``latest`` will until the next time."""
         values = self._values = self.measure()
         self._stale, self._stamp = _NO_WORLDS, now_ns

@@ -17,6 +17,7 @@ from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import Engine, SystemEngine, make_engine
 from gazelle.errors import SimulationError
+from gazelle.rendering import LiveScene
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
 from gazelle.simulation.clock import NANOSECONDS, Clock
@@ -104,7 +105,7 @@ class Simulation(Closeable):
         self._shared_loads = shared(self._loads, self.requests)
         self.ports, self.events = Ports(self.requests), Events()
         self.entities = EntityManager(self)
-        self._renderer = SceneRenderer()
+        self._renderer, self.live_scene = SceneRenderer(), LiveScene(self._engine)
         self._faults = FaultLog(on_fault, fault_dump)
         self.loop = StepLoop(self, self._engine, self._loads, self._faults)
         with self.requests:

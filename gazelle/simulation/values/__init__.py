@@ -24,6 +24,12 @@ from gazelle.simulation.values.commands import (
     Trigger,
     TurnCommand,
 )
+from gazelle.simulation.values.pictures import (
+    CameraInfoValue,
+    CompressedImageValue,
+    ImageValue,
+    PixelPoints,
+)
 from gazelle.simulation.values.sensing import (
     AltimeterValue,
     BumperValue,
@@ -46,12 +52,15 @@ __all__ = [
     "AltimeterValue",
     "Bias",
     "BumperValue",
+    "CameraInfoValue",
     "ChannelPoints",
     "CliffValue",
+    "CompressedImageValue",
     "EmergencyStop",
     "Fix",
     "Flags",
     "GeoReference",
+    "ImageValue",
     "JointPath",
     "JointStates",
     "LaserPoints",
@@ -62,6 +71,7 @@ __all__ = [
     "Odometry",
     "Outcome",
     "PathRequest",
+    "PixelPoints",
     "PointValue",
     "Push",
     "RangeValue",

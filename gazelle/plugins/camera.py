@@ -1,0 +1,200 @@
+"""What ``libgazebo_ros_camera.so`` and its kin do: pictures under the names that files give.
+
+Pictures are drawn while somebody listens, at the sensor's rate in simulated time; those of one
+moment have the same stamp on every topic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.array_types import Worlds
+from gazelle.description import Camera, Parameters
+from gazelle.plugins.camera_settings import CameraSettings
+from gazelle.plugins.pixel_formats import encoding_of, pixels_of
+from gazelle.plugins.sensor_kinds import model_of
+from gazelle.sensors import CameraImage, CameraModel
+from gazelle.simulation import Input, SensorOutput, SensorPlugin, SensorUnit
+from gazelle.simulation.clock import NANOSECONDS
+from gazelle.simulation.values import (
+    CameraInfoValue,
+    CompressedImageValue,
+    ImageValue,
+    Trigger,
+)
+
+
+class CameraTopic(SensorOutput):
+    """A picture's topic: told when the sensor has measured, unless something holds it back.
+
+    Args:
+        sensor: Measures.
+        settings: Names and frame.
+        topic: As the file names it.
+        kind: Type of the values.
+        read: The value now.
+        may_tell: Whether this measurement is told; asked once for each.
+    """
+
+    def __init__(
+        self,
+        sensor: SensorUnit,
+        settings: CameraSettings,
+        topic: str,
+        kind: type[Any],
+        read: Callable[[], Any],
+        may_tell: Callable[[], bool] | None = None,
+    ) -> None:
+        super().__init__(
+            sensor,
+            settings.topic(topic),
+            kind,
+            frame=settings.frame,
+            read=read,
+            namespace=settings.namespace,
+        )
+        self._may_tell = may_tell
+
+    def _tell(self, sensor: SensorUnit) -> None:
+        if self._may_tell is None or self._may_tell():
+            super()._tell(sensor)
+
+
+class CameraTopics:
+    """The topics of one camera of a sensor.
+
+    Args:
+        sensor: Measures.
+        camera: Of the sensor.
+        settings: Names and lens.
+        look: The camera's picture now.
+        may_tell: Whether a measurement is told.
+    """
+
+    def __init__(
+        self,
+        sensor: SensorUnit,
+        camera: Camera,
+        settings: CameraSettings,
+        look: Callable[[], CameraImage],
+        may_tell: Callable[[], bool] | None = None,
+    ) -> None:
+        self.sensor, self.camera, self.settings, self.look = sensor, camera, settings, look
+        self._encoding = encoding_of(camera.format, sensor.name)
+        self._may_tell = may_tell
+        self._last_info_ns: int | None = None
+
+    def open(self) -> None:
+        """Offer picture and lens."""
+        image = self.settings.image_topic
+        self.add(image, ImageValue, self._image)
+        self.add(f"{image}/compressed", CompressedImageValue, self._compressed)
+        self.add(self.settings.info_topic, CameraInfoValue, self._info, self._info_is_due)
+
+    def add(
+        self,
+        topic: str,
+        kind: type[Any],
+        read: Callable[[], Any],
+        may_tell: Callable[[], bool] | None = None,
+    ) -> None:
+        """Offer something under a name."""
+        name = self.settings.topic(topic).removeprefix(self.settings.namespace).strip("/")
+        self.sensor.robot.outputs[name] = CameraTopic(
+            self.sensor, self.settings, topic, kind, read, may_tell or self._may_tell
+        )
+
+    def _image(self) -> ImageValue:
+        seen = self.look()
+        return ImageValue(seen.stamp, pixels_of(seen.color, self._encoding), self._encoding)
+
+    def _compressed(self) -> CompressedImageValue:
+        seen = self.look()
+        grey = self._encoding.startswith("mono")
+        return CompressedImageValue(seen.stamp, pixels_of(seen.color, "mono8" if grey else "rgb8"))
+
+    def _info(self) -> CameraInfoValue:
+        return self.settings.info(self.camera, self.look().stamp)
+
+    def _info_is_due(self) -> bool:
+        if self._may_tell is not None and not self._may_tell():
+            return False
+        now = self.sensor.robot.simulation.clock.now_ns
+        before, period = self._last_info_ns, self.settings.info_period * NANOSECONDS
+        if before is not None and 0 <= now - before < round(period):
+            return False
+        self._last_info_ns = now
+        return True
+
+
+class CameraPlugin(SensorPlugin):
+    """Pictures of a camera.
+
+    Attributes:
+        topics: Before the names of topics that the file does not name.
+    """
+
+    topics = ""
+
+    def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
+        """Read names, frame and lens, open the ports."""
+        self._sensor = sensor
+        camera = model_of(sensor, CameraModel, parameters).cameras[0]
+        settings = CameraSettings.read(sensor, camera, parameters, topics=self.topics)
+        self.open(camera, settings)
+
+    def open(self, camera: Camera, settings: CameraSettings) -> None:
+        """Open the ports."""
+        CameraTopics(self._sensor, camera, settings, self.look).open()
+
+    def look(self) -> CameraImage:
+        """The camera's picture now."""
+        image: CameraImage = self._sensor.reading(self._sensor.current())
+        return image
+
+
+class TriggeredCameraPlugin(CameraPlugin):
+    """Pictures of a camera, one for each message on the topic of the trigger."""
+
+    def open(self, camera: Camera, settings: CameraSettings) -> None:
+        """Open the ports."""
+        self._pending, self._told_ns = 0, -1
+        CameraTopics(self._sensor, camera, settings, self.look, self._is_triggered).open()
+        topic = settings.topic(settings.trigger_topic)
+        self._sensor.robot.inputs[settings.trigger_topic.strip("/")] = Input(
+            topic, Trigger, self._pull, forget=self._forget
+        )
+
+    def _pull(self, _value: Trigger, _worlds: Worlds | None) -> None:
+        self._pending += 1
+
+    def _forget(self, _worlds: Worlds | None) -> None:
+        self._pending, self._told_ns = 0, -1
+
+    def _is_triggered(self) -> bool:
+        """Whether the measurement of this moment is told; all topics hear the same."""
+        now = self._sensor.robot.simulation.clock.now_ns
+        if self._told_ns == now:
+            return True
+        if not self._pending:
+            return False
+        self._pending, self._told_ns = self._pending - 1, now
+        return True
+
+
+class MultiCameraPlugin(SensorPlugin):
+    """Pictures of several cameras that see at once, such as the two of a stereo pair."""
+
+    def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
+        """Read names, frame and lenses, open the ports."""
+        for number, camera in enumerate(model_of(sensor, CameraModel, parameters).cameras):
+            side = next((s for s in ("left", "right") if s in camera.name), camera.name)
+            settings = CameraSettings.read(sensor, camera, parameters, suffix=side)
+
+            def look(number: int = number) -> CameraImage:
+                seen = sensor.reading(sensor.current())
+                image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
+                return image
+
+            CameraTopics(sensor, camera, settings, look).open()

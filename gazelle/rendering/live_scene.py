@@ -1,0 +1,52 @@
+"""What cameras see of an engine's worlds as they are now."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import Model
+from gazelle.engines import Engine
+from gazelle.rendering.lens import PinholeLens
+from gazelle.rendering.renderer import Frames, Renderer
+
+
+class LiveScene:
+    """Draws an engine's worlds, and keeps what it needs while the models stay the same.
+
+    Args:
+        engine: Knows where the links are.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._models: tuple[Model, ...] = ()
+        self._renderer: Renderer | None = None
+
+    @property
+    def renderer(self) -> Renderer:
+        """What draws the models that there are now."""
+        world = self._engine.world
+        if self._renderer is None or self._models is not world.models:
+            self._models = world.models
+            self._renderer = Renderer(world, nworld=self._engine.nworld)
+        return self._renderer
+
+    def render(
+        self,
+        lens: PinholeLens,
+        positions: Floats,
+        quaternions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        want: tuple[str, ...],
+    ) -> Frames:
+        """Draw what one camera in each of some worlds sees now; see ``Renderer.render``."""
+        renderer = self.renderer
+        known = set(self._engine.link_names)
+        for link in renderer.links:
+            if link in known:
+                place = self._engine.link_placement(link, worlds)
+                renderer.place(link, place.position, place.quaternion, worlds)
+        chosen = np.arange(self._engine.nworld) if worlds is None else worlds
+        return renderer.render(lens, positions, quaternions, chosen, want=want)
