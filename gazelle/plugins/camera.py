@@ -61,7 +61,7 @@ class CameraTopic(SensorOutput):
             super()._tell(sensor)
 
 
-class CameraTopics:
+class PublishedCamera:
     """The topics of one camera of a sensor.
 
     Args:
@@ -146,7 +146,7 @@ class CameraPlugin(SensorPlugin):
 
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
-        CameraTopics(self._sensor, camera, settings, self.look).open()
+        PublishedCamera(self._sensor, camera, settings, self.look).open()
 
     def look(self) -> CameraImage:
         """The camera's picture now."""
@@ -160,7 +160,7 @@ class TriggeredCameraPlugin(CameraPlugin):
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
         self._pending, self._told_ns = 0, -1
-        CameraTopics(self._sensor, camera, settings, self.look, self._is_triggered).open()
+        PublishedCamera(self._sensor, camera, settings, self.look, self._is_triggered).open()
         topic = settings.topic(settings.trigger_topic)
         self._sensor.robot.inputs[settings.trigger_topic.strip("/")] = Input(
             topic, Trigger, self._pull, forget=self._forget
@@ -197,4 +197,4 @@ class MultiCameraPlugin(SensorPlugin):
                 image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
                 return image
 
-            CameraTopics(sensor, camera, settings, look).open()
+            PublishedCamera(sensor, camera, settings, look).open()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Bools, Floats32
 from gazelle.description import Camera, Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.camera import CameraPlugin, CameraTopics
+from gazelle.plugins.camera import CameraPlugin, PublishedCamera
 from gazelle.plugins.camera_settings import CameraSettings
 from gazelle.plugins.pixel_formats import encoding_of, pixels_of
 from gazelle.plugins.sensor_kinds import model_of
@@ -52,7 +52,7 @@ class DepthCameraPlugin(CameraPlugin):
         """Open the ports."""
         self._camera, self._settings = camera, settings
         self._encoding = encoding_of(camera.format, self._sensor.name)
-        topics = CameraTopics(self._sensor, camera, settings, self.look)
+        topics = PublishedCamera(self._sensor, camera, settings, self.look)
         topics.open()
         depth, info, points = self._topics
         topics.add(depth, ImageValue, self._depths)

@@ -9,7 +9,7 @@ from lxml import etree
 
 import gazelle
 from gazelle import assets
-from gazelle.errors import SimulationWarning
+from gazelle.description import Pose
 from gazelle.formats import load_model
 
 
@@ -33,10 +33,12 @@ def test_its_way_finding_can_be_left_out():
     assert not expand(go_to_goal="false").xpath(f".//plugin[@filename='{name}']")
 
 
-def test_a_camera_warns_and_the_robot_loads():
+def test_its_camera_sees_what_is_before_it():
     model = load_model(assets.robot("courier"), xacro_args={"camera": "true"})
-    with gazelle.Simulation("empty") as sim, pytest.warns(SimulationWarning, match="camera"):
-        assert sim.spawn(model).name == "courier"
+    with gazelle.Simulation("turtlebot3_world") as sim:
+        robot = sim.spawn(model, pose=Pose(-2.0, -0.5))
+        (camera,) = (s for s in robot.sensors.values() if s.description.type == "camera")
+        assert len(np.unique(camera.read().color.reshape(-1, 3), axis=0)) > 3
 
 
 def test_it_stands_still_and_sees_nothing_of_itself():

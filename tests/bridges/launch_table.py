@@ -52,11 +52,9 @@ QUICK = [
     Expected(
         "rrbot_gazebo rrbot_world.launch",
         models="ground_plane rrbot",
-        topics="/rrbot/laser/scan",
-        missing=(
-            "sensor 'rrbot::link3::camera1' of type 'camera' is not measured yet",
-            "ros_control's controllers are not run yet",
-        ),
+        topics="/rrbot/camera1/camera_info /rrbot/camera1/image_raw "
+        "/rrbot/camera1/image_raw/compressed /rrbot/laser/scan",
+        missing=("ros_control's controllers are not run yet",),
     ),
     Expected(
         "kobuki_gazebo kobuki_empty_world.launch",

@@ -3,8 +3,11 @@
 WORLDS = {
     "test/test_worlds/gazebo_ros_depth_camera.world": (
         "box_reflectance model_1 model_2",
+        (
+            "/depth_cam/camera_info /depth_cam/depth/camera_info /depth_cam/depth/image_raw "
+            "/depth_cam/image_raw /depth_cam/image_raw/compressed /depth_cam/points"
+        ),
         "",
-        "model_1::link_1::sensor_camera",
     ),
     "test/bumper_test/gazebo_ros_bumper.world": (
         "model_1 gplane",
@@ -13,38 +16,53 @@ WORLDS = {
     ),
     "test/camera/camera.world": (
         "ground_plane model_1 camera_model",
+        "/camera1/camera_info /camera1/image_raw /camera1/image_raw/compressed",
         "",
-        "camera_model::camera_link::camera1",
     ),
     "test/camera/camera16bit.world": (
         "ground_plane model_1 camera_model",
+        "/camera1/camera_info /camera1/image_raw /camera1/image_raw/compressed",
         "",
-        "camera_model::camera_link::camera1",
     ),
     "test/camera/depth_camera.world": (
         "ground_plane model_1 camera_model",
+        (
+            "/camera1/camera_info /camera1/depth/camera_info /camera1/depth/image_raw "
+            "/camera1/image_raw /camera1/image_raw/compressed /camera1/points"
+        ),
         "",
-        "camera_model::camera_link::camera1",
     ),
     "test/camera/distortion_barrel.world": (
         "camera_distorted camera_undistorted",
+        (
+            "/camera_distorted/camera_info /camera_distorted/image_raw "
+            "/camera_distorted/image_raw/compressed /camera_undistorted/camera_info "
+            "/camera_undistorted/image_raw /camera_undistorted/image_raw/compressed"
+        ),
         "",
-        "camera_distorted::camera_link::camera_distorted camera_undistorted::camera_link::camera_undistorted",
     ),
     "test/camera/distortion_pincushion.world": (
         "camera_distorted camera_undistorted",
+        (
+            "/camera_distorted/camera_info /camera_distorted/image_raw "
+            "/camera_distorted/image_raw/compressed /camera_undistorted/camera_info "
+            "/camera_undistorted/image_raw /camera_undistorted/image_raw/compressed"
+        ),
         "",
-        "camera_distorted::camera_link::camera_distorted camera_undistorted::camera_link::camera_undistorted",
     ),
     "test/camera/multicamera.world": (
         "ground_plane model_1",
+        (
+            "/stereo/camera/left/camera_info /stereo/camera/left/image_raw "
+            "/stereo/camera/left/image_raw/compressed /stereo/camera/right/camera_info "
+            "/stereo/camera/right/image_raw /stereo/camera/right/image_raw/compressed"
+        ),
         "",
-        "model_1::link_1::stereo_camera",
     ),
     "test/camera/triggered_camera.world": (
         "ground_plane model_1 camera_model",
+        "/camera1/camera_info /camera1/image_raw /camera1/image_raw/compressed",
         "",
-        "camera_model::camera_link::camera1",
     ),
     "test/p3d_test/worlds/3_double_pendulums.world": (
         "model_1 model_2 model_3",
@@ -83,8 +101,8 @@ WORLDS = {
     ),
     "test/test_worlds/gazebo_ros_block_laser.world": (
         "model_1 camera_model finger_model object1 chair1_model",
-        "/test_block_laser",
-        "camera_model::link_1::sensor_camera libmove_model_test.so",
+        "/test/camera_info /test/image_raw /test/image_raw/compressed /test_block_laser",
+        "libmove_model_test.so",
     ),
     "test/test_worlds/gazebo_ros_block_laser_clipping.world": (
         "test_block_laser slope",
@@ -93,8 +111,8 @@ WORLDS = {
     ),
     "test/test_worlds/gazebo_ros_camera.world": (
         "model_1",
+        "/camera_info /image_raw /image_raw/compressed",
         "",
-        "model_1::link_1::sensor_camera",
     ),
     "test/test_worlds/gazebo_ros_gpu_laser.world": (
         "model_1 model_2",
@@ -113,8 +131,10 @@ WORLDS = {
     ),
     "test/test_worlds/gazebo_ros_trimesh_collision.world": (
         "model_1 camera_model chair1_model chair2_model chair3_model chair4_model chair5_model",
-        "/test_block_laser",
-        "camera_model::link_1::sensor_camera",
+        "/test_block_laser /test_depth/camera_info /test_depth/depth/camera_info "
+        "/test_depth/depth/image_raw /test_depth/image_raw /test_depth/image_raw/compressed "
+        "/test_depth/points",
+        "",
     ),
     "test/test_worlds/test_lasers.world": (
         "model_1 model_2 model_3 model_1a",

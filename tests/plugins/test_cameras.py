@@ -25,8 +25,8 @@ WORLD = """<sdf version="1.6"><world name="w">
 </sensor></link></model></world></sdf>"""
 
 
-def outputs(file, *, kind="camera", format="R8G8B8", tags="", more=""):
-    text = WORLD.format(file=file, kind=kind, format=format, tags=tags, more=more)
+def outputs(file, *, kind="camera", pixels="R8G8B8", tags="", more=""):
+    text = WORLD.format(file=file, kind=kind, format=pixels, tags=tags, more=more)
     sim = gazelle.Simulation(load_string(text))
     return sim, sim.robots["robot"]
 
@@ -109,7 +109,7 @@ def test_topics_have_the_names_of_the_tags():
     ],
 )
 def test_formats_become_encodings(name, encoding, shape, kind):
-    _, robot = outputs("libgazebo_ros_camera.so", format=name)
+    _, robot = outputs("libgazebo_ros_camera.so", pixels=name)
     image = robot.outputs["cam/image_raw"].last
     seen = robot.sensors["eye"].reading(robot.sensors["eye"].current()).color[0]
     assert image.encoding == encoding
@@ -130,7 +130,7 @@ def test_formats_become_encodings(name, encoding, shape, kind):
 
 def test_a_format_that_is_not_known_is_bgr8_as_in_gazebo():
     with pytest.warns(SimulationWarning, match="'YUYV'.*bgr8"):
-        _, robot = outputs("libgazebo_ros_camera.so", format="YUYV")
+        _, robot = outputs("libgazebo_ros_camera.so", pixels="YUYV")
     assert robot.outputs["cam/image_raw"].last.encoding == "bgr8"
 
 

@@ -22,8 +22,8 @@ MODEL = """<model name="robot"><static>1</static><pose>0 0 0.5 0 0 0</pose><link
 <frameName>optical</frameName></plugin></sensor></link></model>"""
 
 
-def camera(file, kind="camera", format="R8G8B8", more=""):
-    return running(TARGET, MODEL.format(file=file, kind=kind, format=format, more=more))
+def camera(file, kind="camera", pixels="R8G8B8", more=""):
+    return running(TARGET, MODEL.format(file=file, kind=kind, format=pixels, more=more))
 
 
 def stamp(message):
@@ -31,18 +31,18 @@ def stamp(message):
 
 
 @pytest.mark.parametrize(
-    ("format", "encoding", "size"), [("R8G8B8", "rgb8", 1), ("L16", "mono16", 2)]
+    ("pixels", "encoding", "size"), [("R8G8B8", "rgb8", 1), ("L16", "mono16", 2)]
 )
-def test_a_picture_and_its_lens(format, encoding, size):
-    with camera("libgazebo_ros_camera.so", format=format) as graph:
+def test_a_picture_and_its_lens(pixels, encoding, size):
+    with camera("libgazebo_ros_camera.so", pixels=pixels) as graph:
         image = first(graph, "/camera1/image_raw", "sensor_msgs/Image")
         info = first(graph, "/camera1/camera_info", "sensor_msgs/CameraInfo")
     assert (image.encoding, image.header.frame_id) == (encoding, "optical")
     channels = 3 if encoding == "rgb8" else 1
     assert (image.height, image.width, image.step) == (24, 32, 32 * size * channels)
     assert stamp(image) % 50_000_000 == 0
-    pixels = CvBridge().imgmsg_to_cv2(image)
-    assert pixels.shape == ((24, 32, 3) if channels == 3 else (24, 32))
+    array = CvBridge().imgmsg_to_cv2(image)
+    assert array.shape == ((24, 32, 3) if channels == 3 else (24, 32))
     focal = 32 / (2 * math.tan(0.5))
     assert info.distortion_model == "plumb_bob"
     assert list(info.D) == [0.0] * 5
