@@ -54,7 +54,6 @@ QUICK = [
         models="ground_plane rrbot",
         topics="/rrbot/camera1/camera_info /rrbot/camera1/image_raw "
         "/rrbot/camera1/image_raw/compressed /rrbot/laser/scan",
-        missing=("ros_control's controllers are not run yet",),
     ),
     Expected(
         "kobuki_gazebo kobuki_empty_world.launch",

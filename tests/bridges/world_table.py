@@ -131,9 +131,11 @@ WORLDS = {
     ),
     "test/test_worlds/gazebo_ros_trimesh_collision.world": (
         "model_1 camera_model chair1_model chair2_model chair3_model chair4_model chair5_model",
-        "/test_block_laser /test_depth/camera_info /test_depth/depth/camera_info "
-        "/test_depth/depth/image_raw /test_depth/image_raw /test_depth/image_raw/compressed "
-        "/test_depth/points",
+        (
+            "/test_block_laser /test_depth/camera_info /test_depth/depth/camera_info "
+            "/test_depth/depth/image_raw /test_depth/image_raw /test_depth/image_raw/compressed "
+            "/test_depth/points"
+        ),
         "",
     ),
     "test/test_worlds/test_lasers.world": (
