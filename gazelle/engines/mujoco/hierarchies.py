@@ -12,14 +12,19 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from gazelle.array_types import Bools, Floats
 from gazelle.native.box_trees import BoxTree
 
-# Half a size that MuJoCo takes for endless [m].
+# Half a size that MuJoCo takes for endless [m]: it compares no further then.
 _ENDLESS = 1e10
+
+# A box with more than this share of the surface of the one around it is met nearly always.
+_LIKELY = 0.8
 
 
 def tighten_hierarchies(model: mujoco.MjModel) -> None:
     """Give the bodies of a compiled model better trees."""
+    model.vis.global_.bvactive = False  # or MuJoCo notes for viewers what it visits
     for start, count in zip(model.body_bvhadr, model.body_bvhnum, strict=True):
         nodes = slice(start, start + count)
         geoms, boxes = model.bvh_nodeid[nodes], model.bvh_aabb[nodes]
@@ -27,12 +32,32 @@ def tighten_hierarchies(model: mujoco.MjModel) -> None:
         if count < 5 or count != 2 * len(leaves) - 1:
             continue  # two shapes, for which there is one tree
         tree = BoxTree(boxes[leaves])
-        bounds, inner = tree.bounds, tree.leaf < 0
-        # What is endless in one direction need not be looked at in the others: next to 1e10 m
-        # they are exact to a micrometre only.
-        bounds[inner & (bounds[:, 3:] >= _ENDLESS).any(axis=1)] = (0, 0, 0, *[_ENDLESS] * 3)
+        bounds = tree.bounds
+        bounds[_likely(tree)] = (0, 0, 0, *[_ENDLESS] * 3)
         names = np.append(geoms[leaves], -1)  # the last one is that of all that are no leaves
         model.bvh_nodeid[nodes] = names[tree.leaf]
         model.bvh_child[nodes] = tree.children
         model.bvh_depth[nodes] = tree.depth
         model.bvh_aabb[nodes] = bounds
+
+
+def _likely(tree: BoxTree) -> Bools:
+    """The nodes that it is faster not to compare with: those that nearly all that comes meets.
+
+    What has the ground below it is met by all; and next to 1e10 m numbers are exact to a
+    micrometre only.
+    """
+    inner = tree.leaf < 0
+    surface = _surface(tree.bounds)
+    above = np.full(len(inner), np.inf)
+    above[tree.children[inner]] = surface[inner, None]
+    endless = (tree.bounds[:, 3:] >= _ENDLESS).any(axis=1)
+    above[tree.children[inner & endless]] = 0.0
+    found: Bools = inner & (endless | (surface > _LIKELY * above))
+    return found
+
+
+def _surface(bounds: Floats) -> Floats:
+    x, y, z = bounds[:, 3:].T
+    found: Floats = x * y + y * z + z * x
+    return found

@@ -1,1 +1,3 @@
-cdef void leave_slowly(size_t model, size_t data, size_t contact, int row) noexcept nogil
+from gazelle.engines.mujoco.laws.touch cimport Touch
+
+cdef void leave_slowly(Touch *touch) noexcept nogil

@@ -11,46 +11,29 @@ which two surfaces part and d their distance: so it pushes until v is K d / B. T
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.numbers import EXIT, GEOM_NUMBERS
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
-from cython.cimports.gazelle.native.memory import floats, integers, word
-
-_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
+from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
+from cython.cimports.gazelle.native.memory import floats
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def leave_slowly(
-    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
-) -> cython.void:
-    """Bound the velocity at which a contact pushes out what overlapped.
-
-    Args:
-        model: Address of the ``mjModel``.
-        data: Address of the ``mjData``.
-        contact: Address of the ``mjContact``.
-        row: Its first row among the constraints.
-    """
-    if floats(contact + AT.contact_margin)[0] >= 0.0:
+def leave_slowly(touch: cython.pointer(Touch)) -> cython.void:
+    """Bound the velocity at which a contact pushes out what overlapped."""
+    if floats(touch.contact + AT.contact_margin)[0] >= 0.0:
         return
-    if floats(contact + AT.contact_solref)[0] <= 0.0:
+    if floats(touch.contact + AT.contact_solref)[0] <= 0.0:
         return  # a spring, or a bounce
-    geoms = integers(contact + AT.contact_geom)
-    if min(geoms[0], geoms[1]) < 0:
+    if min(touch.geoms[0], touch.geoms[1]) < 0:
         return
-    users = word(model + AT.model_geom_user)
-    first = floats(users + 8 * GEOM_NUMBERS * geoms[0])[EXIT]
-    second = floats(users + 8 * GEOM_NUMBERS * geoms[1])[EXIT]
-    dim = integers(contact + AT.contact_dim)[0]
-    cone: cython.bint = dim == 1 or integers(model + AT.model_cone)[0] == _ELLIPTIC
-    rows = 1 if cone else 2 * (dim - 1)
-    reference = floats(word(data + AT.reference) + 8 * row)
-    velocity = floats(word(data + AT.velocity) + 8 * row)
-    damping = floats(word(data + AT.terms) + 32 * row)[1]
-    wanted, parting = reference[0], velocity[0]
+    first = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[0])[EXIT]
+    second = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[1])[EXIT]
+    rows = 1 if touch.dim == 1 or touch.cone else 2 * (touch.dim - 1)
+    wanted, parting = touch.reference[0], touch.velocity[0]
     if rows > 1:
-        wanted = 0.5 * (reference[0] + reference[1])
-        parting = 0.5 * (velocity[0] + velocity[1])
-    excess = wanted + damping * (parting - min(first, second))
+        wanted = 0.5 * (touch.reference[0] + touch.reference[1])
+        parting = 0.5 * (touch.velocity[0] + touch.velocity[1])
+    excess = wanted + touch.terms[1] * (parting - min(first, second))
     if excess > 0.0:
         for edge in range(rows):
-            reference[edge] -= excess
+            touch.reference[edge] -= excess

@@ -9,6 +9,7 @@ each is to have, and before it solves for the forces. See ``docs/physics.md`` fo
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
 from cython.cimports.gazelle.engines.mujoco.laws.exits import leave_slowly
+from cython.cimports.gazelle.engines.mujoco.laws.lookup import begin_contact, begin_step
 from cython.cimports.gazelle.engines.mujoco.laws.motors import drive_motors
 from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
     BY_THE_NORMAL,
@@ -21,6 +22,7 @@ from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
 from cython.cimports.gazelle.engines.mujoco.laws.rolling import hold_loosely
 from cython.cimports.gazelle.engines.mujoco.laws.sliding import stay_down
+from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.gazelle.engines.mujoco.laws.treads import stand_in_the_middle
 from cython.cimports.gazelle.native.memory import floats, integers, word
 from cython.cimports.libc.math import isfinite, sqrt
@@ -41,7 +43,6 @@ _NOT_YET = cython.declare(cython.double, -1e9)
 _FAR_MORE = cython.declare(cython.double, 1e300)
 
 _FREE = cython.declare(cython.int, 0)  # mjJNT_FREE
-_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # What turns so slowly gains no energy that could be seen: h w² [rad²/s].
 _AT_REST = cython.declare(cython.double, 1e-8)
@@ -76,74 +77,65 @@ def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
         )
     if head[3] > 0.0:
         drive_motors(model, data, cython.cast(cython.int, head[3]))
+    touch = cython.declare(Touch[1])
+    begin_step(touch, model, data)
     contacts = word(data + AT.contact)
     for index in range(integers(data + AT.ncon)[0]):
-        contact = contacts + index * AT.contact_size
-        row = integers(contact + AT.contact_address)[0]
-        if row >= 0:
-            _correct(model, data, contact, row)
+        if begin_contact(touch, contacts + index * AT.contact_size):
+            _correct(touch, head)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _correct(
-    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
-) -> cython.void:
+def _correct(touch: cython.pointer(Touch), head: cython.p_double) -> cython.void:
     """Change the rows of a contact."""
-    head = floats(word(model + AT.model_numeric))
     if head[4] > 0.0:
-        _direct(model, data, contact, row, head[1])
+        _direct(touch)
     if head[5] > 0.0:
-        stand_in_the_middle(model, data, contact, row, head[1])
+        stand_in_the_middle(touch)
     if head[6] > 0.0:
-        leave_slowly(model, data, contact, row)
-    if floats(contact + AT.contact_solreffriction)[1] < 0.0:
-        _bounce(model, data, contact, row)
+        leave_slowly(touch)
+    if floats(touch.contact + AT.contact_solreffriction)[1] < 0.0:
+        _bounce(touch)
     if head[6] > 0.0:
-        hold_loosely(model, data, contact, row)
-        stay_down(model, data, contact, row, head[1])
+        hold_loosely(touch)
+        stay_down(touch)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _bounce(
-    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
-) -> cython.void:
+def _bounce(touch: cython.pointer(Touch)) -> cython.void:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
-    step = floats(model + AT.model_timestep)[0]
-    velocity = floats(word(data + AT.velocity))
-    pull = _pull(model, contact)
-    speed, late = -velocity[row], 0.5 * pull * step
+    step, reference, contact = touch.step, touch.reference, touch.contact
+    pull = _pull(touch)
+    speed, late = -touch.velocity[0], 0.5 * pull * step
     if speed <= _STEPS_TO_REST * abs(pull) * step or speed <= 0.0:
         return
     e = -floats(contact + AT.contact_solref)[1] * step / _FULL - 1.0
-    reference = floats(word(data + AT.reference))
     height = floats(contact + AT.contact_dist)[0] - floats(contact + AT.contact_margin)[0]
     if height > 0.0:
         # A contact seen ahead: MuJoCo says how high it is by the speed that it wants.
-        height = (speed - reference[row] * step) * step / _SPECULATIVE_SHARE
+        height = (speed - reference[0] * step) * step / _SPECULATIVE_SHARE
     fallen = -2.0 * pull * min(max(height, -speed * step), speed * step)
     parting = e * e * ((speed + late) * (speed + late) - fallen) + fallen
     if parting > late * late:
-        reference[row] = (sqrt(parting) - late + speed) / step
+        reference[0] = (sqrt(parting) - late + speed) / step
     elif height > 0.0:
-        reference[row] = _NOT_YET
+        reference[0] = _NOT_YET
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _pull(model: cython.size_t, contact: cython.size_t) -> cython.double:
+def _pull(touch: cython.pointer(Touch)) -> cython.double:
     """How much faster two bodies approach a second later if nothing holds them."""
-    normal = floats(contact + AT.contact_frame)
-    geoms = integers(contact + AT.contact_geom)
+    model = touch.model
     gravity = floats(model + AT.model_gravity)
     along = 0.0
     for side in range(2):
-        geom = geoms[side]
-        body = integers(word(model + AT.model_bodyid))[geom]
+        body = integers(word(model + AT.model_bodyid))[touch.geoms[side]]
         root = integers(word(model + AT.model_rootid))[body]
         if integers(word(model + AT.model_jntnum))[root] == 0:
             continue
@@ -153,29 +145,21 @@ def _pull(model: cython.size_t, contact: cython.size_t) -> cython.double:
         borne = floats(word(model + AT.model_gravcomp))[body]
         sign = 1.0 if side == 0 else -1.0
         for axis in range(3):
-            along += sign * (1.0 - borne) * gravity[axis] * normal[axis]
+            along += sign * (1.0 - borne) * gravity[axis] * touch.frame[axis]
     return along
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _direct(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    sparse: cython.double,
-) -> cython.void:
+def _direct(touch: cython.pointer(Touch)) -> cython.void:
     """Turn the two directions in which a contact rubs to those that its surfaces have."""
-    if integers(contact + AT.contact_dim)[0] < 3:
+    if touch.dim < 3 or not touch.cone:
         return
-    if integers(model + AT.model_cone)[0] != _ELLIPTIC:
-        return
-    frame = floats(contact + AT.contact_frame)
+    frame = touch.frame
     wanted = cython.declare(cython.double[3])
     wanted[0] = wanted[1] = wanted[2] = 0.0
-    _first_direction(model, data, contact, wanted)
+    _first_direction(touch, wanted)
     one, two = 0.0, 0.0
     for axis in range(3):
         one += wanted[axis] * frame[3 + axis]
@@ -186,18 +170,10 @@ def _direct(
     one, two = one / size, two / size
     for axis in range(3):
         _turn(frame, 3 + axis, 6 + axis, one, two)
-    _turn(floats(word(data + AT.velocity)), row + 1, row + 2, one, two)
-    _turn(floats(word(data + AT.reference)), row + 1, row + 2, one, two)
-    if sparse > 0.0:
-        addresses = integers(word(data + AT.rowadr))
-        first, second = addresses[row + 1], addresses[row + 2]
-        width = integers(word(data + AT.rownnz))[row + 1]
-    else:
-        width = cython.cast(cython.int, word(model + AT.model_nv))
-        first, second = (row + 1) * width, (row + 2) * width
-    jacobian = floats(word(data + AT.jacobian))
-    for column in range(width):
-        _turn(jacobian, first + column, second + column, one, two)
+    _turn(touch.velocity, 1, 2, one, two)
+    _turn(touch.reference, 1, 2, one, two)
+    for column in range(touch.width):
+        _turn(touch.jacobian, touch.width + column, 2 * touch.width + column, one, two)
 
 
 @cython.cfunc
@@ -218,32 +194,27 @@ def _turn(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _first_direction(
-    model: cython.size_t, data: cython.size_t, contact: cython.size_t, found: cython.p_double
-) -> cython.void:
+def _first_direction(touch: cython.pointer(Touch), found: cython.p_double) -> cython.void:
     """ODE's first direction of a contact in the world; zeros remain where it does not matter."""
-    geoms = integers(contact + AT.contact_geom)
     chosen, least, kind = -1, _FAR_MORE, NO_DIRECTION
     for side in range(2):
-        geom = geoms[side]
+        geom = touch.geoms[side]
         if geom < 0:
             continue
-        start = word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom
-        own = floats(start)
+        own = floats(touch.users + 8 * GEOM_NUMBERS * geom)
         if own[0] == ITS_OWN and (kind != ITS_OWN or own[4] < least):
             chosen, least, kind = geom, own[4], ITS_OWN
         elif own[0] == BY_THE_NORMAL and kind == NO_DIRECTION:
             kind = BY_THE_NORMAL
     if kind == ITS_OWN:
-        start = word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * chosen
-        own = floats(start)
-        turn = floats(word(data + AT.geom_xmat) + 72 * chosen)
+        own = floats(touch.users + 8 * GEOM_NUMBERS * chosen)
+        turn = floats(word(touch.data + AT.geom_xmat) + 72 * chosen)
         for axis in range(3):
             found[axis] = (
                 turn[3 * axis] * own[1] + turn[3 * axis + 1] * own[2] + turn[3 * axis + 2] * own[3]
             )
     elif kind == BY_THE_NORMAL:
-        normal = floats(contact + AT.contact_frame)
+        normal = touch.frame
         if abs(normal[2]) > sqrt(0.5):
             found[1], found[2] = -normal[2], normal[1]
         else:

@@ -12,10 +12,9 @@ is softer: it still gives way a hundred times less than MuJoCo's usual friction.
 
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.gazelle.native.memory import floats, integers, word
 from cython.cimports.libc.math import log, pow, sqrt  # noqa: A004
-
-_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # What turns slower on a surface lies there, and what turns faster rolls [rad/s].
 _LIES = cython.declare(cython.double, 0.01)
@@ -28,49 +27,37 @@ _RATIO = cython.declare(cython.double, 10.0)
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def hold_loosely(
-    model: cython.size_t, data: cython.size_t, contact: cython.size_t, row: cython.int
-) -> cython.void:
-    """Let the friction of a contact give way the more, the faster it rolls.
-
-    Args:
-        model: Address of the ``mjModel``.
-        data: Address of the ``mjData``.
-        contact: Address of the ``mjContact``.
-        row: Its first row among the constraints.
-    """
-    dim = integers(contact + AT.contact_dim)[0]
-    if dim < 3 or integers(model + AT.model_cone)[0] != _ELLIPTIC:
+def hold_loosely(touch: cython.pointer(Touch)) -> cython.void:
+    """Let the friction of a contact in a cone give way the more, the faster it rolls."""
+    if touch.dim < 3 or not touch.cone:
         return
-    rate = _rolling(model, data, contact)
+    rate = _rolling(touch)
     if rate <= _LIES:
         return
-    stiff = floats(model + AT.model_impratio)[0] / _RATIO
+    stiff = floats(touch.model + AT.model_impratio)[0] / _RATIO
     share = min(log(rate / _LIES) / log(_ROLLS / _LIES), 1.0)
     softer = pow(stiff, share)
-    softness = floats(word(data + AT.softness) + 8 * row)
-    stiffness = floats(word(data + AT.stiffness) + 8 * row)
-    for way in range(1, dim):
+    softness = floats(word(touch.data + AT.softness) + 8 * touch.row)
+    stiffness = floats(word(touch.data + AT.stiffness) + 8 * touch.row)
+    for way in range(1, touch.dim):
         softness[way] *= softer
         stiffness[way] /= softer
-    floats(contact + AT.contact_mu)[0] *= sqrt(softer)
+    floats(touch.contact + AT.contact_mu)[0] *= sqrt(softer)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _rolling(model: cython.size_t, data: cython.size_t, contact: cython.size_t) -> cython.double:
+def _rolling(touch: cython.pointer(Touch)) -> cython.double:
     """How fast one surface turns on another, about axes in both [rad/s]."""
-    geoms = integers(contact + AT.contact_geom)
-    if min(geoms[0], geoms[1]) < 0:
+    if min(touch.geoms[0], touch.geoms[1]) < 0:
         return 0.0
-    bodies = word(model + AT.model_bodyid)
-    first = floats(word(data + AT.cvel) + 48 * integers(bodies)[geoms[0]])
-    second = floats(word(data + AT.cvel) + 48 * integers(bodies)[geoms[1]])
-    normal = floats(contact + AT.contact_frame)
+    bodies = integers(word(touch.model + AT.model_bodyid))
+    first = floats(word(touch.data + AT.cvel) + 48 * bodies[touch.geoms[0]])
+    second = floats(word(touch.data + AT.cvel) + 48 * bodies[touch.geoms[1]])
     square, spin = 0.0, 0.0
     for axis in range(3):
         turn = second[axis] - first[axis]
         square += turn * turn
-        spin += turn * normal[axis]
+        spin += turn * touch.frame[axis]
     return sqrt(max(square - spin * spin, 0.0))

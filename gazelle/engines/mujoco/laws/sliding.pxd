@@ -1,1 +1,3 @@
-cdef void stay_down(size_t model, size_t data, size_t contact, int row, double sparse) noexcept nogil
+from gazelle.engines.mujoco.laws.touch cimport Touch
+
+cdef void stay_down(Touch *touch) noexcept nogil

@@ -19,8 +19,7 @@ in an impact all of it, with k = 1.
 # mypy: disallow-untyped-decorators=False
 
 import cython
-from cython.cimports.gazelle.engines.mujoco.laws.places import AT
-from cython.cimports.gazelle.native.memory import floats, integers, word
+from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.libc.math import sqrt
 
 # Slower slip parts the surfaces by some nanometres a step [m/s].
@@ -43,116 +42,82 @@ _LEAST_IMPACT = cython.declare(cython.double, 4.0)
 # Largest share, times mu², of the normal acceleration that the last step lacked.
 _DAMPED = cython.declare(cython.double, 0.25)
 
-_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
-
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def stay_down(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    sparse: cython.double,
-) -> cython.void:
-    """Let a contact that slides want no other normal velocity than one that holds.
-
-    Args:
-        model: Address of the ``mjModel``.
-        data: Address of the ``mjData``.
-        contact: Address of the ``mjContact``.
-        row: Its first row among the constraints.
-        sparse: Whether Jacobians are.
-    """
-    dim = integers(contact + AT.contact_dim)[0]
-    friction = floats(contact + AT.contact_friction)[0]
-    if dim < 3:
+def stay_down(touch: cython.pointer(Touch)) -> cython.void:
+    """Let a contact that slides want no other normal velocity than one that holds."""
+    if touch.dim < 3:
         return
-    if integers(model + AT.model_cone)[0] == _ELLIPTIC:
-        _on_a_cone(model, data, contact, row, sparse)
-    elif friction > 0.0:
-        _on_a_pyramid(model, data, contact, row, 2 * (dim - 1), sparse)
+    if touch.cone:
+        _on_a_cone(touch)
+    elif touch.friction[0] > 0.0:
+        _on_a_pyramid(touch)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _on_a_cone(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    sparse: cython.double,
-) -> cython.void:
-    friction = floats(contact + AT.contact_friction)
-    velocity = floats(word(data + AT.velocity) + 8 * row)
+def _on_a_cone(touch: cython.pointer(Touch)) -> cython.void:
+    friction, velocity, reference = touch.friction, touch.velocity, touch.reference
     along, across = friction[0] * velocity[1], friction[1] * velocity[2]
     size, most = sqrt(along * along + across * across), max(friction[0], friction[1])
     if most <= 0.0:
         return
-    share = _share(model, size / most, most)
+    share = _share(touch, size / most, most)
     if share == 0.0:
         return
-    reference = floats(word(data + AT.reference) + 8 * row)
     along, across = friction[0] * along / size, friction[1] * across / size
-    one = _last(model, data, row + 1, sparse) - reference[1]
-    two = _last(model, data, row + 2, sparse) - reference[2]
-    lacking = reference[0] - _last(model, data, row, sparse)
+    one = _last(touch, 1) - reference[1]
+    two = _last(touch, 2) - reference[2]
+    lacking = reference[0] - _last(touch, 0)
     mu = sqrt(along * along + across * across)
-    reference[0] -= share * _parting(model, along * one + across * two, lacking, mu)
+    reference[0] -= share * _parting(touch, along * one + across * two, lacking, mu)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _on_a_pyramid(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    edges: cython.int,
-    sparse: cython.double,
-) -> cython.void:
+def _on_a_pyramid(touch: cython.pointer(Touch)) -> cython.void:
     """The same for the edges n ± mu t of a pyramid, two for each direction.
 
     It is turned first so that one direction is that of the slip; else friction would be up to
     a factor of sqrt(2) too small, and aslant.
     """
-    mu = floats(contact + AT.contact_friction)[0]
-    velocity = floats(word(data + AT.velocity) + 8 * row)
+    mu, velocity, reference = touch.friction[0], touch.velocity, touch.reference
     one, two = 0.5 * (velocity[0] - velocity[1]) / mu, 0.5 * (velocity[2] - velocity[3]) / mu
     slip = sqrt(one * one + two * two)
     if slip < _LEAST_CREEP:
         return
-    _turn_pyramid(model, data, contact, row, one / slip, two / slip, sparse)
-    share = _share(model, slip, mu)
+    _turn_pyramid(touch, one / slip, two / slip)
+    share = _share(touch, slip, mu)
     if share == 0.0:
         return
-    reference = floats(word(data + AT.reference) + 8 * row)
     left, lacking = 0.0, 0.0
     for edge in range(0, 4, 2):
         first, second = (
-            _last(model, data, row + edge, sparse) - reference[edge],
-            _last(model, data, row + edge + 1, sparse) - reference[edge + 1],
+            _last(touch, edge) - reference[edge],
+            _last(touch, edge + 1) - reference[edge + 1],
         )
         more = 0.5 * (first - second)
         left = max(left, more if velocity[edge] > velocity[edge + 1] else -more)
         lacking = -0.5 * (first + second)
-    parting = share * _parting(model, left, lacking, mu)
-    for edge in range(edges):
+    parting = share * _parting(touch, left, lacking, mu)
+    for edge in range(2 * (touch.dim - 1)):
         reference[edge] -= parting
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _share(model: cython.size_t, slip: cython.double, friction: cython.double) -> cython.double:
+def _share(
+    touch: cython.pointer(Touch), slip: cython.double, friction: cython.double
+) -> cython.double:
     """To what share a contact that slips at a speed slides: 0 as long as it may only creep."""
     if slip < _LEAST_SLIP or friction > _MOST_FRICTION:
         return 0.0
-    step = floats(model + AT.model_timestep)[0]
-    creep = max(_LEAST_SLIP, _CREEP * friction * _weight(model) * step)
+    creep = max(_LEAST_SLIP, _CREEP * friction * touch.weight * touch.step)
     return min(max(slip / creep - 1.0, 0.0), 1.0)
 
 
@@ -160,18 +125,18 @@ def _share(model: cython.size_t, slip: cython.double, friction: cython.double) -
 @cython.nogil
 @cython.exceptval(check=False)
 def _parting(
-    model: cython.size_t, left: cython.double, lacking: cython.double, mu: cython.double
+    touch: cython.pointer(Touch), left: cython.double, lacking: cython.double, mu: cython.double
 ) -> cython.double:
     """The normal acceleration that MuJoCo would add to what slides.
 
     Args:
-        model: Address of the ``mjModel``.
+        touch: The contact.
         left: mu times the acceleration along the slip by which friction will miss what it wants.
         lacking: The normal acceleration that is wanted beyond the last step's.
         mu: Friction along the slip.
     """
     square = mu * mu
-    if abs(lacking) < max(_IMPACT * _weight(model), _LEAST_IMPACT):
+    if abs(lacking) < max(_IMPACT * touch.weight, _LEAST_IMPACT):
         square = min(square, _DAMPED)
     return max(left - square * lacking, 0.0)
 
@@ -179,80 +144,47 @@ def _parting(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _weight(model: cython.size_t) -> cython.double:
-    gravity = floats(model + AT.model_gravity)
-    return sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2])
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
 def _turn_pyramid(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    one: cython.double,
-    two: cython.double,
-    sparse: cython.double,
+    touch: cython.pointer(Touch), one: cython.double, two: cython.double
 ) -> cython.void:
     """Turn a pyramid's first direction to (one, two), with all that is known of its edges."""
-    frame = floats(contact + AT.contact_frame)
+    frame = touch.frame
     for axis in range(3):
         a, b = frame[3 + axis], frame[6 + axis]
         frame[3 + axis] = one * a + two * b
         frame[6 + axis] = one * b - two * a
-    _turn_edges(floats(word(data + AT.velocity) + 8 * row), 0, 1, one, two)
-    _turn_edges(floats(word(data + AT.reference) + 8 * row), 0, 1, one, two)
-    if sparse > 0.0:
-        first = integers(word(data + AT.rowadr))[row]
-        width = integers(word(data + AT.rownnz))[row]
-    else:
-        width = cython.cast(cython.int, word(model + AT.model_nv))
-        first = row * width
-    jacobian = floats(word(data + AT.jacobian) + 8 * first)
-    for column in range(width):
-        _turn_edges(jacobian, column, width, one, two)
+    _turn_edges(touch.velocity, 1, one, two)
+    _turn_edges(touch.reference, 1, one, two)
+    _turn_edges(touch.jacobian, touch.width, one, two)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def _turn_edges(
-    array: cython.p_double,
-    first: cython.int,
-    width: cython.int,
-    one: cython.double,
-    two: cython.double,
+    array: cython.p_double, width: cython.int, one: cython.double, two: cython.double
 ) -> cython.void:
-    """Turn the numbers of four edges, n ± t1 and n ± t2, that are so far apart in an array."""
-    second, third, fourth = first + width, first + 2 * width, first + 3 * width
-    normal = 0.5 * (array[first] + array[second])
-    a = 0.5 * (array[first] - array[second])
-    b = 0.5 * (array[third] - array[fourth])
-    array[first], array[second] = normal + (one * a + two * b), normal - (one * a + two * b)
-    array[third], array[fourth] = normal + (one * b - two * a), normal - (one * b - two * a)
+    """Turn the numbers of four edges, n ± t1 and n ± t2, each of which has ``width`` of them."""
+    for first in range(width):
+        second, third, fourth = first + width, first + 2 * width, first + 3 * width
+        normal = 0.5 * (array[first] + array[second])
+        a = 0.5 * (array[first] - array[second])
+        b = 0.5 * (array[third] - array[fourth])
+        array[first], array[second] = normal + (one * a + two * b), normal - (one * a + two * b)
+        array[third], array[fourth] = normal + (one * b - two * a), normal - (one * b - two * a)
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _last(
-    model: cython.size_t, data: cython.size_t, row: cython.int, sparse: cython.double
-) -> cython.double:
-    """The acceleration of the last step along a row of the Jacobian."""
-    width = cython.cast(cython.int, word(model + AT.model_nv))
-    before = floats(word(data + AT.warmstart))
+def _last(touch: cython.pointer(Touch), row: cython.int) -> cython.double:
+    """The acceleration of the last step along one of the contact's rows."""
     found = 0.0
-    if sparse > 0.0:
-        first = integers(word(data + AT.rowadr))[row]
-        count = integers(word(data + AT.rownnz))[row]
-        columns = integers(word(data + AT.colind) + 4 * first)
-        jacobian = floats(word(data + AT.jacobian) + 8 * first)
-        for place in range(count):
-            found += jacobian[place] * before[columns[place]]
+    first = row * touch.width
+    if touch.sparse:
+        for place in range(touch.width):
+            found += touch.jacobian[first + place] * touch.before[touch.columns[place]]
     else:
-        jacobian = floats(word(data + AT.jacobian) + 8 * row * width)
-        for place in range(width):
-            found += jacobian[place] * before[place]
+        for place in range(touch.width):
+            found += touch.jacobian[first + place] * touch.before[place]
     return found

@@ -1,1 +1,3 @@
-cdef void stand_in_the_middle(size_t model, size_t data, size_t contact, int row, double sparse) noexcept nogil
+from gazelle.engines.mujoco.laws.touch cimport Touch
+
+cdef void stand_in_the_middle(Touch *touch) noexcept nogil

@@ -17,9 +17,8 @@ the contact about an axis w they change by w x shift.
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.numbers import GEOM_NUMBERS, MIDDLE, TREAD
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.gazelle.native.memory import floats, integers, word
-
-_ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 
 # Sine of the angle from level at which an axle is no wheel's any more.
 _STEEP = cython.declare(cython.double, 0.34)
@@ -33,158 +32,105 @@ _GIVES = cython.declare(cython.double, 1e-3)
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def stand_in_the_middle(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    sparse: cython.double,
-) -> cython.void:
-    """Move a contact with a wheel to the middle of its tread.
-
-    Args:
-        model: Address of the ``mjModel``.
-        data: Address of the ``mjData``.
-        contact: Address of the ``mjContact``.
-        row: Its first row among the constraints.
-        sparse: Whether Jacobians are.
-    """
-    if integers(contact + AT.contact_dim)[0] < 3:
+def stand_in_the_middle(touch: cython.pointer(Touch)) -> cython.void:
+    """Move a contact with a wheel to the middle of its tread."""
+    if touch.dim < 3:
         return
-    geoms = integers(contact + AT.contact_geom)
-    place = floats(contact + AT.contact_pos)
-    normal = floats(contact + AT.contact_frame)
+    place = floats(touch.contact + AT.contact_pos)
     shift = cython.declare(cython.double[3])
     for side in range(2):
-        geom = geoms[side]
+        geom = touch.geoms[side]
         if geom < 0:
             continue
-        own = floats(word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom)
+        own = floats(touch.users + 8 * GEOM_NUMBERS * geom)
         joint = cython.cast(cython.int, own[TREAD]) - 1
         if joint < 0:
             continue
-        axle = floats(word(data + AT.xaxis) + 24 * joint)
-        centre = floats(word(data + AT.geom_xpos) + 24 * geom)
+        axle = floats(word(touch.data + AT.xaxis) + 24 * joint)
+        centre = floats(word(touch.data + AT.geom_xpos) + 24 * geom)
         along, lean = -own[MIDDLE], 0.0
         for axis in range(3):
             along += (place[axis] - centre[axis]) * axle[axis]
-            lean += normal[axis] * axle[axis]
+            lean += touch.frame[axis] * axle[axis]
         share = 1.0 - abs(lean * along) / _GIVES
         if share > 0.0 and abs(lean) < _STEEP and abs(along) > _NEAR:
             for axis in range(3):
                 shift[axis] = -share * along * axle[axis]
                 place[axis] += shift[axis]
-            _move(model, data, contact, row, shift, sparse)
+            _move(touch, shift)
             return
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _move(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    shift: cython.p_double,
-    sparse: cython.double,
-) -> cython.void:
+def _move(touch: cython.pointer(Touch), shift: cython.p_double) -> cython.void:
     """Move where a contact acts."""
-    geoms = integers(contact + AT.contact_geom)
-    frame = floats(contact + AT.contact_frame)
+    bodies = integers(word(touch.model + AT.model_bodyid))
+    parents = integers(word(touch.model + AT.model_dof_parentid))
+    speeds, frame = floats(word(touch.data + AT.qvel)), touch.frame
     arm = cython.declare(cython.double[3])
     change = cython.declare(cython.double[3])
+    parts = cython.declare(cython.double[4])
     change[0] = change[1] = change[2] = 0.0
     for side in range(2):
-        geom = geoms[side]
         sign = 1.0 if side == 1 else -1.0
-        body = integers(word(model + AT.model_bodyid))[geom]
-        dof = _last_dof(model, body)
+        dof = _last_dof(touch.model, bodies[touch.geoms[side]])
         while dof >= 0:
-            spin = floats(word(data + AT.cdof) + 48 * dof)
+            spin = floats(word(touch.data + AT.cdof) + 48 * dof)
             x = spin[1] * shift[2] - spin[2] * shift[1]
             y = spin[2] * shift[0] - spin[0] * shift[2]
             z = spin[0] * shift[1] - spin[1] * shift[0]
-            speed = floats(word(data + AT.qvel) + 8 * dof)[0]
-            for way in range(3):
-                first = 3 * way
-                arm[way] = sign * (frame[first] * x + frame[first + 1] * y + frame[first + 2] * z)
-                change[way] += arm[way] * speed
-            _add(model, data, contact, row, dof, arm, sparse)
-            dof = integers(word(model + AT.model_dof_parentid))[dof]
-    rows = _rows(model)
-    mu = floats(contact + AT.contact_friction)[0]
-    velocity = floats(word(data + AT.velocity) + 8 * row)
-    reference = floats(word(data + AT.reference) + 8 * row)
-    terms = floats(word(data + AT.terms) + 32 * row)
-    for place in range(rows):
-        more = _part_of(change, place, rows, mu)
-        velocity[place] += more
-        reference[place] -= terms[4 * place + 1] * more
+            if x != 0.0 or y != 0.0 or z != 0.0:
+                for way in range(3):
+                    first = 3 * way
+                    arm[way] = sign * (
+                        frame[first] * x + frame[first + 1] * y + frame[first + 2] * z
+                    )
+                    change[way] += arm[way] * speeds[dof]
+                column = _column(touch, dof)
+                if column >= 0:
+                    rows = _by_rows(touch, arm, parts)
+                    for row in range(rows):
+                        touch.jacobian[row * touch.width + column] += parts[row]
+            dof = parents[dof]
+    rows = _by_rows(touch, change, parts)
+    for row in range(rows):
+        touch.velocity[row] += parts[row]
+        touch.reference[row] -= touch.terms[4 * row + 1] * parts[row]
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _add(
-    model: cython.size_t,
-    data: cython.size_t,
-    contact: cython.size_t,
-    row: cython.int,
-    dof: cython.int,
-    arm: cython.p_double,
-    sparse: cython.double,
-) -> cython.void:
-    """Add to a column of a contact's rows."""
-    rows = _rows(model)
-    mu = floats(contact + AT.contact_friction)[0]
-    for place in range(rows):
-        at = _place(model, data, row + place, dof, sparse)
-        if at >= 0:
-            number = floats(word(data + AT.jacobian) + 8 * at)
-            number[0] += _part_of(arm, place, rows, mu)
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _rows(model: cython.size_t) -> cython.int:
-    """Rows of a contact that normal and friction have: of a cone, or a pyramid's edges."""
-    return 3 if integers(model + AT.model_cone)[0] == _ELLIPTIC else 4
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _part_of(
-    ways: cython.p_double, place: cython.int, rows: cython.int, mu: cython.double
-) -> cython.double:
-    """What (normal, first, second) direction are in a row: n ± mu t in a pyramid."""
-    if rows == 3:
-        return ways[place]
-    aside = mu * ways[1 + place // 2]
-    return ways[0] - aside if place % 2 == 1 else ways[0] + aside
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _place(
-    model: cython.size_t,
-    data: cython.size_t,
-    row: cython.int,
-    dof: cython.int,
-    sparse: cython.double,
+def _by_rows(
+    touch: cython.pointer(Touch), ways: cython.p_double, parts: cython.p_double
 ) -> cython.int:
-    """Where the Jacobian has a row's number for a velocity; -1 if nowhere."""
-    if sparse <= 0.0:
-        return row * cython.cast(cython.int, word(model + AT.model_nv)) + dof
-    first = integers(word(data + AT.rowadr))[row]
-    count = integers(word(data + AT.rownnz))[row]
-    columns = integers(word(data + AT.colind) + 4 * first)
-    for place in range(count):
-        if columns[place] == dof:
-            return first + place
+    """What (normal, first, second) direction are in the rows of sliding: n ± mu t in a pyramid.
+
+    Returns:
+        How many rows that are.
+    """
+    if touch.cone:
+        for way in range(3):
+            parts[way] = ways[way]
+        return 3
+    first, second = touch.friction[0] * ways[1], touch.friction[0] * ways[2]
+    parts[0], parts[1] = ways[0] + first, ways[0] - first
+    parts[2], parts[3] = ways[0] + second, ways[0] - second
+    return 4
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _column(touch: cython.pointer(Touch), dof: cython.int) -> cython.int:
+    """Where rows of the Jacobian have the number of a velocity; -1 if nowhere."""
+    if not touch.sparse:
+        return dof
+    for column in range(touch.width):
+        if touch.columns[column] == dof:
+            return column
     return -1
 
 
