@@ -97,8 +97,9 @@ def with_systems(
     return systems, schedules, others
 
 
-def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) -> None:
+def update_plugins(plugins: Iterable[ScheduledPlugin], clock: Clock) -> None:
     """Run all plugins that are due, in the order they were loaded."""
+    now_ns = clock.now_ns
     for entry in tuple(plugins):
         schedule = entry.schedule
         if schedule is None or now_ns < schedule.due_ns:
@@ -106,9 +107,9 @@ def update_plugins(plugins: Iterable[ScheduledPlugin], now_ns: int, now: float) 
         try:
             if not entry.plugin.active:
                 continue
-            entry.plugin.on_update(now)
+            entry.plugin.on_update(clock.now)
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-            entry.detach(error, f"at {now:g} s")
+            entry.detach(error, f"at {clock.now:g} s")
             continue
         schedule.done(now_ns)
 

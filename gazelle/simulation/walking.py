@@ -115,14 +115,15 @@ class StepLoop:
         plugins, sensors = entities.plugins, entities.sensors
         if self._simulation.native is not None:
             self._systems, self._schedules, plugins = with_systems(plugins)
-        update_plugins(plugins, clock.now_ns, clock.now)
+        update_plugins(plugins, clock)
         if self._simulation.requests.closed:
             raise SimulationError(CLOSED)
         if loads.any:
             loads.update(clock.now_ns)
         if self.followers or self._listeners:
             most = 1
-        steps = steps_to_next(plugins, sensors, clock, most)
+        # Nothing is due within a single step: nobody need be asked.
+        steps = 1 if most == 1 else steps_to_next(plugins, sensors, clock, most)
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
