@@ -18,7 +18,7 @@ from cython.cimports.gazelle.native.memory import floats
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def leave_slowly(touch: cython.pointer(Touch)) -> cython.void:
+def leave_slowly(touch: cython.pointer[Touch]) -> cython.void:
     """Bound the velocity at which a contact pushes out what overlapped."""
     if floats(touch.contact + AT.contact_margin)[0] >= 0.0:
         return

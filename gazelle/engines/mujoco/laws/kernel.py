@@ -88,7 +88,7 @@ def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _correct(touch: cython.pointer(Touch), head: cython.p_double) -> cython.void:
+def _correct(touch: cython.pointer[Touch], head: cython.p_double) -> cython.void:
     """Change the rows of a contact."""
     if head[4] > 0.0:
         _direct(touch)
@@ -106,7 +106,7 @@ def _correct(touch: cython.pointer(Touch), head: cython.p_double) -> cython.void
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _bounce(touch: cython.pointer(Touch)) -> cython.void:
+def _bounce(touch: cython.pointer[Touch]) -> cython.void:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
     step, reference, contact = touch.step, touch.reference, touch.contact
     pull = _pull(touch)
@@ -129,7 +129,7 @@ def _bounce(touch: cython.pointer(Touch)) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _pull(touch: cython.pointer(Touch)) -> cython.double:
+def _pull(touch: cython.pointer[Touch]) -> cython.double:
     """How much faster two bodies approach a second later if nothing holds them."""
     model = touch.model
     gravity = floats(model + AT.model_gravity)
@@ -152,7 +152,7 @@ def _pull(touch: cython.pointer(Touch)) -> cython.double:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _direct(touch: cython.pointer(Touch)) -> cython.void:
+def _direct(touch: cython.pointer[Touch]) -> cython.void:
     """Turn the two directions in which a contact rubs to those that its surfaces have."""
     if touch.dim < 3 or not touch.cone:
         return
@@ -194,7 +194,7 @@ def _turn(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _first_direction(touch: cython.pointer(Touch), found: cython.p_double) -> cython.void:
+def _first_direction(touch: cython.pointer[Touch], found: cython.p_double) -> cython.void:
     """ODE's first direction of a contact in the world; zeros remain where it does not matter."""
     chosen, least, kind = -1, _FAR_MORE, NO_DIRECTION
     for side in range(2):

@@ -15,7 +15,7 @@ _ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 @cython.nogil
 @cython.exceptval(check=False)
 def begin_step(
-    touch: cython.pointer(Touch), model: cython.size_t, data: cython.size_t
+    touch: cython.pointer[Touch], model: cython.size_t, data: cython.size_t
 ) -> cython.void:
     """Look up what holds for all contacts of a step."""
     gravity = floats(model + AT.model_gravity)
@@ -34,7 +34,7 @@ def begin_step(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def begin_contact(touch: cython.pointer(Touch), contact: cython.size_t) -> cython.bint:
+def begin_contact(touch: cython.pointer[Touch], contact: cython.size_t) -> cython.bint:
     """Look up what laws need of a contact; returns whether it has any rows."""
     row: cython.int = integers(contact + AT.contact_address)[0]
     if row < 0:

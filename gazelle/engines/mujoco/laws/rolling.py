@@ -27,7 +27,7 @@ _RATIO = cython.declare(cython.double, 10.0)
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def hold_loosely(touch: cython.pointer(Touch)) -> cython.void:
+def hold_loosely(touch: cython.pointer[Touch]) -> cython.void:
     """Let the friction of a contact in a cone give way the more, the faster it rolls."""
     if touch.dim < 3 or not touch.cone:
         return
@@ -48,7 +48,7 @@ def hold_loosely(touch: cython.pointer(Touch)) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _rolling(touch: cython.pointer(Touch)) -> cython.double:
+def _rolling(touch: cython.pointer[Touch]) -> cython.double:
     """How fast one surface turns on another, about axes in both [rad/s]."""
     if min(touch.geoms[0], touch.geoms[1]) < 0:
         return 0.0

@@ -46,7 +46,7 @@ _DAMPED = cython.declare(cython.double, 0.25)
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def stay_down(touch: cython.pointer(Touch)) -> cython.void:
+def stay_down(touch: cython.pointer[Touch]) -> cython.void:
     """Let a contact that slides want no other normal velocity than one that holds."""
     if touch.dim < 3:
         return
@@ -59,7 +59,7 @@ def stay_down(touch: cython.pointer(Touch)) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _on_a_cone(touch: cython.pointer(Touch)) -> cython.void:
+def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
     friction, velocity, reference = touch.friction, touch.velocity, touch.reference
     along, across = friction[0] * velocity[1], friction[1] * velocity[2]
     size, most = sqrt(along * along + across * across), max(friction[0], friction[1])
@@ -79,7 +79,7 @@ def _on_a_cone(touch: cython.pointer(Touch)) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _on_a_pyramid(touch: cython.pointer(Touch)) -> cython.void:
+def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
     """The same for the edges n ± mu t of a pyramid, two for each direction.
 
     It is turned first so that one direction is that of the slip; else friction would be up to
@@ -112,7 +112,7 @@ def _on_a_pyramid(touch: cython.pointer(Touch)) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _share(
-    touch: cython.pointer(Touch), slip: cython.double, friction: cython.double
+    touch: cython.pointer[Touch], slip: cython.double, friction: cython.double
 ) -> cython.double:
     """To what share a contact that slips at a speed slides: 0 as long as it may only creep."""
     if slip < _LEAST_SLIP or friction > _MOST_FRICTION:
@@ -125,7 +125,7 @@ def _share(
 @cython.nogil
 @cython.exceptval(check=False)
 def _parting(
-    touch: cython.pointer(Touch), left: cython.double, lacking: cython.double, mu: cython.double
+    touch: cython.pointer[Touch], left: cython.double, lacking: cython.double, mu: cython.double
 ) -> cython.double:
     """The normal acceleration that MuJoCo would add to what slides.
 
@@ -145,7 +145,7 @@ def _parting(
 @cython.nogil
 @cython.exceptval(check=False)
 def _turn_pyramid(
-    touch: cython.pointer(Touch), one: cython.double, two: cython.double
+    touch: cython.pointer[Touch], one: cython.double, two: cython.double
 ) -> cython.void:
     """Turn a pyramid's first direction to (one, two), with all that is known of its edges."""
     frame = touch.frame
@@ -177,7 +177,7 @@ def _turn_edges(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _last(touch: cython.pointer(Touch), row: cython.int) -> cython.double:
+def _last(touch: cython.pointer[Touch], row: cython.int) -> cython.double:
     """The acceleration of the last step along one of the contact's rows."""
     found = 0.0
     first = row * touch.width

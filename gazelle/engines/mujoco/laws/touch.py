@@ -19,7 +19,7 @@ from typing import Any
 from Cython.Shadow import StructType  # Python runs sources of compiled modules with it
 
 
-class Touch(StructType):  # type: ignore[misc, no-untyped-call]
+class Touch(StructType):
     """Takes whatever is put into it."""
 
     __setattr__ = object.__setattr__

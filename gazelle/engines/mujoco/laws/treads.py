@@ -32,7 +32,7 @@ _GIVES = cython.declare(cython.double, 1e-3)
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def stand_in_the_middle(touch: cython.pointer(Touch)) -> cython.void:
+def stand_in_the_middle(touch: cython.pointer[Touch]) -> cython.void:
     """Move a contact with a wheel to the middle of its tread."""
     if touch.dim < 3:
         return
@@ -64,7 +64,7 @@ def stand_in_the_middle(touch: cython.pointer(Touch)) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _move(touch: cython.pointer(Touch), shift: cython.p_double) -> cython.void:
+def _move(touch: cython.pointer[Touch], shift: cython.p_double) -> cython.void:
     """Move where a contact acts."""
     bodies = integers(word(touch.model + AT.model_bodyid))
     parents = integers(word(touch.model + AT.model_dof_parentid))
@@ -104,7 +104,7 @@ def _move(touch: cython.pointer(Touch), shift: cython.p_double) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _by_rows(
-    touch: cython.pointer(Touch), ways: cython.p_double, parts: cython.p_double
+    touch: cython.pointer[Touch], ways: cython.p_double, parts: cython.p_double
 ) -> cython.int:
     """What (normal, first, second) direction are in the rows of sliding: n ± mu t in a pyramid.
 
@@ -124,7 +124,7 @@ def _by_rows(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _column(touch: cython.pointer(Touch), dof: cython.int) -> cython.int:
+def _column(touch: cython.pointer[Touch], dof: cython.int) -> cython.int:
     """Where rows of the Jacobian have the number of a velocity; -1 if nowhere."""
     if not touch.sparse:
         return dof
