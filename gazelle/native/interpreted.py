@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
-from typing import Final
+from typing import Any, Final
 
 _PREFIX: Final = "cython.cimports."
 
@@ -42,3 +42,19 @@ def install() -> None:
     cimports.__spec__ = ModuleSpec("cython.cimports", None, is_package=True)
     if not any(isinstance(finder, _Cimports) for finder in sys.meta_path):
         sys.meta_path.insert(0, _Cimports())
+
+
+def structure() -> Any:
+    """What Python has in place of a structure of C: it takes whatever is put into it.
+
+    ``cython.declare(Type[1])`` makes one in sources, which C hands over by its address.
+    """
+    import cython
+
+    class Structure(cython.struct()):  # type: ignore[misc]
+        __setattr__ = object.__setattr__
+
+        def __class_getitem__(cls, _: int) -> Any:
+            return cls
+
+    return Structure

@@ -14,16 +14,6 @@ a row as ``width`` says, for the velocities that ``columns`` lists where it is s
 
 from __future__ import annotations
 
-from typing import Any
+from gazelle.native.interpreted import structure
 
-from Cython.Shadow import StructType  # Python runs sources of compiled modules with it
-
-
-class Touch(StructType):
-    """Takes whatever is put into it."""
-
-    __setattr__ = object.__setattr__
-
-    def __class_getitem__(cls, _: int) -> Any:
-        """An array of one is what C hands over by its address."""
-        return cls
+Touch = structure()
