@@ -180,7 +180,7 @@ def of_fleet(file: Path, threads: int) -> float:
         warnings.simplefilter("ignore")
         world = formats.load(file)
     layout = layout_of([model for model in world.models if model.stage is not None])
-    step = world.interval_sim
+    step = world.stage.interval_sim
     fleet = Fleet(layout.bodies, layout.statics, time_step=step, euler=True, threads=threads)
     scanner = Scanner(fleet, layout.fans[0], layout.mounts[0]) if layout.fans else None
     roaming = Roaming(fleet, scanner)

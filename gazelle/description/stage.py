@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from gazelle.description.stage_devices import (
     StageRanger,
 )
 
+D = TypeVar("D")
 StageColor = Color | Literal["random"]
 
 
@@ -108,7 +109,7 @@ class StageBitmap:
         return (self.high[0] - self.low[0]) / columns, (self.high[1] - self.low[1]) / rows
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, StageBitmap):
+        if not isinstance(other, type(self)):
             return NotImplemented
         return self._key() == other._key() and np.array_equal(self.cells, other.cells)
 
@@ -235,22 +236,22 @@ class StageModel:
     @property
     def position(self) -> StagePosition | None:
         """What makes it a robot; None if it is none."""
-        return self.device if isinstance(self.device, StagePosition) else None
+        return self.device_of(StagePosition)
+
+    def device_of(self, kind: type[D]) -> D | None:
+        """What its type adds, if it is of a kind; else None."""
+        return self.device if isinstance(self.device, kind) else None
 
     @property
     def _begin(self) -> StagePose:
         """Its pose; of an actuator that where it starts."""
-        device = self.device
-        return (
-            self.pose.then(StagePose(*device.offset))
-            if isinstance(device, StageActuator)
-            else self.pose
-        )
+        device = self.device_of(StageActuator)
+        return self.pose if device is None else self.pose.then(StagePose(*device.offset))
 
     @property
     def rangers(self) -> tuple[StageModel, ...]:
         """The rangers mounted directly on it, in file order."""
-        return tuple(child for child in self.children if isinstance(child.device, StageRanger))
+        return tuple(child for child in self.children if child.device_of(StageRanger))
 
     def walk(self, parent: PlacedStageModel | None = None) -> Iterator[PlacedStageModel]:
         """This model and all below it, depth first, with names and poses in the world.

@@ -56,7 +56,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         EngineError: The world cannot be simulated.
     """
 
-    own_changes = ("command", "place_body")
+    own_changes = ("command", "place_bodies", "place_body")
 
     def __init__(
         self,
@@ -237,6 +237,19 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._fleet.stalled[rows_of(worlds), body] = False
         if height is not None:
             self._fleet.heights[rows_of(worlds), body] = height
+
+    def place_bodies(self, which: Worlds, poses: ArrayLike) -> None:
+        """Put some bodies somewhere, at rest; they keep their heights.
+
+        Args:
+            which: Bodies, counted through all worlds, shape (n,).
+            poses: x, y [m] and heading [rad], shape (n, 3).
+        """
+        fleet = self._fleet
+        for values in (fleet.command, fleet.velocity):
+            values.reshape(-1, 3)[which] = 0.0
+        fleet.stalled.reshape(-1)[which] = False
+        fleet.put(poses, fleet.heights.reshape(-1)[which], which)
 
     # -- change ------------------------------------------------------------------------
 

@@ -20,6 +20,12 @@ cdef class PoseMemory(System):
     @cython.locals(b=Py_ssize_t)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
 
+cdef class StallMemory(System):
+    cdef Bodies bodies
+    cdef public unsigned char[::1] stalled
+    @cython.locals(b=Py_ssize_t)
+    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
+
 cdef class DriveVelocities(System):
     cdef Bodies bodies
     cdef public double[:, ::1] velocities

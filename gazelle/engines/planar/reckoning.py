@@ -96,6 +96,27 @@ class PoseMemory(System):
 
 
 @cython.cclass
+class StallMemory(System):
+    """Remembers which bodies did not make a move, a row each.
+
+    Args:
+        bodies: Which.
+
+    Attributes:
+        stalled: Whether one did not since it was last cleared, shape (nworld * nbody,).
+    """
+
+    def __init__(self, bodies: Bodies) -> None:
+        System.__init__(self, max(1, bodies.nbody))
+        self.bodies, self.stalled = bodies, np.zeros(bodies.nworld * bodies.nbody, np.uint8)
+
+    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
+        """Look at some of them."""
+        for b in range(first, min(last, self.stalled.shape[0])):
+            self.stalled[b] |= self.bodies.stalled[b]
+
+
+@cython.cclass
 class DriveVelocities(System):
     """How drives move their bodies, a row each: of cars not what they are told.
 

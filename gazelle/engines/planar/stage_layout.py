@@ -179,13 +179,14 @@ def stage_model(model: Model) -> StageModel | None:
 
 
 def _grips(model: StageModel) -> bool:
-    own = isinstance(model.device, StageGripper)
-    return own or any(_grips(child) for child in model.children)
+    return model.device_of(StageGripper) is not None or any(
+        _grips(child) for child in model.children
+    )
 
 
 def without_actuators(model: StageModel) -> StageModel:
     """A model without what its actuators move."""
-    kept = (c for c in model.children if not isinstance(c.device, StageActuator))
+    kept = (child for child in model.children if child.device_of(StageActuator) is None)
     return replace(model, children=tuple(without_actuators(child) for child in kept))
 
 
@@ -197,8 +198,9 @@ def _actuators(
     for child in model.children:
         lift = model.size.z if model.stack_children else 0.0
         still = replace(child, pose=child.pose._replace(z=child.pose.z + lift))
-        if isinstance(child.device, StageActuator):
-            yield next(still.walk(placed)), child.device, placed.pose.then(still.pose)
+        device = child.device_of(StageActuator)
+        if device is not None:
+            yield next(still.walk(placed)), device, placed.pose.then(still.pose)
         else:
             yield from _actuators(next(child.walk(placed)))
 
@@ -308,8 +310,8 @@ class _Maker:
         own = list(replace(without_actuators(model), pose=StagePose()).walk())
         rangers = []
         for placed in own:
-            device = placed.model.device
-            if isinstance(device, StageRanger):
+            device = placed.model.device_of(StageRanger)
+            if device is not None:
                 views = [self.view(placed, sensor) for sensor in device.sensors]
                 rangers.append((placed, device.sensors, views))
         parts = tuple(_all_parts(own))

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from gazelle import formats
 from gazelle.array_types import Floats
-from gazelle.engines.planar import Part
+from gazelle.description import World
 
 LENGTH, WIDTH = 30.0, 20.0
 """Of the hall, inside, along x and y [m]; its middle is the origin."""
@@ -23,16 +24,43 @@ _CLEAR = 1.0  # of places from walls and shelves [m]
 _SPACING = 1.5  # of places [m]
 
 
-def walls() -> tuple[Part, ...]:
-    """What stands in the hall."""
+_HEAD = """\
+interval_sim {step}
+unit_angle "radians"
+define agv position (
+  size [ {length} {width} 0.5 ] drive "diff" velocity_bounds [ -9 9 0 0 0 0 -9 9 ]
+  ranger ( pose [ 0 0 -0.25 0 ]
+    sensor ( range [ 0 {reach} ] fov {fov} samples {samples} pose [ 0 0 0 {ahead} ] ) ) )
+"""
+
+
+def walls() -> Floats:
+    """What stands in the hall: size along x and y, and middle [m], shape (n, 4)."""
     x, y = (LENGTH + _WALL) / 2.0, (WIDTH + _WALL) / 2.0
-    return (
-        Part.box(LENGTH + 2.0 * _WALL, _WALL, 0.0, y),
-        Part.box(LENGTH + 2.0 * _WALL, _WALL, 0.0, -y),
-        Part.box(_WALL, WIDTH, x, 0.0),
-        Part.box(_WALL, WIDTH, -x, 0.0),
-        *(Part.box(*_SHELF, *shelf) for shelf in _SHELVES),
+    long, short = LENGTH + 2.0 * _WALL, WIDTH
+    frame = [(long, _WALL, 0.0, y), (long, _WALL, 0.0, -y), (_WALL, short, x, 0.0)]
+    frame.append((_WALL, short, -x, 0.0))
+    return np.array([*frame, *((*_SHELF, *shelf) for shelf in _SHELVES)])
+
+
+def world(agvs: int, *, step: float, samples: int, reach: float) -> World:
+    """The hall with AGVs, in Stage's words.
+
+    Args:
+        agvs: How many; they all stand in the middle.
+        step: Of the simulation [s].
+        samples: Ranges of each, counter-clockwise all around, from straight ahead.
+        reach: Of these [m].
+    """
+    fov = 2.0 * np.pi * (samples - 1) / samples
+    values = {"fov": fov, "ahead": fov / 2.0, "samples": samples, "reach": reach}
+    head = _HEAD.format(step=1000.0 * step, length=AGV_LENGTH, width=AGV_WIDTH, **values)
+    robots = "".join(f'agv ( name "agv_{number}" )\n' for number in range(agvs))
+    things = "".join(
+        f"model ( size [ {length} {width} 1 ] pose [ {x} {y} 0 0 ] )\n"
+        for length, width, x, y in walls().tolist()
     )
+    return formats.load_string(head + robots + things, name="hall")
 
 
 def places(*, between: bool = False) -> Floats:
@@ -60,8 +88,9 @@ def picture(poses: Floats, goals: Floats) -> NDArray[np.uint8]:
         pixels = points * [scale, -scale] + middle
         return [(float(x), float(y)) for x, y in pixels]
 
-    for part in walls():
-        draw.polygon(path(np.array(part.points)), fill=(60, 60, 66))
+    for length, width, x, y in walls().tolist():
+        corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [length / 2.0, width / 2.0]
+        draw.polygon(path(corners + np.array([x, y])), fill=(60, 60, 66))
     half = np.array([AGV_LENGTH, AGV_WIDTH]) / 2.0
     corners = half * [[1.0, 0.0], [0.6, 1.0], [-1.0, 1.0], [-1.0, -1.0], [0.6, -1.0]]
     for (x, y, yaw), goal in zip(poses, goals, strict=True):

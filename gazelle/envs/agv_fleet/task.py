@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
-from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
 from gazelle.engines.planar.columns import X0, X1, Y0, Y1
 from gazelle.envs.agv_fleet import hall
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
@@ -19,6 +18,8 @@ from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_whole
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
+from gazelle.simulation import Simulation
+from gazelle.simulation.stage import StageFleet
 from gazelle.streams import Stream
 
 PERIOD = 0.2
@@ -104,20 +105,13 @@ class AGVFleetTask(BatchedTask):
         self.control_period = PERIOD
         self.observation_space = _observation_space(settings.lidar_samples)
         self.action_space = gym.spaces.Box(-1.0, 1.0, (2,), np.float32)
-        body = Body((Part.box(hall.AGV_LENGTH, hall.AGV_WIDTH),), drive=Drive("diff"))
-        self.fleet = Fleet(
-            [body] * self.agents,
-            hall.walls(),
-            nworld=self.halls,
-            time_step=PERIOD / _STEPS,
-            threads=settings.threads,
+        world = hall.world(
+            self.agents, step=PERIOD / _STEPS, samples=settings.lidar_samples, reach=REACH
         )
-        step = 2.0 * math.pi / settings.lidar_samples
-        self._scanner = Scanner(
-            self.fleet,
-            Fan(0.0, step, settings.lidar_samples, REACH),
-            [Mount(agent) for agent in range(self.agents)],
+        self.simulation = Simulation(
+            world, settings.engine, nworld=self.halls, threads=settings.threads
         )
+        self.agvs = cast("StageFleet", self.simulation.stage)
         self._places = settings.free_places()
         self._start = np.zeros((nworld, 3))
         self._goal = np.zeros(nworld, np.intp)
@@ -129,7 +123,7 @@ class AGVFleetTask(BatchedTask):
     @property
     def poses(self) -> Floats:
         """x, y [m] and heading [rad] of all AGVs, hall by hall, shape (nworld, 3)."""
-        return self.fleet.pose.reshape(-1, 3)
+        return self.agvs.poses.reshape(-1, 3)
 
     @property
     def goals(self) -> Floats:
@@ -147,26 +141,23 @@ class AGVFleetTask(BatchedTask):
         return hall.picture(self.poses[rows], self.goals[rows])
 
     def close(self) -> None:
-        """End the threads; a second call does nothing."""
-        self.fleet.close()
+        """End the simulation; a second call does nothing."""
+        self.simulation.close()
 
     def _seed(self, seed: int) -> None:
         self._number = seed
         self._stream = Stream(seed, "agv_fleet", self.nworld)
-        self.fleet.reset()
+        self.simulation.reset(seed=seed)
         self._frozen[:] = False
 
     def _begin(self, worlds: Worlds) -> None:
         """Put AGVs at places that are free, one hall knowing nothing of the others."""
-        self.fleet.command.reshape(-1, 3)[worlds] = 0.0
-        self.fleet.velocity.reshape(-1, 3)[worlds] = 0.0
-        self.fleet.stalled.reshape(-1)[worlds] = False
         self._frozen[worlds], self._reached[worlds] = False, 0
         where = self._free_places(worlds)
         yaw = (self._stream.uniform(1, worlds)[:, 0] * 2.0 - 1.0) * math.pi
         # only those: cosines of the others' headings, taken again, could differ in the last bit
         poses = np.column_stack((self._places[where], yaw))
-        self.fleet.put(poses, np.zeros(len(worlds)), worlds)
+        self.agvs.place(worlds, poses)
         self._start[worlds] = poses
         self._goal[worlds] = where
         self._next_goals(worlds)
@@ -219,7 +210,7 @@ class AGVFleetTask(BatchedTask):
     @property
     def floor_plan(self) -> FloorPlan:  # type: ignore[override]  # not fixed there
         """Walls and shelves, seen from above."""
-        rows = self.fleet.scene.table.rows
+        rows = self.agvs.fleet.scene.table.rows
         return FloorPlan(rows[:, [X0, Y0, X1, Y1]], np.zeros((0, 3)))
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
@@ -228,10 +219,10 @@ class AGVFleetTask(BatchedTask):
 
     def observe(self) -> Floats32:
         """What all AGVs see now, shape (nworld, size)."""
-        ranges = self._scanner.scan().reshape(self.nworld, -1)
+        ranges = self.agvs.scan().reshape(self.nworld, -1)
         poses, goals = self.poses, self.goals
-        velocity = self.fleet.velocity.reshape(-1, 3)
-        moving = ~self.fleet.stalled.reshape(-1)
+        velocity = self.agvs.velocities.reshape(-1, 3)
+        moving = ~self.agvs.stalled.reshape(-1)
         columns = (
             _distance(poses, goals),
             heading_to(poses, poses[:, 2], goals),
@@ -245,15 +236,19 @@ class AGVFleetTask(BatchedTask):
         if chosen.shape != (self.nworld, 2) or np.isnan(chosen).any():
             raise TaskError(f"actions must be numbers of shape ({self.nworld}, 2)")
         chosen = np.where(self._frozen[:, None], 0.0, np.clip(chosen, -1.0, 1.0))
-        command = self.fleet.command.reshape(-1, 3)
-        command[:, 0] = np.where(self._frozen, 0.0, (chosen[:, 0] + 1.0) * (SPEED / 2.0))
-        command[:, 2] = chosen[:, 1] * TURN
-        crashed = np.zeros(self.nworld, np.bool_)
-        for _ in range(_STEPS):
-            self.fleet.step()
-            crashed |= self.fleet.stalled.reshape(-1)
+        speed = np.where(self._frozen, 0.0, (chosen[:, 0] + 1.0) * (SPEED / 2.0))
+        shape = (self.halls, self.agents)
+        commands, bumped = self.agvs.commands, self.agvs.bumped
+        commands[..., 0], commands[..., 2] = (
+            speed.reshape(shape),
+            chosen[:, 1].reshape(shape) * TURN,
+        )
+        bumped[:] = False
+        self.simulation.step(_STEPS)
+        crashed = bumped.reshape(-1).copy()
         crashed &= ~self._frozen
-        distance = _distance(self.poses, self.goals)
+        poses = self.poses
+        distance = _distance(poses, self.goals)
         arrived = distance < ARRIVED
         reward = STEP_REWARD + PROGRESS * (self._distance - distance)
         reward = np.where(arrived, reward + GOAL_REWARD, reward)
@@ -275,13 +270,10 @@ class AGVFleetTask(BatchedTask):
         }
 
     def _state(self) -> dict[str, Any]:
-        fleet = self.fleet
         return {
             "seed": np.array(self._number),
             "draws": self._stream.counters.copy(),
-            "pose": fleet.pose.copy(),
-            "motion": np.stack((fleet.command, fleet.velocity)),
-            "stalled": fleet.stalled.copy(),
+            "simulation": self.simulation.snapshot(),
             "goal": self._goal.copy(),
             "distance": self._distance.copy(),
             "reached": self._reached.copy(),
@@ -291,9 +283,7 @@ class AGVFleetTask(BatchedTask):
     def _set_state(self, state: dict[str, Any]) -> None:
         self._seed(int(state["seed"]))
         self._stream.counters[:] = state["draws"]
-        self.fleet.put(state["pose"], np.zeros((self.halls, self.agents)))
-        self.fleet.command[:], self.fleet.velocity[:] = state["motion"]
-        self.fleet.stalled[:] = state["stalled"]
+        self.simulation.restore(bytes(state["simulation"]))
         self._goal[:], self._distance[:] = state["goal"], state["distance"]
         self._reached[:], self._frozen[:] = state["reached"], state["frozen"]
 

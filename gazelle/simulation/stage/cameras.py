@@ -110,7 +110,7 @@ def cameras_of(robot: StageRobot) -> tuple[Camera, ...]:
     return tuple(
         Camera(
             placed.model.name,
-            placed.model.device,
+            device,
             placed.pose,
             direct=body == robot.index and _is_direct(placed),
             body=body,
@@ -118,7 +118,7 @@ def cameras_of(robot: StageRobot) -> tuple[Camera, ...]:
         )
         for body, model in robot.bodies
         for owner, placed in enumerate(replace(model, pose=StagePose()).walk())
-        if isinstance(placed.model.device, StageCamera)
+        if (device := placed.model.device_of(StageCamera)) is not None
     )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.reckoning import DriveVelocities, PoseMemory
+from gazelle.engines.planar.reckoning import DriveVelocities, PoseMemory, StallMemory
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.native.system import System
 from gazelle.simulation.stage.odometry import Odometry
@@ -47,7 +47,17 @@ class DriveState:
                 driven = np.asarray(drives.velocities).reshape(driven.shape)
                 self.last.append(drives)
             self.last.append(self.odometry.system(driven, fleet.time_step))
+        self._stalls: StallMemory | None = None
         self.remember()
+
+    def watch(self) -> NDArray[np.bool_]:
+        """Whether robots were stalled since that was cleared, shape (nworld, nrobot)."""
+        fleet = self._fleet
+        if self._stalls is None:
+            self._stalls = StallMemory(fleet.bodies)
+            self.last = [*self.last, self._stalls]
+        stalled = np.asarray(self._stalls.stalled).view(np.bool_)
+        return stalled.reshape(fleet.nworld, fleet.nbody)[:, : self._count]
 
     @property
     def before(self) -> Floats:

@@ -89,6 +89,9 @@ class StageFleet(Senses):
         self._robots, self._things = tuple(layout.robots), tuple(layout.things)
         self._still, self._placed = layout.still, layout.placed
         self._named = {robot.name: robot for robot in self._robots}
+        own = slice(0, len(self._robots))
+        self._commands, self._poses = fleet.command[:, own], fleet.pose[:, own]
+        self._driven, self._stalled = fleet.velocity[:, own], fleet.stalled[:, own]
         self._rangers = Rangers(fleet, layout, self.seed)
         self._motion = DriveState(self._robots, fleet, self.seed)
         self._devices = Devices(self)
@@ -185,18 +188,20 @@ class StageFleet(Senses):
 
         Those of a car are its speed, nothing, and its steering angle [rad].
         """
-        return self.fleet.command[:, : len(self._robots)]
+        self.refresh()
+        return self._commands
 
     @property
     def poses(self) -> Floats:
         """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
-        return self.fleet.pose[:, : len(self._robots)]
+        self.refresh()
+        return self._poses
 
     @property
     def velocities(self) -> Floats:
         """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
-        driven = self.fleet.velocity[:, : len(self._robots)]
-        return self._motion.steering.velocities(driven)
+        self.refresh()
+        return self._motion.steering.velocities(self._driven)
 
     @property
     def true_velocities(self) -> Floats:
@@ -218,7 +223,17 @@ class StageFleet(Senses):
     @property
     def stalled(self) -> NDArray[np.bool_]:
         """Whether a robot's last move was not made, as it would have hit something."""
-        return self.fleet.stalled[:, : len(self._robots)]
+        self.refresh()
+        return self._stalled
+
+    @property
+    def bumped(self) -> NDArray[np.bool_]:
+        """Whether a move was not made since this was last cleared; to be written, as ``stalled``.
+
+        It is kept from when it is first asked for.
+        """
+        self.refresh()
+        return self._motion.watch()
 
     # -- rangers -----------------------------------------------------------------------
 
@@ -322,6 +337,25 @@ class StageFleet(Senses):
         rows = slice(None) if worlds is None else worlds
         self._motion.before[rows, index] = self.poses[rows, index]
         self._devices.follow(index)
+
+    def place(self, rows: Worlds, poses: ArrayLike) -> None:
+        """Put many robots somewhere, at rest, whatever is there.
+
+        Args:
+            rows: Which, as world * nrobot + robot, shape (n,).
+            poses: x, y [m] and heading [rad], shape (n, 3).
+
+        Raises:
+            SimulationError: A value is not finite.
+        """
+        values, count = np.asarray(poses, np.float64), len(self.robots)
+        if not np.isfinite(values).all():
+            raise SimulationError("the poses of robots are not finite")
+        worlds, robots = np.divmod(np.asarray(rows, np.intp), max(count, 1))
+        self.engine.place_bodies(worlds * self._fleet.nbody + robots, values)
+        self._motion.before[worlds, robots] = self.poses[worlds, robots]
+        for robot in np.unique(robots).tolist() if self._devices else ():
+            self._devices.follow(robot)
 
     def reset_positions(self, worlds: Worlds | None = None) -> None:
         """Put all robots back to where they were at first, standing, their odometry at zero."""

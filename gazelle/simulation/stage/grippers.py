@@ -70,7 +70,7 @@ class Gripper:
         self, simulation: StageFleet, robot: StageRobot, model: StageModel, pose: StagePose
     ) -> None:
         self._simulation, self._robot, self._model, self._pose = simulation, robot, model, pose
-        self._device = model.device if isinstance(model.device, StageGripper) else StageGripper()
+        self._device = model.device_of(StageGripper) or StageGripper()
         shape = simulation.nworld
         self.paddles, self.lift = np.zeros(shape), np.zeros(shape)
         self.carried = np.full(shape, _NONE)
@@ -253,7 +253,7 @@ def grippers_of(simulation: StageFleet) -> dict[int, list[Gripper]]:
         own = [
             Gripper(simulation, robot, placed.model, placed.pose)
             for placed in replace(robot.model, pose=StagePose()).walk()
-            if isinstance(placed.model.device, StageGripper)
+            if placed.model.device_of(StageGripper)
         ]
         if own:
             found[robot.index] = own

@@ -40,6 +40,7 @@ class StageRunner(WorldPlugin):
     def __init__(self, fleet: StageFleet, steps: Steps, is_native: Callable[[], bool]) -> None:
         self._fleet, self._steps, self._is_native = fleet, steps, is_native
         self._following = False
+        self._bound: tuple[int, bool, int] | None = None
         self._told = np.zeros(0)
 
     @property
@@ -65,10 +66,13 @@ class StageRunner(WorldPlugin):
 
     def _bind(self) -> bool:
         """Have the engine update what is native now; whether controllers act in Python."""
-        fleet = self._fleet
-        fleet.refresh()
-        native = self._systems() if self._is_native() else None
+        fleet, is_native = self._fleet, self._is_native()
         motion = fleet.motion
+        now = fleet.engine.revision, is_native, len(motion.last)
+        if now == self._bound and not fleet.controllers:
+            return False
+        self._bound = now
+        native = self._systems() if is_native else None
         fleet.engine.surround([*(native or ()), *motion.first], motion.last)
         self._follow(wanted=bool(fleet.devices))
         return native is None and bool(fleet.controllers)

@@ -253,3 +253,25 @@ def test_odometry_goes_on_with_another_time_step(open_file):
     assert sim.time == pytest.approx(2.0)
     turned = sim.stage.odometry[0, 1, 2]
     assert turned == pytest.approx(0.4, rel=0.03)  # its share of error is 2.5 % at most
+
+
+def test_many_robots_are_placed_at_once_and_bumps_are_kept(open_file):
+    sim = open_file(WORLD.format(""), nworld=2)
+    stage = sim.stage
+    bumped = stage.bumped
+    stage.commands[1, 0, 0] = 1.0
+    stage.place(np.array([0, 3]), [[1.0, 1.0, 0.5], [4.2, 0.0, 0.0]])
+    assert stage.poses[0, 0].tolist() == [1.0, 1.0, 0.5]
+    assert stage.poses[1, 0].tolist() == [4.2, 0.0, 0.0]
+    assert not stage.commands.any()
+    assert not stage.true_velocities.any()
+    stage.commands[1, 0, 0] = 1.0
+    sim.step(4)
+    assert bumped.tolist() == [[False, False, False], [True, False, False]]
+    stage.commands[1, 0, 0] = -1.0
+    sim.step(4)
+    assert not stage.stalled.any()
+    assert stage.bumped[1, 0]
+    bumped[:] = False
+    sim.step()
+    assert not stage.bumped.any()
