@@ -27,6 +27,7 @@ from gazelle.description.stage_devices import (
 )
 
 D = TypeVar("D")
+Kind = type[D]
 StageColor = Color | Literal["random"]
 
 
@@ -238,7 +239,7 @@ class StageModel:
         """What makes it a robot; None if it is none."""
         return self.device_of(StagePosition)
 
-    def device_of(self, kind: type[D]) -> D | None:
+    def device_of(self, kind: Kind[D]) -> D | None:
         """What its type adds, if it is of a kind; else None."""
         return self.device if isinstance(self.device, kind) else None
 
