@@ -161,6 +161,11 @@ class ControllerManager:
         """
         return self.call(lambda: self._reload(force_kill=force_kill))
 
+    @property
+    def busy(self) -> bool:
+        """Whether a controller runs, or is to be started; for the thread that updates."""
+        return self._switch is not None or any(e.controller.running for e in self._loaded.values())
+
     def __getitem__(self, name: str) -> Controller:
         """A loaded controller.
 

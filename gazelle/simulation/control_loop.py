@@ -83,6 +83,11 @@ class ControlLoop(ModelPlugin):
         self.stopped[rows] = on
         self._released = (self._released | (before & ~self.stopped)) & ~self.stopped
 
+    @property
+    def active(self) -> bool:
+        """Whether there is anything to do: a controller, or a joint that has to be held."""
+        return self.manager.busy or not self.hardware.idle
+
     def on_update(self, time: float) -> None:
         """Read, control, write."""
         now, step = self._clock.now_ns, self._clock.step_ns

@@ -87,6 +87,11 @@ class SimulatedHardware(RobotHardware):
         super().__init__(robot.simulation.nworld)
         self.robot, self.setup = robot, setup
 
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is to be done while no controller runs."""
+        return False
+
     def stop_emergency(self, stopped: Bools) -> None:
         """Whether the emergency stop is pressed now, shape (nworld,); told before every step."""
 
@@ -218,6 +223,14 @@ class JointHardware(SimulatedHardware):
         self._held[begun] = self.states.position[begun]
         self._stopped = stopped.copy()
 
+    @property
+    def idle(self) -> bool:
+        """Whether efforts are all that is commanded, and there are none."""
+        if self._columns[POSITION].size or self._columns[VELOCITY].size:
+            return False
+        commands = [values for values, _ in self._commands.values()]
+        return not (self._applied.any() or any(values.any() for values in commands))
+
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
         """Hold the commands within limits, and act on them."""
         for kind, act in (
@@ -309,6 +322,8 @@ class JointHardware(SimulatedHardware):
     def _set_effort(self, index: int, efforts: Floats) -> None:
         # What is no number would end the world; the engine is spared it.
         safe = np.where(np.isfinite(efforts), efforts, 0.0)
+        if np.array_equal(safe, self._applied[:, index]):
+            return  # it acts already; what Python makes of a joint that nothing controls stays
         self._applied[:, index] = safe
         self._handles[index].effort = safe
 

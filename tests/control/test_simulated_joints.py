@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import threading
 import types
 
 import numpy as np
@@ -345,3 +346,52 @@ def test_worlds_do_not_depend_on_each_other(kind):
         return [sim.state_hash([i]) for i in range(nworld)]
 
     assert run(3, 0) == [run(1, world)[0] for world in range(3)]
+
+
+def test_efforts_from_python_act_while_nothing_controls_the_joint():
+    sim, robot = arm("Effort")
+    robot.joints["shoulder"].effort = 3.0
+    sim.run(0.05)
+    assert efforts(robot) == [3.0, 0.0]
+    assert robot.joints["shoulder"].velocity > 0.0
+    robot.controllers.load("c", {"type": "tests/Counting"})
+    robot.controllers.start("c")
+    sim.run(0.05)
+    assert efforts(robot) == [3.0, 0.0]
+    group(robot, "Effort")(1.0, 0.0)
+    sim.run(0.05)
+    robot.controllers.stop("group")
+    sim.run(0.05)
+    assert efforts(robot) == [1.0, 0.0]  # the last command stays
+
+
+def test_clients_switch_while_the_simulation_runs_and_is_reset():
+    sim, robot = arm("Effort", nworld=2)
+    manager, faults = robot.controllers, []
+    for name, joint in (("a", "shoulder"), ("b", "shoulder"), ("c", "elbow"), ("d", "elbow")):
+        gains = {joint: {"p": 300.0, "d": 30.0}}
+        of = "effort_controllers/JointTrajectoryController"
+        manager.load(name, {"type": of, "joints": [joint], "gains": gains})
+    manager.start("a", "c")
+
+    def client(first, second):
+        try:
+            for _ in range(150):
+                manager.switch(start=[second], stop=[first])
+                manager.switch(start=[first], stop=[second])
+        except Exception as error:  # noqa: BLE001  the test tells of any
+            faults.append(error)
+
+    threads = [threading.Thread(target=client, args=pair) for pair in (("a", "b"), ("c", "d"))]
+    for each in threads:
+        each.start()
+    while any(each.is_alive() for each in threads):
+        sim.step(20)
+        sim.reset(np.array([1]))
+    for each in threads:
+        each.join()
+    assert faults == []
+    assert {e.controller.name for e in manager.loaded if e.state == "running"} == {"a", "c"}
+    sim.reset()
+    sim.run(0.5)
+    assert np.abs([robot.joints[name].positions() for name in JOINTS]).max() < 1e-3
