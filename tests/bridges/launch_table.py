@@ -124,7 +124,10 @@ SLOW = [
     Expected(
         "gazebo_plugins multi_robot_scenario.launch",
         models="ground_plane r1 r2",
-        topics=_under(_TWO, "/cmd_vel /front_laser/scan /joint_states /odom") + " /tf /tf_static",
+        # Both robots' cameras are named without a namespace, so they share their topics, as in Gazebo.
+        topics=_under(_TWO, "/cmd_vel /front_laser/scan /joint_states /odom")
+        + " /front_camera/camera_info /front_camera/image_raw /front_camera/image_raw/compressed"
+        " /tf /tf_static",
         frames="odom>base_link base_link>r1/odom base_link>r2/odom "
         + " ".join(_links(f"{name}/", _PIONEER_LINKS) for name in _TWO),
         missing=("nodes of 'rviz' are left out", "a box without size is left out"),
