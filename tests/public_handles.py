@@ -31,14 +31,17 @@ from gazelle.simulation.parameters import InitialPoses, Parameter, SensorNoise
 CHANGING = {
     Simulation: {
         *("attach", "close", "delete", "detach", "load_plugin", "pause", "record", "reset"),
-        *("restore", "run", "set_light", "spawn", "step", "unpause"),
+        *("restore", "run", "set_light", "spawn", "step", "subscribe", "unpause"),
     },
     PhysicsProperties: {"set", "use"},
     WorldParameters: {"randomize", "reseed", "restore", "scale_mass"},
     Parameter: {"set"},
     SensorNoise: set(),
     InitialPoses: {"apply", "forget", "restore"},
-    Robot: {"back_to", "bind", "mark", "set_configuration", "set_pose", "set_twist"},
+    # A robot without a manager of controllers gets one when it is asked for its controllers.
+    Robot: {
+        *("back_to", "bind", "controllers", "mark", "set_configuration", "set_pose", "set_twist"),
+    },
     LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},
     JointHandle: {"add_motor", "apply_effort", "clear_efforts", "drive", "set_properties"},
     SensorUnit: {"reseed", "reset", "restore", "slow_to", "subscribe", "update"},

@@ -22,7 +22,7 @@ from gazelle.ros.xmlrpc.server import XmlRpcServer
 _PATIENCE_S = 3.0
 """Seconds to wait for a node that is told something; dead nodes stay registered."""
 
-_GREETING_S = 1.0
+_GREETING_S = 10.0
 """A master on this machine that somebody asks who it is answers within this time."""
 
 
