@@ -21,10 +21,12 @@ import numpy.typing as npt
 
 from gazelle.array_types import Floats32
 from gazelle.errors import FormatError
+from gazelle.training.features import Features
 
 Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 
 _FORMAT = "gazelle-policy-1"
+_FEATURES = ("angles", "magnitudes", "spans")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,7 @@ class Actor:
         low: Lower bounds of the actions (continuous heads), shape (actions,).
         high: Upper bounds of the actions (continuous heads), shape (actions,).
         first_action: The number of the first discrete action.
+        features: What is added to observations before the first layer, if anything.
     """
 
     weights: tuple[Floats32, ...]
@@ -50,6 +53,13 @@ class Actor:
     low: Floats32 | None = None
     high: Floats32 | None = None
     first_action: int = 0
+    features: Features | None = None
+
+    @property
+    def inputs(self) -> int:
+        """Entries of an observation."""
+        added = 0 if self.features is None else self.features.count
+        return len(self.weights[0]) - added
 
     @property
     def discrete(self) -> bool:
@@ -65,7 +75,7 @@ class Actor:
         Returns:
             Shape (N, outputs), float32.
         """
-        x = obs
+        x = obs if self.features is None else self.features.added_to(obs)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = x @ weight
             x += bias
@@ -158,6 +168,8 @@ class Actor:
         for name in ("log_std", "low", "high"):
             if getattr(self, name) is not None:
                 arrays[name] = getattr(self, name)
+        if self.features is not None:
+            arrays |= {name: getattr(self.features, name) for name in _FEATURES}
         about = {
             "format": _FORMAT,
             "layers": len(self.weights),
@@ -179,7 +191,11 @@ def load_actor(path: Path) -> Actor:
         with np.load(path, allow_pickle=False) as file:
             about = _read_about(str(file["about"]))
             layers = range(about["layers"])
-            extra = {name: file[name] for name in ("log_std", "low", "high") if name in file}
+            extra: dict[str, Any] = {
+                name: file[name] for name in ("log_std", "low", "high") if name in file
+            }
+            if _FEATURES[0] in file:
+                extra["features"] = Features(*(file[name] for name in _FEATURES))
             return Actor(
                 weights=tuple(file[f"weight{i}"] for i in layers),
                 biases=tuple(file[f"bias{i}"] for i in layers),

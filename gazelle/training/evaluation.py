@@ -187,7 +187,7 @@ def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:
 
 
 def _check_fit(actor: Actor, stepper: Stepper) -> None:
-    inputs, found = actor.weights[0].shape[0], stepper.obs[0].size
+    inputs, found = actor.inputs, stepper.obs[0].size
     if inputs != found:
         raise TaskError(
             f"the policy takes {inputs} observations, the task gives {found}",

@@ -30,8 +30,9 @@ def export_actor(policy: Any) -> Actor:
     head, extractor, modules = _parts(policy)
     weights, biases = _linear_layers(modules)
     gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
-    biases[0] = biases[0] + offset @ weights[0]
-    weights[0] = np.ascontiguousarray(gain[:, None] * weights[0])
+    entries = len(gain)
+    biases[0] = biases[0] + offset @ weights[0][:entries]
+    weights[0][:entries] *= gain[:, None]
     relu = any(isinstance(module, nn.ReLU) for module in modules)
     continuous = isinstance(space, gym.spaces.Box)
     return Actor(
@@ -43,6 +44,7 @@ def export_actor(policy: Any) -> Actor:
         low=space.low.astype(np.float32) if continuous else None,
         high=space.high.astype(np.float32) if continuous else None,
         first_action=int(space.start) if isinstance(space, gym.spaces.Discrete) else 0,
+        features=extractor.features,
     )
 
 

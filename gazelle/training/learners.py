@@ -140,7 +140,7 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
             "net_arch": list(recipe.net_arch),
             "activation_fn": activation,
             "features_extractor_class": ScaledObservations,
-            "features_extractor_kwargs": {"scale": scale},
+            "features_extractor_kwargs": {"scale": scale, "features": recipe.features},
         },
     }
 

@@ -1,27 +1,31 @@
-"""Stable-Baselines3's PPO with a faster way to collect rollouts.
+"""Stable-Baselines3's PPO with faster ways to collect rollouts and to learn from them.
 
-Three things differ from its parent, none of which changes what is computed:
-acting is done by a numpy copy of the actor, values are computed for the whole
-rollout at once, and no Python object is made for each copy of the environment.
-Steps that an environment spends on its reset are left out of the update.
+Acting is done by a numpy copy of the actor, values are computed for the whole
+rollout at once, no Python object is made for each copy of the environment, and
+updates work on whole tensors (`ppo_update`). Steps that an environment spends on
+its reset are left out of the update.
 """
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Iterator
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 import numpy.typing as npt
 import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.buffers import RolloutBuffer
+from stable_baselines3.common.utils import explained_variance
 
 from gazelle.array_types import Floats32
 from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
+from gazelle.training.ppo_update import NAMES, Transitions, Weights, loss_of
 from gazelle.training.scaling import ObservationScale
 from gazelle.training.stepper import Step
+from gazelle.training.threads import fast_products
 from gazelle.training.vecenv import VectorEnvAdapter
 
 
@@ -35,19 +39,35 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
 
     valid: npt.NDArray[np.bool_]
     rng: np.random.Generator
-    generator_ready: bool
 
-    def get(self, batch_size: int | None = None) -> Generator[Any, None, None]:
-        """Minibatches of the valid transitions in a new random order."""
-        if not self.generator_ready:
-            for name in ("observations", "actions", "values", "log_probs", "advantages", "returns"):
-                setattr(self, name, self.swap_and_flatten(getattr(self, name)))
-            self.generator_ready = True
-        usable = np.flatnonzero(self.valid.swapaxes(0, 1))
-        order = self.rng.permutation(usable)
-        size = batch_size or len(order)
-        for start in range(0, len(order), size):
-            yield self._get_samples(order[start : start + size])
+    def transitions(self, policy: Any) -> Transitions:
+        """The valid transitions, with observations as the networks of this policy take them."""
+        valid = torch.as_tensor(self.valid.reshape(-1))
+        observations = self._flat(self.observations)[valid]
+        actions = self._flat(self.actions)[valid]
+        if isinstance(self.action_space, gym.spaces.Discrete):
+            actions = actions[:, 0].long()
+        with torch.no_grad():
+            features = policy.features_extractor(observations)
+        advantages = self._flat(self.advantages)[valid]
+        if len(advantages) > 1:
+            advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+        return Transitions(
+            features,
+            actions,
+            self._flat(self.log_probs)[valid],
+            advantages,
+            self._flat(self.returns)[valid],
+        )
+
+    def minibatches(self, count: int, size: int) -> Iterator[torch.Tensor]:
+        """Rows of so many transitions in a new random order, so many at a time."""
+        order = torch.as_tensor(self.rng.permutation(count))
+        for start in range(0, count, size):
+            yield order[start : start + size]
+
+    def _flat(self, array: npt.NDArray[Any]) -> torch.Tensor:
+        return torch.as_tensor(array.reshape(array.shape[0] * array.shape[1], *array.shape[2:]))
 
 
 class FastPPO(PPO):  # type: ignore[misc]  # untyped base
@@ -93,7 +113,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
                 return False
             rollout_buffer.observations[row] = obs
             rollout_buffer.actions[row] = actions.reshape(env.num_envs, -1)
-            rollout_buffer.rewards[row] = step.rewards * env.reward_scale
+            rollout_buffer.rewards[row] = step.taught * env.reward_scale
             rollout_buffer.episode_starts[row] = starts
             rollout_buffer.valid[row] = step.valid
             self._note_cut_off(row, step, cut_off)
@@ -111,8 +131,41 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
     def train(self) -> None:
         """Learn from the rollout, then scale observations by all that were seen so far."""
-        super().train()
+        self.policy.set_training_mode(True)
+        self._update_learning_rate(self.policy.optimizer)
+        weights = Weights(
+            self.clip_range(self._current_progress_remaining), self.ent_coef, self.vf_coef
+        )
+        data = self.rollout_buffer.transitions(self.policy)
+        told: list[torch.Tensor] = []
+        with fast_products():
+            for _ in range(self.n_epochs):
+                order = self.rollout_buffer.minibatches(len(data.returns), self.batch_size)
+                told += [self._learn_from(data.pick(rows), weights) for rows in order]
+        self._n_updates += self.n_epochs
+        self._record(torch.stack(told).mean(dim=0).tolist(), weights)
         self.scale.refresh()
+
+    def _learn_from(self, batch: Transitions, weights: Weights) -> torch.Tensor:
+        """One step of the optimiser; what the curves show of it."""
+        loss, told = loss_of(self.policy, batch, weights)
+        self.policy.optimizer.zero_grad()
+        torch.autograd.backward(loss)
+        torch.nn.utils.clip_grad_norm_(self.policy.parameters(), self.max_grad_norm)
+        self.policy.optimizer.step()
+        return told
+
+    def _record(self, means: list[float], weights: Weights) -> None:
+        """Tell the curves, under Stable-Baselines3's names."""
+        buffer = self.rollout_buffer
+        explained = explained_variance(buffer.values.flatten(), buffer.returns.flatten())
+        for name, value in zip(NAMES, means, strict=True):
+            self.logger.record(f"train/{name}", value)
+        self.logger.record("train/explained_variance", explained)
+        if hasattr(self.policy, "log_std"):
+            self.logger.record("train/std", self.policy.log_std.exp().mean().item())
+        self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
+        self.logger.record("train/clip_range", weights.clip_range)
 
     def _note_cut_off(
         self,

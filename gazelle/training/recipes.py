@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.goal_reward import GoalReward
 
 Activation = Literal["tanh", "relu"]
 
@@ -89,8 +90,12 @@ class Recipe:
     """Discount of one control step."""
     reward_scale: float = 1.0
     """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
+    goal_reward: GoalReward | None = None
+    """What the learner is given in place of the task's rewards (reports show those)."""
     scale_observations: bool = True
     """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
+    features: bool = False
+    """Whether the network is also given sines and cosines of angles and logarithms of ranges."""
     training_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -119,13 +124,18 @@ class Recipe:
 
 
 # Starts, headings, goals and phases of obstacles from all over the free space: what is learnt
-# from the published ones alone does not hold elsewhere, see docs/benchmarks.md.
+# from the published ones alone does not hold elsewhere. What a policy is paid for, logarithms of
+# ranges and the dear collision are each worth points, see docs/benchmarks.md.
 _NAVIGATION = Recipe(
-    steps=200_000,
-    learning_rate=1e-3,
-    reward_scale=0.02,
-    training_options={"starts": "training", "goals": "training"},
-    settings=PPOSettings(batch_size=512, n_epochs=10),
+    steps=1_000_000,
+    num_envs=512,
+    activation="relu",
+    learning_rate=3e-3,
+    gamma=0.95,
+    goal_reward=GoalReward(collision=5.0),
+    features=True,
+    training_options={"engine": "planar", "starts": "training", "goals": "training"},
+    settings=PPOSettings(n_steps=32, batch_size=4096, n_epochs=3),
 )
 
 RECIPES: dict[str, Recipe] = {
@@ -143,9 +153,9 @@ RECIPES: dict[str, Recipe] = {
         settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
     ),
     "TurtleBot3Stage1": _NAVIGATION,
-    "TurtleBot3Stage2": dataclasses.replace(_NAVIGATION, steps=600_000),
-    "TurtleBot3Stage3": dataclasses.replace(_NAVIGATION, steps=1_000_000),
-    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=1_500_000),
+    "TurtleBot3Stage2": _NAVIGATION,
+    "TurtleBot3Stage3": _NAVIGATION,
+    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=2_000_000),
 }
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 
@@ -200,6 +210,8 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
         base,
         gamma=own.gamma,
         reward_scale=own.reward_scale,
+        goal_reward=own.goal_reward,
+        features=own.features,
         training_options=own.training_options,
         evaluation_options=own.evaluation_options,
     )
@@ -228,6 +240,8 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
     if "net_arch" in rest:
         rest["net_arch"] = tuple(rest["net_arch"])
+    if rest.get("goal_reward") is not None:
+        rest["goal_reward"] = GoalReward(**_checked(GoalReward, rest["goal_reward"]))
     return Recipe(**rest, settings=settings)
 
 

@@ -15,6 +15,7 @@ import torch
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 
 from gazelle.array_types import Floats, Floats32
+from gazelle.training.features import LEAST, MIDDLE, Features
 
 _LARGEST_BOUND = 1e4
 _LEAST_SHARE = 0.1  # of its bounds that an entry uses at least, else it is normalised
@@ -110,24 +111,42 @@ class ObservationScale:
 
 
 class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
-    """Flattens, and scales each entry.
+    """Flattens, scales each entry, and adds `Features` if asked to.
 
     Args:
         observation_space: A Box.
         scale: By what; that of all networks of the learner. By default the bounds alone.
+        features: Whether sines, cosines and logarithms are added.
     """
 
     def __init__(
-        self, observation_space: gym.spaces.Box, *, scale: ObservationScale | None = None
+        self,
+        observation_space: gym.spaces.Box,
+        *,
+        scale: ObservationScale | None = None,
+        features: bool = False,
     ) -> None:
         scale = scale or ObservationScale(observation_space)
         size = int(np.prod(observation_space.shape))
-        super().__init__(observation_space, features_dim=size)
+        self.features = Features.of(observation_space) if features else None
+        added = 0 if self.features is None else self.features.count
+        super().__init__(observation_space, features_dim=size + added)
         # The very tensors of the scale, which changes them in place.
         for name in ("gain", "offset", "moments", "tally"):
             self.register_buffer(name, getattr(scale, name))
+        if self.features is not None:
+            for name in ("angles", "magnitudes", "spans"):
+                values = torch.as_tensor(getattr(self.features, name))
+                self.register_buffer(f"_{name}", values, persistent=False)
 
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
-        """Shape (N, ...) to (N, entries)."""
-        scaled: torch.Tensor = observations.flatten(1) * self.gain + self.offset
-        return scaled
+        """Shape (N, ...) to (N, entries and those added)."""
+        flat = observations.flatten(1)
+        scaled: torch.Tensor = flat * self.gain + self.offset
+        return scaled if self.features is None else torch.cat((scaled, self._added(flat)), dim=1)
+
+    def _added(self, flat: torch.Tensor) -> torch.Tensor:
+        """What `Features.added_to` adds, of shape (N, added)."""
+        angles = flat[:, self._angles]
+        share = (flat[:, self._magnitudes] / self._spans).clamp(min=0.0)
+        return torch.cat((angles.sin(), angles.cos(), (share + LEAST).log() + MIDDLE), dim=1)

@@ -174,7 +174,10 @@ class _Session:
         self.total = config.recipe.steps
         env = make_task(config.task, config.recipe.num_envs, **config.options)
         self.env = VectorEnvAdapter(
-            env, reward_scale=config.recipe.reward_scale, on_episodes=self.episodes.add
+            env,
+            reward_scale=config.recipe.reward_scale,
+            goal_reward=config.recipe.goal_reward,
+            on_episodes=self.episodes.add,
         )
         try:
             self.learner: Learner = build_learner(config.recipe, self.env, config.seed)

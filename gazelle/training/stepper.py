@@ -25,6 +25,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.errors import TaskError
 from gazelle.training.episodes import OUTCOMES, Episodes
+from gazelle.training.goal_reward import GoalReward, GoalRewards
 
 SCENARIO = "scenario"
 """In the info of an episode's first moment: numbers that set it apart from others."""
@@ -39,7 +40,9 @@ class Step:
     obs: Floats32
     """What the policy acts on next, shape (N, ...)."""
     rewards: Floats
-    """Shape (N,)."""
+    """As the task gives them, shape (N,)."""
+    taught: Floats
+    """What the learner is given in their place, shape (N,)."""
     terminated: Bools
     """Whether the episode came to its end, shape (N,)."""
     truncated: Bools
@@ -58,6 +61,7 @@ class Stepper:
     Args:
         env: A Gymnasium vector environment with Box observations.
         keep_info: Whether ended episodes keep all numbers of their last info.
+        goal_reward: What the learner is given in place of the task's rewards, if anything.
 
     Raises:
         TaskError: The observations are not a Box of numbers.
@@ -68,7 +72,13 @@ class Stepper:
             None if it says nothing.
     """
 
-    def __init__(self, env: VectorEnv[Any, Any, Any], *, keep_info: bool = False) -> None:
+    def __init__(
+        self,
+        env: VectorEnv[Any, Any, Any],
+        *,
+        keep_info: bool = False,
+        goal_reward: GoalReward | None = None,
+    ) -> None:
         if not isinstance(env.single_observation_space, gym.spaces.Box):
             kind = type(env.single_observation_space).__name__
             raise TaskError(f"training needs observations in a Box, not in a {kind}")
@@ -84,6 +94,7 @@ class Stepper:
         self._there = np.zeros(self.num_envs, dtype=np.bool_)
         self.scenarios: Floats | None = None
         self._keep_info = keep_info
+        self._teacher = None if goal_reward is None else GoalRewards(goal_reward, env.num_envs)
 
     def reset(self, *, seed: int | None = None) -> Floats32:
         """Start all episodes anew and return the first observations, shape (N, ...)."""
@@ -91,7 +102,10 @@ class Stepper:
         self._resetting[:] = False
         self._forget(np.arange(self.num_envs))
         self.scenarios = None
-        self._note_scenarios(info, np.ones(self.num_envs, dtype=np.bool_))
+        everywhere = np.ones(self.num_envs, dtype=np.bool_)
+        self._note_scenarios(info, everywhere)
+        if self._teacher is not None:
+            self._teacher.begin(info, everywhere)
         self.obs = np.array(obs, dtype=np.float32)
         return self.obs
 
@@ -112,10 +126,12 @@ class Stepper:
         began = self._resetting
         self._count_goals(info, valid, done)
         obs = np.array(obs, dtype=np.float32)
-        final_obs, ended = None, None
-        if done.any():
-            slots = np.flatnonzero(done)
+        final_obs, ended, last = None, None, None
+        slots = np.flatnonzero(done)
+        if len(slots):
             final_obs, last = self._last(obs, info, slots)
+        taught = self._taught(rewards, info, last, slots, valid)
+        if last is not None:
             ended = self._close_episodes(slots, last, truncated)
             if self.mode is AutoresetMode.DISABLED:
                 fresh, info = self.env.reset(options={"reset_mask": done})
@@ -124,8 +140,23 @@ class Stepper:
         if self.mode is AutoresetMode.NEXT_STEP:
             began, self._resetting = self._resetting, done
         self._note_scenarios(info, began)
+        if self._teacher is not None and began.any():
+            self._teacher.begin(info, began)
         self.obs = obs
-        return Step(obs, rewards, terminated, truncated, valid, final_obs, ended)
+        return Step(obs, rewards, taught, terminated, truncated, valid, final_obs, ended)
+
+    def _taught(
+        self,
+        rewards: Floats,
+        info: dict[str, Any],
+        last: dict[str, Any] | None,
+        slots: npt.NDArray[np.intp],
+        valid: Bools,
+    ) -> Floats:
+        """What the learner is given for a step."""
+        if self._teacher is None:
+            return rewards
+        return self._teacher.of_step(info, last, slots, valid)
 
     def _count_goals(self, info: dict[str, Any], valid: Bools, done: Bools) -> None:
         """Count goals reached on the way; those of a last step are counted when it is closed."""
@@ -154,7 +185,9 @@ class Stepper:
 
     def get_state(self) -> dict[str, Any]:
         """The stepper's own state (not the environment's)."""
+        state = {} if self._teacher is None else {"distance": self._teacher.distance}
         return {
+            **state,
             "obs": self.obs,
             "resetting": self._resetting,
             "returns": self._returns,
@@ -173,6 +206,8 @@ class Stepper:
         self._goals = np.array(state["goals"], dtype=np.int64)
         self._goal_at = np.array(state["goal_at"], dtype=np.int64)
         self._there = np.array(state["there"], dtype=np.bool_)
+        if self._teacher is not None:
+            self._teacher.distance = np.array(state["distance"], dtype=np.float64)
 
     def _last(
         self, obs: Floats32, info: dict[str, Any], slots: npt.NDArray[np.intp]

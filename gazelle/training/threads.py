@@ -1,4 +1,4 @@
-"""How many threads the number crunching may use.
+"""How many threads the number crunching may use, and how exact its products are.
 
 Small networks gain nothing from a second thread, and threads that spin while
 they wait take the core that the simulation needs: the same training run is
@@ -7,7 +7,9 @@ several times slower with two threads on two busy cores.
 
 from __future__ import annotations
 
+import contextlib
 import os
+from collections.abc import Iterator
 
 _VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -37,3 +39,19 @@ def limit_threads(threads: int = 1) -> None:
 
     torch.set_num_threads(threads)
     threadpool_limits(limits=threads, user_api="blas")
+
+
+@contextlib.contextmanager
+def fast_products() -> Iterator[None]:
+    """Let torch multiply matrices in bfloat16 where the processor can, adding up in float32.
+
+    Learning small networks takes half as long on such processors. Acting stays in float32.
+    """
+    import torch
+
+    before = torch.get_float32_matmul_precision()
+    torch.set_float32_matmul_precision("medium")
+    try:
+        yield
+    finally:
+        torch.set_float32_matmul_precision(before)

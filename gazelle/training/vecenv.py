@@ -16,6 +16,7 @@ from gymnasium.vector import VectorEnv
 from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.training.episodes import Episodes
+from gazelle.training.goal_reward import GoalReward
 from gazelle.training.stepper import Step, Stepper
 
 
@@ -30,6 +31,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
     Args:
         env: The environment.
         reward_scale: Rewards are multiplied by this.
+        goal_reward: What the learner is given in place of the task's rewards, if anything.
         on_episodes: Called with the episodes that ended, at each step where some did.
 
     Attributes:
@@ -41,10 +43,11 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         env: VectorEnv[Any, Any, Any],
         *,
         reward_scale: float = 1.0,
+        goal_reward: GoalReward | None = None,
         on_episodes: Callable[[Episodes], None] | None = None,
     ) -> None:
         self.env = env
-        self.stepper = Stepper(env)
+        self.stepper = Stepper(env, goal_reward=goal_reward)
         self.reward_scale = reward_scale
         self.on_episodes = on_episodes
         self.on_observations: Callable[[npt.NDArray[np.float32]], None] | None = None
@@ -102,7 +105,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
             self._infos[slot]["reset_step"] = True
         ended = step.ended.slots if step.ended is not None else idle[:0]
         self._marked = np.concatenate([ended, idle])
-        rewards = (step.rewards * self.reward_scale).astype(np.float32)
+        rewards = (step.taught * self.reward_scale).astype(np.float32)
         return step.obs, rewards, step.terminated | step.truncated, self._infos
 
     def close(self) -> None:

@@ -9,6 +9,7 @@ from corridor import MODES, Corridor
 from stable_baselines3.common.callbacks import BaseCallback
 
 from gazelle.training.learners import build_learner
+from gazelle.training.ppo_update import NAMES, Weights, loss_of
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -71,9 +72,11 @@ def test_advantages_equal_a_plain_computation_episode_by_episode(mode):
 def test_all_modes_teach_the_same(mode):
     """The valid transitions of an idle-step environment are those of the others, spread out."""
     learner = collected(mode.value)
-    batches = list(learner.rollout_buffer.get(32))
-    taught = sum(len(batch.advantages) for batch in batches)
-    assert taught == int(learner.rollout_buffer.valid.sum())
+    buffer = learner.rollout_buffer
+    taught = len(buffer.transitions(learner.policy).returns)
+    assert taught == int(buffer.valid.sum())
+    rows = torch.cat(list(buffer.minibatches(taught, 32)))
+    assert rows.sort().values.tolist() == list(range(taught))
     assert (taught < 240) == (mode.value == "NextStep")
 
 
@@ -105,3 +108,61 @@ def test_rewards_are_scaled_for_the_learner_only():
     np.testing.assert_allclose(
         scaled.rollout_buffer.rewards[inside], 0.5 * plain.rollout_buffer.rewards[inside]
     )
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("continuous", [False, True])
+def test_the_update_has_the_gradient_that_the_library_would_take(continuous, mode):
+    """Stable-Baselines3's own loss (its `PPO.train`), through its policy's own methods."""
+    learner = collected(mode.value, continuous=continuous)
+    buffer, policy = learner.rollout_buffer, learner.policy
+    valid = buffer.valid.reshape(-1)
+    flat = {
+        name: torch.as_tensor(getattr(buffer, name).reshape(240, -1)[valid])
+        for name in ("observations", "actions", "log_probs", "advantages", "returns")
+    }
+    # So that ratios are not all 1 and some are clipped.
+    with torch.no_grad():
+        for weight in policy.parameters():
+            weight.add_(torch.randn_like(weight), alpha=0.3)
+    actions = flat["actions"] if continuous else flat["actions"][:, 0]
+    values, log_probs, entropy = policy.evaluate_actions(flat["observations"], actions)
+    advantages = flat["advantages"][:, 0]
+    advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+    ratio = (log_probs - flat["log_probs"][:, 0]).exp()
+    gain = torch.min(advantages * ratio, advantages * ratio.clamp(0.8, 1.2)).mean()
+    error = torch.nn.functional.mse_loss(flat["returns"][:, 0], values[:, 0])
+    wanted = 0.5 * error - gain - 0.01 * entropy.mean()
+    loss, told = loss_of(policy, buffer.transitions(policy), Weights(0.2, 0.01, 0.5))
+    named = dict(zip(NAMES, told.tolist(), strict=True))
+    assert loss.item() == pytest.approx(wanted.item(), rel=1e-4)
+    assert named["policy_gradient_loss"] == pytest.approx(-gain.item(), abs=1e-5)
+    assert named["value_loss"] == pytest.approx(error.item(), rel=1e-4)
+    assert named["entropy_loss"] == pytest.approx(-entropy.mean().item(), rel=1e-4)
+    assert 0.0 < named["clip_fraction"] < 1.0
+    weights = list(policy.parameters())
+    for ours, theirs in zip(
+        torch.autograd.grad(loss, weights), torch.autograd.grad(wanted, weights), strict=True
+    ):
+        np.testing.assert_allclose(ours.numpy(), theirs.numpy(), rtol=1e-3, atol=1e-5)
+
+
+@pytest.mark.parametrize("features", [False, True])
+def test_the_library_loads_a_saved_model_and_goes_on_with_it(tmp_path, features):
+    from stable_baselines3 import PPO
+
+    learner = collected(recipe=dataclasses.replace(RECIPE, features=features))
+    learner.train()
+    learner.save(tmp_path / "model.zip")
+    plain = PPO.load(tmp_path / "model.zip", env=VectorEnvAdapter(Corridor(6, limit=9)))
+    seen = np.random.default_rng(0).uniform(-1.0, 1.0, (20, 3)).astype(np.float32)
+    wanted = learner.predict(seen, deterministic=True)[0]
+    np.testing.assert_array_equal(plain.predict(seen, deterministic=True)[0], wanted)
+    plain.learn(240)
+    assert plain.num_timesteps >= 240
+
+
+def test_learning_leaves_torchs_precision_as_it_was():
+    before = torch.get_float32_matmul_precision()
+    collected().train()
+    assert torch.get_float32_matmul_precision() == before

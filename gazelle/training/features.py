@@ -1,0 +1,64 @@
+"""Sines, cosines and logarithms of observations, which small networks are slow to make themselves.
+
+To keep away from what is near, a policy must tell 0.2 m from 0.3 m and need not tell 2.2 m from
+2.3 m; and an angle of pi is one of -pi. What an entry is shows in its bounds: one between -pi and
+pi is an angle, one that cannot be negative is a range, a distance or a count.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import gymnasium as gym
+import numpy as np
+
+from gazelle.array_types import Floats32, Indices
+
+LEAST = 0.03
+"""Share of an entry's upper bound below which its logarithm hardly changes."""
+MIDDLE = 1.75
+"""Added to logarithms, so that they lie between -1.76 and 1.78."""
+
+
+@dataclass(frozen=True, slots=True)
+class Features:
+    """What is added to observations.
+
+    Attributes:
+        angles: The entries whose sines and cosines are added, shape (a,).
+        magnitudes: Those whose logarithms are added, shape (m,).
+        spans: The upper bounds of those, shape (m,), float32.
+    """
+
+    angles: Indices
+    magnitudes: Indices
+    spans: Floats32
+
+    @classmethod
+    def of(cls, space: gym.spaces.Box) -> Features:
+        """What the bounds of a space ask for."""
+        low, high = space.low.reshape(-1), space.high.reshape(-1)
+        pi = np.float32(np.pi)
+        with np.errstate(invalid="ignore"):
+            angles = np.isclose(low, -pi) & np.isclose(high, pi)
+        magnitudes = (low >= 0) & (high > low) & np.isfinite(high)
+        return cls(
+            np.flatnonzero(angles),
+            np.flatnonzero(magnitudes),
+            high[magnitudes].astype(np.float32),
+        )
+
+    @property
+    def count(self) -> int:
+        """How many entries are added."""
+        return 2 * len(self.angles) + len(self.magnitudes)
+
+    def added_to(self, obs: Floats32) -> Floats32:
+        """Observations of shape (N, entries) with the added ones behind, float32."""
+        angles = obs[:, self.angles]
+        share = np.maximum(obs[:, self.magnitudes] / self.spans, np.float32(0))
+        logs = np.log(share + np.float32(LEAST)) + np.float32(MIDDLE)
+        result: Floats32 = np.concatenate(
+            (obs, np.sin(angles), np.cos(angles), logs), axis=1, dtype=np.float32
+        )
+        return result

@@ -1,0 +1,101 @@
+"""A reward for the learner alone, of what a task tells of its goals.
+
+The reward that a task publishes is what reports and evaluations show. It need not be what a policy
+is best taught with: the published one of the TurtleBot3, say, pays more for a well-aimed turn far from the
+goal than near it, and for driving on more than for arriving.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gazelle.array_types import Bools, Floats
+from gazelle.errors import TaskError
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoalReward:
+    """What the learner is paid in place of the task's reward."""
+
+    goal: float = 1.0
+    """For a goal that is reached (``is_success``)."""
+    collision: float = 1.0
+    """Taken for a collision (``is_collision``)."""
+    progress: float = 1.0
+    """For each metre that the robot comes nearer to its goal (``distance`` [m])."""
+
+
+class GoalRewards:
+    """Works out `GoalReward` step by step.
+
+    Args:
+        pay: What is paid for what.
+        copies: Of the environment, N.
+
+    Attributes:
+        distance: To the goal that is under way [m], NaN where not known yet, shape (N,).
+    """
+
+    def __init__(self, pay: GoalReward, copies: int) -> None:
+        self._pay = pay
+        self.distance: Floats = np.full(copies, np.nan)
+
+    def begin(self, info: dict[str, Any], where: Bools) -> None:
+        """Take note of episodes that began in some copies, with their first info."""
+        self.distance = np.where(where, _told(info, "distance"), self.distance)
+
+    def of_step(
+        self,
+        info: dict[str, Any],
+        last: dict[str, Any] | None,
+        slots: npt.NDArray[np.intp],
+        valid: Bools,
+    ) -> Floats:
+        """What a step is worth, shape (N,).
+
+        Args:
+            info: Of the step.
+            last: Where the ended episodes tell of their last moment, if not in ``info``.
+            slots: Copies whose episodes ended.
+            valid: False where the step was spent on a reset, shape (N,).
+
+        Raises:
+            TaskError: The task does not tell what is needed.
+        """
+        success, collision, now = (
+            _merged(info, last, slots, name) for name in ("is_success", "is_collision", "distance")
+        )
+        nearer = self.distance - now
+        nearer[np.isnan(nearer)] = 0.0
+        pay = self._pay
+        reward = pay.goal * success - pay.collision * collision + pay.progress * nearer
+        # After a goal another one is under way, whose distance the next step tells.
+        self.distance = np.where(success.astype(np.bool_), np.nan, now)
+        result: Floats = np.where(valid, reward, 0.0)
+        return result
+
+
+def _merged(
+    info: dict[str, Any],
+    last: dict[str, Any] | None,
+    slots: npt.NDArray[np.intp],
+    name: str,
+) -> Floats:
+    """A number of each copy at the end of the step, before any reset."""
+    values = _told(info, name)
+    if last is not None and len(slots):
+        values[slots] = _told(last, name)[slots]
+    return values
+
+
+def _told(info: dict[str, Any], name: str) -> Floats:
+    if name not in info:
+        raise TaskError(
+            f"a goal_reward needs info['{name}'], which this task does not tell",
+            hint="leave goal_reward out of the recipe",
+        )
+    return np.array(info[name], dtype=np.float64)

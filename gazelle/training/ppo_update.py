@@ -1,0 +1,106 @@
+"""PPO's update on whole tensors (Schulman et al. 2017, arXiv 1707.06347).
+
+What Stable-Baselines3 computes, without an object for each minibatch: observations are made
+features once a rollout, and the networks are called layer by layer. Advantages are normalised over
+the rollout instead of each minibatch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+import torch
+
+_HALF_LOG_2_PI = 0.5 * float(np.log(2.0 * np.pi))
+
+
+@dataclass(frozen=True, slots=True)
+class Transitions:
+    """What a rollout brought, n transitions.
+
+    Attributes:
+        features: What the networks are given, shape (n, features).
+        actions: Numbers of choices, int64 of shape (n,), or float32 of shape (n, actions).
+        log_probs: Of the actions when they were drawn, shape (n,).
+        advantages: Shape (n,).
+        returns: Shape (n,).
+    """
+
+    features: torch.Tensor
+    actions: torch.Tensor
+    log_probs: torch.Tensor
+    advantages: torch.Tensor
+    returns: torch.Tensor
+
+    def pick(self, rows: torch.Tensor) -> Transitions:
+        """Some of them, in this order."""
+        return Transitions(
+            self.features.index_select(0, rows),
+            self.actions.index_select(0, rows),
+            self.log_probs.index_select(0, rows),
+            self.advantages.index_select(0, rows),
+            self.returns.index_select(0, rows),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Weights:
+    """How much the parts of the loss count; see `PPOSettings`."""
+
+    clip_range: float
+    ent_coef: float
+    vf_coef: float
+
+
+NAMES = (
+    "loss",
+    "policy_gradient_loss",
+    "value_loss",
+    "entropy_loss",
+    "approx_kl",
+    "clip_fraction",
+)
+"""What `loss_of` tells, in order."""
+
+
+def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Tensor, torch.Tensor]:
+    """The loss of a minibatch, and what the curves show of it, see `NAMES`, shape (6,).
+
+    Args:
+        policy: A Stable-Baselines3 ``ActorCriticPolicy`` with discrete or normal actions.
+        batch: The minibatch.
+        weights: Of the parts of the loss.
+    """
+    nets = policy.mlp_extractor
+    outputs = policy.action_net(nets.policy_net(batch.features))
+    log_probs, entropy = _judged(policy, outputs, batch.actions)
+    log_ratio = log_probs - batch.log_probs
+    ratio = log_ratio.exp()
+    within = ratio.clamp(1.0 - weights.clip_range, 1.0 + weights.clip_range)
+    gain = torch.min(batch.advantages * ratio, batch.advantages * within).mean()
+    values = policy.value_net(nets.value_net(batch.features))[:, 0]
+    error = (values - batch.returns).square().mean()
+    loss = weights.vf_coef * error - gain - weights.ent_coef * entropy
+    with torch.no_grad():
+        # http://joschu.net/blog/kl-approx.html
+        kl = (ratio - 1.0 - log_ratio).mean()
+        clipped = (ratio != within).float().mean()
+        told = torch.stack((loss, -gain, error, -entropy, kl, clipped))
+    return loss, told
+
+
+def _judged(
+    policy: Any, outputs: torch.Tensor, actions: torch.Tensor
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """Log-probabilities of actions, shape (n,), and the mean entropy."""
+    if isinstance(policy.action_space, gym.spaces.Discrete):
+        logs = outputs.log_softmax(dim=1)
+        entropy = -(logs * logs.exp()).sum(dim=1).mean()
+        return logs.gather(1, actions[:, None])[:, 0], entropy
+    log_std = policy.log_std
+    scaled = (actions - outputs) * (-log_std).exp()
+    logs = (-0.5 * scaled.square() - log_std - _HALF_LOG_2_PI).sum(dim=1)
+    return logs, (log_std + 0.5 + _HALF_LOG_2_PI).sum()

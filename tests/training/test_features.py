@@ -1,0 +1,84 @@
+"""Sines, cosines and logarithms that the networks are given beside what is observed."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import gymnasium as gym
+import numpy as np
+import pytest
+import torch
+from corridor import Corridor
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gazelle.training.actor import load_actor
+from gazelle.training.export import export_actor
+from gazelle.training.features import Features
+from gazelle.training.learners import ALGORITHMS, build_learner
+from gazelle.training.recipes import recipe_for
+from gazelle.training.scaling import ScaledObservations
+from gazelle.training.threads import limit_threads
+from gazelle.training.vecenv import VectorEnvAdapter
+
+limit_threads(1)
+
+PI = np.pi
+LOW = np.array([0.0, -PI, 0.0, -1.0, 0.0, 0.0, -np.inf], np.float32)
+HIGH = np.array([3.5, PI, 6.6, 1.0, np.inf, 0.0, np.inf], np.float32)
+SPACE = gym.spaces.Box(LOW, HIGH)
+
+
+def test_bounds_tell_angles_and_magnitudes():
+    found = Features.of(SPACE)
+    assert found.angles.tolist() == [1]
+    assert found.magnitudes.tolist() == [0, 2]
+    assert found.spans.tolist() == [3.5, np.float32(6.6)]
+    assert found.count == 4
+
+
+@given(
+    st.floats(-0.5, 4.0, width=32), st.floats(-4.0, 4.0, width=32), st.floats(0.0, 7.0, width=32)
+)
+def test_they_are_what_they_are_called(near, angle, far):
+    row = np.array([[near, angle, far, 0.3, 12.0, 0.0, -7.0]], np.float32)
+    seen = Features.of(SPACE).added_to(row)
+    np.testing.assert_array_equal(seen[:, :7], row)
+    logs = np.log(np.maximum([near / 3.5, far / 6.6], 0.0) + 0.03) + 1.75
+    np.testing.assert_allclose(seen[0, 7:], [np.sin(angle), np.cos(angle), *logs], atol=1e-5)
+    assert np.isfinite(seen).all()
+
+
+def test_torch_computes_the_same():
+    rows = np.random.default_rng(0).uniform(-1.0, 4.0, (50, 7)).astype(np.float32)
+    found = ScaledObservations(SPACE, features=True)(torch.as_tensor(rows)).numpy()
+    wanted = Features.of(SPACE).added_to(rows)
+    np.testing.assert_allclose(found[:, 7:], wanted[:, 7:], atol=1e-5)
+    plain = ScaledObservations(SPACE)(torch.as_tensor(rows)).numpy()
+    np.testing.assert_array_equal(found[:, :7], plain)
+
+
+class Ranges(Corridor):
+    """A corridor seen as an angle, a range and a plain number."""
+
+    def __init__(self, num_envs, **options):
+        super().__init__(num_envs, **options)
+        self.single_observation_space = gym.spaces.Box(
+            np.array([-PI, 0.0, -1.0], np.float32), np.array([PI, 4.0, 1.0], np.float32)
+        )
+
+
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_the_numpy_policy_and_its_file_do_what_torch_does(algo, tmp_path):
+    env = VectorEnvAdapter(Ranges(4, continuous=algo != "dqn"))
+    recipe = dataclasses.replace(recipe_for("Corridor", algo), net_arch=(24, 16), features=True)
+    learner = build_learner(recipe, env, seed=3)
+    rows = np.random.default_rng(0).uniform(-1.0, 1.0, (50, 3)).astype(np.float32)
+    wanted, _ = learner.predict(rows, deterministic=True)
+    actor = export_actor(learner.policy)
+    assert actor.inputs == 3
+    np.testing.assert_allclose(actor.act(rows), wanted, atol=1e-5)
+    actor.save(tmp_path / "policy.npz")
+    again = load_actor(tmp_path / "policy.npz")
+    assert again.inputs == 3
+    np.testing.assert_array_equal(again.act(rows), actor.act(rows))

@@ -1,0 +1,128 @@
+"""What the learner is paid in place of the task's own reward."""
+
+from __future__ import annotations
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from corridor import MODES, Corridor
+
+import gazelle.envs  # noqa: F401  # registers tasks
+from gazelle.errors import TaskError
+from gazelle.training.goal_reward import GoalReward
+from gazelle.training.stepper import Stepper
+from gazelle.training.vecenv import VectorEnvAdapter
+
+PAY = GoalReward(goal=3.0, collision=5.0, progress=2.0)
+
+
+class Measured(Corridor):
+    """A corridor that tells how far the goal is, in each of Gymnasium's modes."""
+
+    def reset(self, *, seed=None, options=None):
+        obs, info = super().reset(seed=seed, options=options)
+        return obs, {**info, **_told(obs)}
+
+    def step(self, actions):
+        obs, reward, terminated, truncated, info = super().step(actions)
+        if "final_info" in info:
+            info["final_info"] |= _told(info["final_obs"])
+            info |= {name: np.zeros(self.num_envs, bool) for name in ("is_success", "is_collision")}
+        return obs, reward, terminated, truncated, {**info, **_told(obs)}
+
+
+def _told(obs):
+    return {"distance": np.abs(obs[:, 1].astype(float) - obs[:, 0])}
+
+
+def moves(count, rounds):
+    rng = np.random.default_rng(7)
+    return [rng.integers(0, 3, count) for _ in range(rounds)]
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_goals_collisions_and_progress_are_paid_in_every_mode(mode):
+    """The corridor's own reward is progress + goal - collision, so it is the oracle."""
+    stepper = Stepper(Measured(8, mode=mode.value, limit=12), goal_reward=PAY)
+    stepper.reset(seed=2)
+    ended = {"is_success": 0, "is_collision": 0}
+    for actions in moves(8, 400):
+        step = stepper.step(actions)
+        success, collision = np.zeros(8), np.zeros(8)
+        if step.ended is not None:
+            for name, array in (("is_success", success), ("is_collision", collision)):
+                array[step.ended.slots] = step.ended.outcomes[name]
+                ended[name] += int(array.sum())
+        progress = step.rewards - success + collision
+        np.testing.assert_allclose(
+            step.taught, 2.0 * progress + 3.0 * success - 5.0 * collision, atol=1e-5
+        )
+        assert not step.taught[~step.valid].any()
+    assert min(ended.values()) > 5
+
+
+def test_without_one_the_learner_is_given_the_tasks_own():
+    stepper = Stepper(Measured(4))
+    stepper.reset(seed=0)
+    for actions in moves(4, 20):
+        step = stepper.step(actions)
+        np.testing.assert_array_equal(step.taught, step.rewards)
+
+
+def test_the_way_to_the_next_goal_is_not_taken_for_going_back():
+    env = gym.make_vec(
+        "gazelle/TurtleBot3Stage1-v0",
+        32,
+        vectorization_mode="vector_entry_point",
+        engine="planar",
+        goals="training",
+        starts="training",
+    )
+    stepper = Stepper(env, goal_reward=GoalReward(goal=10.0, collision=0.0, progress=1.0))
+    obs = stepper.reset(seed=0)
+    goals = 0
+    for _ in range(150):
+        step = stepper.step(np.where(obs[:, 24] > 0.3, 0, np.where(obs[:, 24] < -0.3, 4, 2)))
+        obs = step.obs
+        # 0.15 m/s for 0.2 s, and a hundredth of rounding.
+        rest = step.taught - 10.0 * (step.taught > 5.0)
+        goals += int((step.taught > 5.0).sum())
+        assert np.abs(rest).max() < 0.03 + 0.011
+    assert goals > 30
+    env.close()
+
+
+def test_a_saved_stepper_goes_on_alike():
+    env = Measured(4)
+    stepper = Stepper(env, goal_reward=PAY)
+    stepper.reset(seed=0)
+    for actions in moves(4, 9):
+        stepper.step(actions)
+    kept = stepper.get_state(), env.get_state()
+    first = [stepper.step(actions).taught for actions in moves(4, 9)]
+    twin = Measured(4)
+    again = Stepper(twin, goal_reward=PAY)
+    again.set_state(kept[0])
+    twin.set_state(kept[1])
+    np.testing.assert_array_equal(first, [again.step(actions).taught for actions in moves(4, 9)])
+
+
+def test_reports_keep_the_tasks_reward_and_learners_get_the_other():
+    paid, told = [], []
+    for pay in (PAY, None):
+        ended = []
+        adapter = VectorEnvAdapter(
+            Measured(4, limit=5), reward_scale=0.5, goal_reward=pay, on_episodes=ended.append
+        )
+        adapter.seed(3)
+        adapter.reset()
+        paid.append(sum(adapter.step(actions)[1] for actions in moves(4, 12)))
+        told.append(np.concatenate([each.returns for each in ended]).tolist())
+    assert not np.allclose(paid[0], paid[1])
+    assert told[0] == told[1]
+    assert len(told[0]) >= 8
+
+
+def test_a_task_that_tells_no_distance_is_one_clear_error():
+    with pytest.raises(TaskError, match=r"goal_reward needs info\['distance'\]"):
+        Stepper(Corridor(4), goal_reward=PAY).reset(seed=0)
