@@ -20,6 +20,7 @@ from gazelle.errors import MissingExtraError
 if TYPE_CHECKING:
     from gazelle.training.actor import Actor, load_actor
     from gazelle.training.evaluation import Evaluation, evaluate
+    from gazelle.training.goal_reward import GoalReward
     from gazelle.training.learners import ALGORITHMS
     from gazelle.training.progress import Progress, choose_progress
     from gazelle.training.recipes import (
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import Rate, wilson_interval
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
+    from gazelle.training.verified import VERIFIED, Verified
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
@@ -42,6 +44,7 @@ _HOMES = {
     "Actor": "actor",
     "EpisodeRecord": "records",
     "Evaluation": "evaluation",
+    "GoalReward": "goal_reward",
     "OffPolicySettings": "recipes",
     "PPOSettings": "recipes",
     "Progress": "progress",
@@ -52,6 +55,8 @@ _HOMES = {
     "RunConfig": "runs",
     "Task": "tasks",
     "TrainResult": "session",
+    "VERIFIED": "verified",
+    "Verified": "verified",
     "choose_progress": "progress",
     "evaluate": "evaluation",
     "find_task": "tasks",
@@ -67,9 +72,11 @@ _HOMES = {
 __all__ = [
     "ALGORITHMS",
     "RECIPES",
+    "VERIFIED",
     "Actor",
     "EpisodeRecord",
     "Evaluation",
+    "GoalReward",
     "OffPolicySettings",
     "PPOSettings",
     "Progress",
@@ -79,6 +86,7 @@ __all__ = [
     "RunConfig",
     "Task",
     "TrainResult",
+    "Verified",
     "choose_progress",
     "evaluate",
     "find_task",

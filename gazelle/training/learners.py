@@ -77,7 +77,7 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     common = _common(recipe, env, seed)
     # SB3's own epsilon for PPO; the fused kernel is one call instead of many.
     common["policy_kwargs"]["optimizer_kwargs"] = {"eps": 1e-5, "fused": True}
-    return FastPPO(
+    learner = FastPPO(
         "MlpPolicy",
         env,
         n_steps=settings.n_steps,
@@ -90,6 +90,8 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         max_grad_norm=settings.max_grad_norm,
         **common,
     )
+    learner.bfloat16 = settings.bfloat16
+    return learner
 
 
 def _build_dqn(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:

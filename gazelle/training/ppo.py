@@ -25,7 +25,7 @@ from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, loss_of
 from gazelle.training.scaling import ObservationScale
 from gazelle.training.stepper import Step
-from gazelle.training.threads import fast_products
+from gazelle.training.threads import products
 from gazelle.training.vecenv import VectorEnvAdapter
 
 
@@ -49,14 +49,11 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
             actions = actions[:, 0].long()
         with torch.no_grad():
             features = policy.features_extractor(observations)
-        advantages = self._flat(self.advantages)[valid]
-        if len(advantages) > 1:
-            advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
         return Transitions(
             features,
             actions,
             self._flat(self.log_probs)[valid],
-            advantages,
+            self._flat(self.advantages)[valid],
             self._flat(self.returns)[valid],
         )
 
@@ -75,6 +72,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
     env: VectorEnvAdapter
     scale: ObservationScale
+    bfloat16: bool = False
     _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
 
@@ -138,7 +136,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         )
         data = self.rollout_buffer.transitions(self.policy)
         told: list[torch.Tensor] = []
-        with fast_products():
+        with products(bfloat16=self.bfloat16):
             for _ in range(self.n_epochs):
                 order = self.rollout_buffer.minibatches(len(data.returns), self.batch_size)
                 told += [self._learn_from(data.pick(rows), weights) for rows in order]

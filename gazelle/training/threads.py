@@ -42,15 +42,17 @@ def limit_threads(threads: int = 1) -> None:
 
 
 @contextlib.contextmanager
-def fast_products() -> Iterator[None]:
-    """Let torch multiply matrices in bfloat16 where the processor can, adding up in float32.
+def products(*, bfloat16: bool) -> Iterator[None]:
+    """Choose how torch multiplies matrices meanwhile.
 
-    Learning small networks takes half as long on such processors. Acting stays in float32.
+    Args:
+        bfloat16: Factors are rounded to bfloat16 where the processor can multiply that, and sums
+            are of float32: small networks then learn in half the time.
     """
     import torch
 
     before = torch.get_float32_matmul_precision()
-    torch.set_float32_matmul_precision("medium")
+    torch.set_float32_matmul_precision("medium" if bfloat16 else "highest")
     try:
         yield
     finally:

@@ -162,7 +162,9 @@ def test_the_library_loads_a_saved_model_and_goes_on_with_it(tmp_path, features)
     assert plain.num_timesteps >= 240
 
 
-def test_learning_leaves_torchs_precision_as_it_was():
+@pytest.mark.parametrize("bfloat16", [False, True])
+def test_learning_leaves_torchs_precision_as_it_was(bfloat16):
     before = torch.get_float32_matmul_precision()
-    collected().train()
+    settings = dataclasses.replace(RECIPE.settings, bfloat16=bfloat16)
+    collected(recipe=dataclasses.replace(RECIPE, settings=settings)).train()
     assert torch.get_float32_matmul_precision() == before
