@@ -19,7 +19,7 @@ import torch
 from tensorboard.backend.event_processing.event_file_loader import EventFileLoader
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
-from gazelle.training import OffPolicySettings, Recipe, Run, evaluate, resume, train
+from gazelle.training import GoalReward, OffPolicySettings, Recipe, Run, evaluate, resume, train
 from gazelle.training.progress import NoProgress
 
 SMALL = OffPolicySettings(
@@ -340,9 +340,15 @@ def test_an_impossible_seed_is_refused(tmp_path, seed):
         train("test/Corridor-v0", out=tmp_path, seed=seed)
 
 
-def test_a_turtlebot3_run_goes_on_exactly_where_it_was(tmp_path, tiny):
-    recipe = dataclasses.replace(tiny, steps=512, num_envs=4)
-    given = {"recipe": recipe, "seed": 2}
+OWN = {"recipe": {}, "engine": "mujoco"}
+TAUGHT = {"recipe": {"goal_reward": GoalReward(), "features": True}, "engine": "planar"}
+
+
+@pytest.mark.parametrize("how", [OWN, TAUGHT], ids=["own", "taught"])
+def test_a_turtlebot3_run_goes_on_exactly_where_it_was(tmp_path, tiny, how):
+    settings = dataclasses.replace(tiny.settings, bfloat16=True)
+    recipe = dataclasses.replace(tiny, steps=512, num_envs=4, settings=settings, **how["recipe"])
+    given = {"recipe": recipe, "seed": 2, "engine": how["engine"]}
     whole = train("TurtleBot3Stage4", out=tmp_path / "whole", **given)
     first = train("TurtleBot3Stage4", out=tmp_path / "broken", progress=StopAt(200), **given)
     assert first.interrupted
