@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -43,6 +43,7 @@ from gazelle.engines.mujoco.surfaces import (
 from gazelle.engines.mujoco.treads import possible_treads
 from gazelle.engines.mujoco.tree import Body, Closure, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
+from gazelle.engines.mujoco.world_geoms import WorldGeoms
 from gazelle.errors import EngineError
 
 COLLISION_GROUP = 0
@@ -190,6 +191,7 @@ def draft_world(recipe: Recipe) -> Draft:
     builder = _Builder(spec, recipe, bodies, slips)
     for model in models:
         builder.add_model(model)
+    builder.world.finish()
     for tree in trees.values():
         add_couplings(spec, tree.bodies, recipe.time_step)
         for closure in tree.closures:
@@ -242,6 +244,7 @@ class _Builder:
         tyres: Collection[str],
     ) -> None:
         self._spec = spec
+        self.world = WorldGeoms(spec)
         self._time_step = recipe.time_step
         self._bodies = bodies
         self._by_name = {body.name: body for parts in bodies.values() for body in parts}
@@ -272,7 +275,7 @@ class _Builder:
     def _add_body(self, parent: Any, body: Body) -> Any:
         if body.root == "static":
             # Shapes of the world itself: one body is faster than hundreds that never move.
-            self._add_shapes(parent, body, body.pose)
+            self._add_shapes(self.world.add_geom, body, body.pose)
             return parent
         x, y, z, w = body.pose.quaternion
         handle = parent.add_body(name=body.name, pos=list(body.pose.position), quat=[w, x, y, z])
@@ -285,10 +288,10 @@ class _Builder:
         if body.root != "kinematic":
             _set_inertial(handle, body)
         shaped = add_tyre(handle, body) if body.name in self._tyres else handle
-        self._add_shapes(shaped, body, Pose())
+        self._add_shapes(lambda **geom: shaped.add_geom(**geom).name, body, Pose())
         return handle
 
-    def _add_shapes(self, handle: Any, body: Body, pose: Pose) -> None:
+    def _add_shapes(self, add_geom: Callable[..., str], body: Body, pose: Pose) -> None:
         """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
             surface = surface_options(collision, self._time_step, self._ranks)
@@ -298,12 +301,12 @@ class _Builder:
             seen = self.shapes.seen(geometry, placed, static=static)
             group = COLLISION_GROUP if seen is None else CONTACT_GROUP
             for shape in self.shapes.options(geometry, placed, collision.source, static=static):
-                names.append(f"{body.name}::{collision.name}#{len(names)}")
-                handle.add_geom(name=names[-1], group=group, mass=0.0, **surface, **shape)
+                name = f"{body.name}::{collision.name}#{len(names)}"
+                names.append(add_geom(name=name, group=group, mass=0.0, **surface, **shape))
                 self.solids.append(self._solid(names[-1], body, collision, placed))
             if seen is not None:
-                names.append(f"{body.name}::{collision.name}#{len(names)}")
-                handle.add_geom(name=names[-1], mass=0.0, **seen)
+                name = f"{body.name}::{collision.name}#{len(names)}"
+                names.append(add_geom(name=name, mass=0.0, **seen))
 
     def _solid(self, name: str, body: Body, collision: Collision, placed: Pose) -> Solid:
         model = body.name.partition("::")[0]

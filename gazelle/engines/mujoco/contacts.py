@@ -186,7 +186,10 @@ def _with_shares(solids: list[Solid]) -> list[Solid]:
     for solid in solids:
         if _is_soft(solid):
             points[solid.model] += _POINTS.get(type(solid.collision.geometry), 4)
-    return [replace(s, share=s.mass / max(1, points[s.model])) for s in solids]
+    return [
+        s if math.isinf(s.mass) else replace(s, share=s.mass / max(1, points[s.model]))
+        for s in solids
+    ]
 
 
 def _special_pairs(solids: list[Solid], time_step: float) -> Iterable[tuple[Solid, Solid]]:
