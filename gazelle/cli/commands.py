@@ -60,6 +60,7 @@ COMMANDS = {
         Command("robots", "list the bundled robots", "what there is", "robots"),
         Command("worlds", "list the bundled worlds", "what there is", "worlds"),
         Command("plugins", "list the supported plugins", "what there is", "plugins"),
+        Command("controllers", "list the types of controllers", "what there is", "controllers"),
         Command("completion", "tab completion for bash and zsh", "what there is", "completion"),
         Command("bench", "run the benchmarks of a source checkout", "measure", "bench"),
     )

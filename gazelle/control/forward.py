@@ -60,7 +60,7 @@ class Forwarding(Controller):
 
 
 class ForwardCommandController(Forwarding):
-    """One joint: ``effort_controllers/JointEffortController`` and its kin."""
+    """Hands commands to one joint, as they are."""
 
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joint``."""
@@ -72,7 +72,7 @@ class ForwardCommandController(Forwarding):
 
 
 class ForwardGroupController(Forwarding):
-    """Several joints: ``effort_controllers/JointGroupEffortController`` and its kin."""
+    """Hands commands to several joints, as they are."""
 
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joints``."""

@@ -34,6 +34,16 @@ def types() -> list[str]:
     return sorted({*_registered, *entry_points_of_others(_GROUP), *CONTROLLERS})
 
 
+def purpose(name: str) -> str:
+    """What controllers of a type are for, in a line; empty if it does not say, or is unknown.
+
+    Raises:
+        Exception: It is another package's, and cannot be imported; that may raise anything.
+    """
+    found = _find(name)
+    return "" if found is None else (found.__doc__ or "").strip().partition("\n")[0]
+
+
 def make(setup: ControllerSetup) -> Controller:
     """A controller of the type that is asked for, not initialised yet.
 

@@ -55,12 +55,12 @@ class SensorController(Controller):
 
 
 class ImuSensorController(SensorController):
-    """IMUs: ``imu_sensor_controller``."""
+    """Publishes the robot's IMUs."""
 
     kind = ImuSample
 
 
 class ForceTorqueSensorController(SensorController):
-    """Force-torque sensors: ``force_torque_sensor_controller``."""
+    """Publishes the robot's force-torque sensors."""
 
     kind = StampedWrench

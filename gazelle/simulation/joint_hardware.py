@@ -30,6 +30,7 @@ from gazelle.control.pid import Pid, PidGains
 from gazelle.description import Model
 from gazelle.errors import SimulationError
 from gazelle.simulation.robot import Robot
+from gazelle.simulation.sensor_hardware import sensor_interfaces
 
 INTERFACES = (EFFORT, POSITION, VELOCITY)
 """Those that a simulated joint can be commanded through."""
@@ -118,6 +119,8 @@ class JointHardware(SimulatedHardware):
             for kind in INTERFACES
         }
         self.states = self.register_joints(names, {k: of for k, of in offered.items() if of})
+        for interface in sensor_interfaces(robot):
+            self.register(interface)
         described = [robot.joint_description(name) for name in names]
         self._turning = np.array([each.type != "prismatic" for each in described], bool)
         self._lower = np.array([each.limits.lower for each in self._joints])

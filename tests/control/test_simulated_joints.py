@@ -395,3 +395,26 @@ def test_clients_switch_while_the_simulation_runs_and_is_reset():
     sim.reset()
     sim.run(0.5)
     assert np.abs([robot.joints[name].positions() for name in JOINTS]).max() < 1e-3
+
+
+SENSORS = """<gazebo reference="lower"><sensor name="tip_imu" type="imu"><update_rate>100</update_rate></sensor>
+</gazebo><gazebo reference="shoulder"><provideFeedback>true</provideFeedback><sensor name="strain"
+ type="force_torque"><update_rate>100</update_rate></sensor></gazebo>
+</robot>"""
+
+
+def test_sensors_of_the_robot_are_published_by_controllers():
+    sim, robot = arm("Effort", replace={"</robot>": SENSORS})
+    told = []
+    for name, of, sensor in (
+        ("i", "imu_sensor_controller/ImuSensorController", "tip_imu"),
+        ("f", "force_torque_sensor_controller/ForceTorqueSensorController", "strain"),
+    ):
+        robot.controllers.load(name, {"type": of, "publish_rate": 100.0})
+        robot.controllers[name].outputs[sensor].subscribe(told.append)
+    robot.controllers.start("i", "f")
+    sim.run(0.1)
+    imu, wrench = told[-2:]
+    assert (imu.frame, wrench.frame) == ("lower", "upper")
+    assert imu.linear_acceleration[0] == pytest.approx([0, 0, 9.8], abs=0.01)
+    assert abs(wrench.force[0, 2]) == pytest.approx(3.0 * 9.8, rel=1e-3)  # both rods hang on it

@@ -1,0 +1,33 @@
+"""List the types of controllers that configurations can name, and what they do."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from gazelle.cli import showing
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """There are no arguments."""
+    del parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    del args
+    from gazelle.control import types
+
+    rows = [("TYPE", "WHAT IT DOES"), *((name, _purpose(name)) for name in types())]
+    sys.stdout.write(showing.table(rows))
+    return 0
+
+
+def _purpose(name: str) -> str:
+    """What a type is for, or why it cannot be had: another package may have a broken one."""
+    from gazelle.control import registry
+
+    try:
+        return registry.purpose(name).replace("`", "")
+    except Exception as error:  # noqa: BLE001  anything may go wrong in an import
+        return f"cannot be had: {error}"

@@ -1,0 +1,29 @@
+"""What `gazelle controllers` and the registry say of the types there are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.cli.main import main
+from gazelle.control import registry, types
+
+PAGE = Path(__file__).parents[2] / "docs" / "control.md"
+
+
+def test_each_type_says_what_it_is_for_and_is_listed(capsys):
+    assert main(["controllers"]) == 0
+    text = capsys.readouterr().out
+    for name in types():
+        if not name.startswith("tests/"):
+            assert name in text
+            assert registry.purpose(name)
+    assert registry.purpose("no/Such") == ""
+
+
+def test_the_page_names_every_package_of_controllers():
+    text = PAGE.read_text(encoding="utf-8")
+    for name in types():
+        if not name.startswith(("tests/", "my_")):
+            package, _, kind = name.partition("/")
+            assert package.removesuffix("controllers") in text, name
+            assert kind in text or "Joint{" in text, name
