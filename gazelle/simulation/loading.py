@@ -71,7 +71,9 @@ def adopt(
         stage: Moves it, and lets it see; plugins that do so in other engines are left out.
     """
     if stage is not None:
-        robot.inputs.update(stage.open(model.name))
+        from gazelle.simulation.stage.handles import inputs_of
+
+        robot.inputs.update(inputs_of(stage, model.name))
         model = without_stand_ins(model)
     for placed in model.walk():
         for plugin in placed.model.plugins:

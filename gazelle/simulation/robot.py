@@ -321,10 +321,12 @@ def _joint_handles(simulation: Simulation, model: Model) -> dict[str, JointHandl
 def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[str, SensorUnit]:
     simulation = robot.simulation
     if stage is not None:
+        from gazelle.simulation.stage.handles import sensor_models
+
         base = f"{model.name}::{model.links[0].name}"
         return {
             sensor.name: SensorUnit(robot, sensor, f"{base}::{sensor.name}", made)
-            for sensor, made in stage.sensor_models(model)
+            for sensor, made in sensor_models(stage, model)
         }
     units: dict[str, SensorUnit] = {}
     for mount in mounts(simulation.engine, simulation.live_scene, model, simulation.seed):

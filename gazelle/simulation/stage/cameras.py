@@ -24,6 +24,7 @@ class Camera:
 
     Attributes:
         name: Its own name in the file.
+        path: Its name on the robot, with those of what it is mounted on.
         device: What the file says.
         pose: In the body's frame, its height included; its heading without the pan.
         direct: Whether it is mounted on the robot itself.
@@ -32,6 +33,7 @@ class Camera:
     """
 
     name: str
+    path: str
     device: StageCamera
     pose: StagePose
     direct: bool
@@ -107,9 +109,11 @@ class Cameras:
 
 def cameras_of(robot: StageRobot) -> tuple[Camera, ...]:
     """The cameras on a robot, in file order; those on actuators last."""
+    own = robot.model.name.removeprefix("/")
     return tuple(
         Camera(
             placed.model.name,
+            placed.name.removeprefix(f"{own}."),
             device,
             placed.pose,
             direct=body == robot.index and _is_direct(placed),

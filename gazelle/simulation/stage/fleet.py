@@ -10,22 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import Model, Sensor, StageModel, StagePose, StageWorld
+from gazelle.description import StageModel, StagePose, StageWorld
 from gazelle.engines.planar import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.stage_layout import StageRobot, without_actuators
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
-from gazelle.sensors import SensorModel
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.ports import TwistInput
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.controllers import FleetController, make_controllers
 from gazelle.simulation.stage.devices import Devices
-from gazelle.simulation.stage.drive_input import DriveInput
 from gazelle.simulation.stage.drive_state import DriveState
-from gazelle.simulation.stage.ranger_model import RangerModel
 from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.scans import RangeNoise
 from gazelle.simulation.stage.senses import Senses
@@ -375,35 +371,6 @@ class StageFleet(Senses):
         """Odometry, and where bodies were before the step."""
         self.refresh()
         return self._motion
-
-    def sensor_models(self, model: Model) -> list[tuple[Sensor, SensorModel]]:
-        """What measures with the rangers of a model, and what its file says of each."""
-        robot = self.named.get(model.name)
-        if robot is None:
-            return []
-        known = {sensor.name: sensor for link in model.links for sensor in link.sensors}
-        return [
-            (known[name], self._ranger_model(robot.name, which, number))
-            for which, ranger in enumerate(robot.rangers)
-            for number in range(len(ranger.sensors))
-            if (name := ranger.sensor_name(number)) in known
-        ]
-
-    def _ranger_model(self, name: str, which: int, number: int) -> RangerModel:
-        def ranges() -> Floats:  # other models may have come or gone
-            scanner, place = self.robot(name).rangers[which].places[number]
-            seen: Floats = self.scan(scanner)[:, place]
-            return seen
-
-        return RangerModel(self.robot(name).rangers[which].sensors[number], ranges)
-
-    def open(self, name: str) -> dict[str, TwistInput]:
-        """The inputs of a model: ``cmd_vel`` of a robot."""
-        if name not in self.named:
-            return {}
-        return {
-            "cmd_vel": DriveInput(self.nworld, lambda: self.commands[:, self.robot(name).index])
-        }
 
 
 def _pairs(old: Sequence[str], new: Sequence[str]) -> list[tuple[int, int]]:

@@ -275,3 +275,19 @@ def test_many_robots_are_placed_at_once_and_bumps_are_kept(open_file):
     bumped[:] = False
     sim.step()
     assert not stage.bumped.any()
+
+
+def test_cameras_are_sensors_too(open_file):
+    eye = "camera ( resolution [16 12] range [0.2 8] fov [60 45] )"
+    swivel = f'actuator ( type "rotational" max_position 3 size [.1 .1 .1] {eye} )'
+    sim = open_file(WORLD.format(eye + swivel + SCANNER.format("")), nworld=2)
+    sim.stage.set_pose("a", [[0.0, 0.0, 0.0], [0.0, 0.0, 3.0]])
+    sensors = sim.robots["a"].sensors
+    assert set(sensors) == {"camera:0", "actuator:0.camera:0", "ranger:0"}
+    for which, name in enumerate(("camera:0", "actuator:0.camera:0")):
+        for world in range(2):
+            image = sensors[name].read(world)
+            seen = sim.stage.picture("a", which, world)
+            assert np.array_equal(image.color, seen.color[..., :3])
+            assert np.array_equal(image.depth, seen.depth)
+    assert np.isfinite(sensors["camera:0"].read(0).depth).any()
