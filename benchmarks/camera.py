@@ -1,0 +1,98 @@
+"""Pictures of cameras: frames a core-second, beside rays of MuJoCo in the same scene.
+
+Every figure is frames a second of processor time, so that it counts what one core does, also where
+others work beside. Scenes are made here: a room with boxes and cylinders, and the same with balls
+of many triangles. A frame has colour, depth and labels; the rival's rays give distances and normals,
+which is less.
+
+    gazelle bench camera
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+
+from gazelle.description import Box, Cylinder, Link, Model, Plane, Pose, Sphere, Visual, World
+from gazelle.engines.tracer import make_tracer
+from gazelle.rendering import PinholeLens, Renderer
+from gazelle.rendering.shape_meshes import triangles_of
+from gazelle.sensors import View, look_at
+from gazelle.sensors.rendering import directions_of_view
+
+GOALS = {(5000, 320, 240): 1000.0, (5000, 84, 84): 10000.0, (40000, 320, 240): 200.0}
+"""Frames a core-second that are wanted: triangles, width, height."""
+
+
+def room(triangles: int) -> World:
+    """A floor, walls, and as many things as have so many triangles, the same every time."""
+    random = np.random.default_rng(0)
+    shapes = [Plane(size=(12.0, 12.0))]
+    poses = [Pose()]
+    for turn in range(4):
+        shapes.append(Box((12.0, 0.1, 1.5)))
+        angle = turn * np.pi / 2.0
+        poses.append(Pose(6.0 * np.sin(angle), -6.0 * np.cos(angle), 0.75, yaw=angle))
+    count = sum(len(triangles_of(shape).faces) for shape in shapes)
+    while count < triangles:
+        kind = random.integers(3)
+        size = random.uniform(0.1, 0.4)
+        made = (Box((size, size, size)), Cylinder(size / 2.0, size), Sphere(size / 2.0))[kind]
+        shapes.append(made)
+        poses.append(Pose(*random.uniform(-4.0, 4.0, 2), random.uniform(0.1, 1.2)))
+        count += len(triangles_of(made).faces)
+    models = (
+        Model(f"m{k}", pose=pose, links=(Link("l", visuals=(Visual("v", geometry=shape),)),))
+        for k, (shape, pose) in enumerate(zip(shapes, poses, strict=True))
+    )
+    return World(models=tuple(models))
+
+
+def best(work, seconds: float) -> float:
+    """Processor time of the fastest of some calls [s]."""
+    times, end = [], time.thread_time() + seconds
+    while not times or time.thread_time() < end:
+        begin = time.thread_time()
+        work()
+        times.append(time.thread_time() - begin)
+    return min(times)
+
+
+def ours(world: World, pose: Pose, width: int, height: int, seconds: float) -> float:
+    """Frames a core-second."""
+    renderer, count = Renderer(world, threads=1), 8
+    place, turn = np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
+    lens, worlds = PinholeLens(width, height, 1.2), np.zeros(count, np.intp)
+    return count / best(lambda: renderer.render(lens, place, turn, worlds), seconds)
+
+
+def rays(world: World, pose: Pose, width: int, height: int, seconds: float) -> float:
+    """Frames a core-second of distances and normals by MuJoCo's rays."""
+    tracer = make_tracer(world)
+    ways = directions_of_view(View(pose, width, height, 1.2, samples=1), 1)
+    eye = np.broadcast_to(np.asarray(pose.position), ways.shape)
+    return 1.0 / best(lambda: tracer.trace(eye, ways), seconds)
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(prog="gazelle bench camera", description=__doc__)
+    parser.add_argument("--seconds", type=float, default=2.0, help="for each figure (%(default)s)")
+    args = parser.parse_args()
+    pose = look_at((5.0, 4.0, 2.5), (0.0, 0.0, 0.3))
+    print("| triangles | pixels | frames a core-second | wanted | MuJoCo's rays | ratio |")
+    print("|---|---|---|---|---|---|")
+    for (triangles, width, height), goal in GOALS.items():
+        world = room(triangles)
+        own = ours(world, pose, width, height, args.seconds)
+        rival = rays(world, pose, width, height, args.seconds)
+        print(
+            f"| {triangles:,} | {width} x {height} | {own:,.0f} | {goal:,.0f}, "
+            f"{'yes' if own >= goal else 'NO'} | {rival:,.1f} | {own / rival:,.0f} |"
+        )
+
+
+if __name__ == "__main__":
+    main()
