@@ -1,6 +1,9 @@
-"""Run benchmarks and put what they print into docs/benchmarks.md.
+"""Run benchmarks and put what they print into the docs.
 
-Without arguments all that the page has, else the ones named.
+Without arguments all that docs/benchmarks.md has, else the ones named; ``contacts`` is the table of
+docs/physics.md, what contacts cost and how far off they are. All of physics, in two minutes:
+
+    python tools/update_benchmarks.py physics contacts
 """
 
 from __future__ import annotations
@@ -14,22 +17,35 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "benchmarks.md"
-BLOCK = r"(<!-- {name} -->\n```text\n)(.*?)(^```$)"
+BLOCK = r"(?ms)(<!-- {name} -->\n```text\n)(.*?)(^```$)"
+PHYSICS = ROOT / "docs" / "physics.md"
+TABLE = r"(<!-- {name} -->\n)((?:\|.*\n)+)()"
 
 
 def main() -> None:
-    """Refresh the page."""
-    text = PAGE.read_text()
-    names = sys.argv[1:] or re.findall(r"<!-- (\w+) -->", text)
-    for name in names:
-        pattern = re.compile(BLOCK.format(name=name), re.DOTALL | re.MULTILINE)
-        if not pattern.search(text):
-            raise SystemExit(
-                f"{PAGE.name} has no place for '{name}': add <!-- {name} --> and a block"
-            )
-        figures = measured(name).replace("\\", r"\\")
-        text = pattern.sub(rf"\g<1>{figures}\g<3>", text, count=1)
-        PAGE.write_text(text)
+    """Refresh the pages."""
+    for name in sys.argv[1:] or re.findall(r"<!-- (\w+) -->", PAGE.read_text()):
+        if name == "contacts":
+            refresh(PHYSICS, TABLE, name, printed("tools/contact_errors.py"))
+        else:
+            refresh(PAGE, BLOCK, name, measured(name))
+
+
+def refresh(page: Path, block: str, name: str, figures: str) -> None:
+    """Put figures in the place of what a page has of that name."""
+    text = page.read_text()
+    pattern = re.compile(block.format(name=name))
+    if not pattern.search(text):
+        raise SystemExit(f"{page.name} has no place for '{name}': add <!-- {name} --> and a block")
+    page.write_text(pattern.sub(lambda found: found[1] + figures + found[3], text, count=1))
+
+
+def printed(script: str) -> str:
+    """What a script of this checkout prints."""
+    done = subprocess.run(
+        [sys.executable, script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return f"{done.stdout.strip()}\n"
 
 
 def measured(name: str) -> str:
