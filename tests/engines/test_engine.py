@@ -123,10 +123,10 @@ def test_a_failed_spawn_changes_nothing():
         links=(Link("a", inertial=Inertial()), Link("b", inertial=Inertial())),
         joints=(
             Joint("ab", "prismatic", "a", "b", axes=(JointAxis(),)),
-            Joint("slide", "prismatic", "b", "a", axes=(JointAxis(),), source=SOURCE),
+            Joint("slide", "screw", "b", "a", axes=(JointAxis(),), thread_pitch=0.0, source=SOURCE),
         ),
     )
-    with pytest.raises(EngineError, match=r"robot.sdf:12: .*closes a loop"):
+    with pytest.raises(EngineError, match=r"robot.sdf:12: .*thread pitch of 0"):
         engine.spawn(loop)
     assert engine.link_names == ("ground_plane::link", "box::link")
     engine.step(5)
