@@ -260,10 +260,12 @@ class JointTrajectoryController(Controller):
         """
         if not self.running:
             raise TrajectoryRefusedError(_NOT_RUNNING)
+        # A goal must name the joints even if it has no points; what comes without a goal need not.
+        if given.points or goal:
+            joints = columns_of(given, self._names, partial=self._partial)
         if not given.points:
             self._hold(rows)
             return
-        joints = columns_of(given, self._names, partial=self._partial)
         check_points(given, len(joints))
         now = self._uptime + self._period
         begin = now

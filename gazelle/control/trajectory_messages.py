@@ -32,7 +32,7 @@ def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -
     Raises:
         TrajectoryRefusedError: A name is unknown or there twice, or some are missing that must not be.
     """
-    wanted = given.names or tuple(names)
+    wanted = tuple(names) if given.names is None else given.names
     unknown = [name for name in wanted if name not in names]
     if unknown:
         raise TrajectoryRefusedError(

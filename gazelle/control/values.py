@@ -191,12 +191,12 @@ class JointTrajectory:
     """Where joints have to be and when (trajectory_msgs/JointTrajectory).
 
     Attributes:
-        names: Of the joints; the controller's, in its order, if empty and sent from Python.
+        names: Of the joints; None for the controller's, in its order.
         points: In the order of their times; none to hold still.
         stamp: Start [ns]; 0 for now.
     """
 
-    names: tuple[str, ...] = ()
+    names: tuple[str, ...] | None = None
     points: tuple[TrajectoryPoint, ...] = ()
     stamp: int = 0
 

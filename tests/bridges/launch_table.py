@@ -148,21 +148,23 @@ HUSKY = Expected(
     topics="/imu/data /imu/data/bias /joint_states /navsat/fix /navsat/vel /tf /tf_static "
     + _tuned("/imu/data", "accel", "rate", "yaw")
     + " "
-    + _tuned("/navsat/fix", "position", "velocity", "status"),
+    + _tuned("/navsat/fix", "position", "velocity", "status")
+    + " /husky_velocity_controller/cmd_vel /husky_velocity_controller/cmd_vel_out "
+    "/husky_velocity_controller/odom " + _tuned("", "husky_velocity_controller"),
     frames="base_link>base_footprint base_link>front_bumper_link base_link>imu_link "
     "base_link>inertial_link base_link>rear_bumper_link base_link>top_chassis_link "
     "base_link>top_plate_link base_link>user_rail_link top_plate_link>top_plate_front_link "
-    "top_plate_link>top_plate_rear_link",
+    "top_plate_link>top_plate_rear_link base_link>front_left_wheel_link "
+    "base_link>front_right_wheel_link base_link>rear_left_wheel_link "
+    "base_link>rear_right_wheel_link",
     missing=(
-        "package 'controller_manager' has no program 'spawner'",
         "there is no package 'robot_localization'",
         "there is no package 'interactive_marker_twist_server'",
         "there is no package 'twist_mux'",
         "there is no package 'joy'",
         "there is no package 'teleop_twist_joy'",
-        "ros_control's controllers are not run yet",
     ),
-    left_out=6,
+    left_out=5,
 )
 
 REFUSED = {

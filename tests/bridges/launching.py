@@ -60,7 +60,7 @@ class Found:
 class Launched:
     """A launch file that runs in a process of its own, and a node that watches the graph."""
 
-    def __init__(self, uri, corpus, folder, file):
+    def __init__(self, uri, corpus, folder, file, name="/watcher"):
         self._log = folder / "launch.log"
         with self._log.open("w", encoding="utf-8") as log:
             self._process = subprocess.Popen(
@@ -70,7 +70,7 @@ class Launched:
                 stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL,
             )
-        self.node = Node("/watcher", master_uri=uri, clock=WallClock())
+        self.node = Node(name, master_uri=uri, clock=WallClock())
         self.found = Found()
         kind = load_message("tf2_msgs/TFMessage")
         for topic in ("/tf", "/tf_static"):

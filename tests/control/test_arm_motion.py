@@ -113,7 +113,7 @@ def test_a_weak_arm_violates_its_path_tolerance():
         },
     )
     robot.controllers.start("arm")
-    trajectory = JointTrajectory((), (TrajectoryPoint(0.5, (1.0, 0.0)),))
+    trajectory = JointTrajectory(None, (TrajectoryPoint(0.5, (1.0, 0.0)),))
     goal = (
         robot.controllers["arm"].actions["follow_joint_trajectory"].send(TrajectoryGoal(trajectory))
     )

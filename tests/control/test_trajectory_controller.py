@@ -171,6 +171,8 @@ def test_a_goal_without_points_succeeds_and_holds():
     spin(manager, 50)
     there = position(manager)
     assert give(controller, JointTrajectory()).state == GoalState.SUCCEEDED
+    nameless = give(controller, JointTrajectory(names=()))
+    assert (nameless.state, nameless.result.error_code) == (GoalState.REJECTED, INVALID_JOINTS)
     spin(manager, 20)
     assert position(manager) == pytest.approx(there)
 

@@ -76,11 +76,17 @@ class HardwareLoop(Closeable):
         self._binding = ManagerBinding(self.graph, manager)
         node.on_shutdown.append(lambda _reason: self._over.set())
 
-    def step(self) -> None:
-        """One control period, as long as it is since the one before."""
+    def step(self, period: float | None = None) -> None:
+        """One control period.
+
+        Args:
+            period: What controllers take it for [s]; what went by since the one before if None.
+        """
         now = self._node.clock.now()
-        passed = now - self._last_ns if 0 < self._last_ns < now else self._period_ns
-        self._last_ns, period, time = now, passed / SECOND, now / SECOND
+        if period is None:
+            passed = now - self._last_ns if 0 < self._last_ns < now else self._period_ns
+            period = passed / SECOND
+        self._last_ns, time = now, now / SECOND
         hardware, manager = self._manager.hardware, self._manager
 
         def work() -> None:

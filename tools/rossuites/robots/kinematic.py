@@ -12,7 +12,7 @@ import numpy as np
 from gazelle.bridges.control import HardwareLoop
 from gazelle.control import POSITION, VELOCITY, ControllerManager, RobotHardware
 from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.builtin.arguments import parse_arguments, spin
+from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.clock import SECOND, SimulatedClock
 
 PERIOD_S = 0.01
@@ -83,10 +83,20 @@ def run(name: str, hardware: RobotHardware, *, makes_time: bool, offer: Any = No
         if offer is not None:
             offer(node)
         with HardwareLoop(node, ControllerManager(hardware), 1.0 / PERIOD_S) as loop:
-            if clock is None:
-                loop.start()
-                return spin(node)
-            return _make_time(node, clock, loop)
+            return _keep_time(node, loop) if clock is None else _make_time(node, clock, loop)
+
+
+def _keep_time(node: Node, loop: HardwareLoop) -> int:
+    """Periods as long as they are said to be, however late they come: so are the originals' robots'."""
+    due = time.monotonic()
+    try:
+        while not node.closed:
+            loop.step(PERIOD_S)
+            due = max(due + PERIOD_S, time.monotonic())
+            time.sleep(max(0.0, due - time.monotonic()))
+    except KeyboardInterrupt:
+        pass
+    return 0
 
 
 def _make_time(node: Node, clock: SimulatedClock, loop: HardwareLoop) -> int:
@@ -95,12 +105,12 @@ def _make_time(node: Node, clock: SimulatedClock, loop: HardwareLoop) -> int:
     now, due = 0, time.monotonic()
     try:
         while not node.closed:
-            loop.step()
+            loop.step(PERIOD_S)
             publisher.publish(kind(clock=loop.graph.stamp(now)))
             now += round(PERIOD_S * SECOND)
             clock.set(now)
             due = max(due + PERIOD_S, time.monotonic())
-            time.sleep(due - time.monotonic() if due > time.monotonic() else 0.0)
+            time.sleep(max(0.0, due - time.monotonic()))
     except KeyboardInterrupt:
         pass
     return 0
