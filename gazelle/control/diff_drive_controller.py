@@ -14,6 +14,7 @@ from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import StatePort, TunableValue
 from gazelle.control.values import JointSample, TrajectoryState
 from gazelle.control.wheel_geometry import wheel_distance, wheel_radius
+from gazelle.description import Cylinder, Sphere
 from gazelle.errors import ControlError
 
 _TUNABLES = (
@@ -63,7 +64,7 @@ class DiffDriveController(BaseController):
         if "wheel_radius" in given:
             radius = given.number("wheel_radius")
         else:
-            radius = wheel_radius(self.model, left)
+            radius = wheel_radius(self.model, left, (Cylinder, Sphere))
         if separation <= 0.0 or radius <= 0.0:
             raise ControlError(
                 f"wheel_separation and wheel_radius must be positive, not {separation:g} and {radius:g}"

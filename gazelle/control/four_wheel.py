@@ -18,6 +18,7 @@ from gazelle.control.wheel_geometry import wheel_distance, wheel_radius
 from gazelle.errors import ControlError, ControlWarning
 
 _SLOW = 0.001  # below that a base does not drive [m/s], and a wheel is not steered [rad]
+_BENT = 0.01  # tangents of front and rear that are nearer to each other are alike
 _WHEELS = ("front_wheel", "rear_wheel", "front_steering", "rear_steering")
 
 
@@ -93,11 +94,15 @@ class FourWheelSteeringController(BaseController):
             turning = twist[:, 2]
             across = 0.5 * self._length * turning  # of the front axle; the rear's is opposite
             sideways = np.stack((across, -across), axis=1)
+            rolling = sideways
         else:
             fresh = ~self.too_old()
             slopes = np.tan(np.where(fresh[:, None], self._angles, 0.0))
             turning = forward * (slopes[:, 0] - slopes[:, 1]) / self._length
             sideways = forward[:, None] * slopes
+            # Where front and rear are steered alike, the speed is that along the wheels.
+            bent = np.abs(slopes[:, 0] - slopes[:, 1]) > _BENT
+            rolling = np.where(bent[:, None], sideways, 0.0)
         half = 0.5 * self._track * turning
         along = np.stack((forward - half, forward + half), axis=1)
         moving = np.abs(forward) > _SLOW
@@ -107,7 +112,7 @@ class FourWheelSteeringController(BaseController):
         slip = self._offset * turning
         for axle in (0, 1):
             across = sideways[:, axle, None]
-            size = sign[:, None] * np.hypot(along, across)
+            size = sign[:, None] * np.hypot(along, rolling[:, axle, None])
             size += np.stack((-slip, slip), axis=1)
             columns = slice(2 * axle, 2 * axle + 2)
             speeds[:, columns] = np.where(moving[:, None], size / self._radius, 0.0)

@@ -27,19 +27,27 @@ def joint_origin(model: Model | None, joint: str) -> Vector3:
     return (child.pose * found.pose).position
 
 
-def wheel_radius(model: Model | None, joint: str) -> float:
-    """Of the wheel on a joint: of the first collision of its link, which is a cylinder or a sphere [m].
+def wheel_radius(
+    model: Model | None, joint: str, shapes: tuple[type[Cylinder | Sphere], ...] = (Cylinder,)
+) -> float:
+    """Of the wheel on a joint: of the first collision of its link [m].
+
+    Args:
+        model: The robot.
+        joint: Of the wheel.
+        shapes: That a wheel may have: of ros_controllers only diff_drive_controller knows spheres.
 
     Raises:
         ControlError: There is no URDF, or no such joint in it, or the wheel is of another shape.
     """
     _, child = _find(model, joint)
     shape = child.collisions[0].geometry if child.collisions else None
-    if not isinstance(shape, Cylinder | Sphere):
+    if not isinstance(shape, shapes):
         what = "no collision" if shape is None else f"a {type(shape).__name__.lower()}"
         raise ControlError(
             f"couldn't retrieve the radius of the wheel '{child.name}' on '{joint}': it has {what}",
-            hint="set the parameter wheel_radius, or make its first collision a cylinder or sphere",
+            hint="set the parameter wheel_radius, or make its first collision a "
+            + " or ".join(each.__name__.lower() for each in shapes),
         )
     return shape.radius
 
