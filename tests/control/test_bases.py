@@ -360,10 +360,12 @@ def test_four_wheels_roll_without_slip_by_angles(front, rear, speed):
         spin(manager, 10)
     spin(manager)
     turning = speed * (math.tan(front) - math.tan(rear))
-    sideways = speed * 0.5 * (math.tan(front) + math.tan(rear))
-    assert rolling(manager, speed, sideways, turning) < 1e-9
+    forward, sideways = speed, speed * 0.5 * (math.tan(front) + math.tan(rear))
+    if front == rear:  # then the speed is that along the wheels
+        forward, sideways = speed * math.cos(front), speed * math.sin(front)
+    assert rolling(manager, forward, sideways, turning) < 1e-9
     found = controller.outputs["odom"].last
-    assert found.linear[0, :2] == pytest.approx([speed, sideways], abs=1e-3)
+    assert found.linear[0, :2] == pytest.approx([forward, sideways], abs=1e-3)
     assert found.angular[0, 2] == pytest.approx(turning, abs=1e-3)
     steer = controller.outputs["odom_steer"].last
     assert (steer.front_angle[0], steer.rear_angle[0]) == pytest.approx((front, rear), abs=1e-6)
