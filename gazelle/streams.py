@@ -50,6 +50,11 @@ class Stream:
         """How many numbers each world has drawn, shape (nworld,); writable, for restoring."""
         return self._counters
 
+    def move(self, keys: UInts64, counters: UInts64) -> None:
+        """Keep keys and counters in other arrays from now on, shapes (nworld,)."""
+        keys[:], counters[:] = self._keys, self._counters
+        self._keys, self._counters = keys, counters
+
     def rewind(self, worlds: NDArray[np.intp] | None = None) -> None:
         """Start over in these worlds (all if None), as if nothing had been drawn."""
         self._counters[slice(None) if worlds is None else worlds] = 0
@@ -75,11 +80,11 @@ class Stream:
         They are as that says to 1e-13, and the same bits on any processor.
         """
         keys, counters = self._of(worlds)
-        drawn = np.empty((len(keys), size))
-        draw_normal(keys, counters, size, drawn, np.empty(size + 1), np.empty(size // 2 + 1))
+        drawn = np.empty((len(keys), size + size % 2))
+        draw_normal(keys, counters, size, drawn)
         if worlds is not None:
             self._counters[worlds] = counters
-        return drawn
+        return drawn[:, :size]
 
     def _of(self, worlds: NDArray[np.intp] | None) -> tuple[UInts64, UInts64]:
         """Keys and counters of worlds; of all, the counters themselves."""

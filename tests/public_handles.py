@@ -44,7 +44,10 @@ CHANGING = {
     },
     LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},
     JointHandle: {"add_motor", "apply_effort", "clear_efforts", "drive", "set_properties"},
-    SensorUnit: {"reseed", "reset", "restore", "slow_to", "subscribe", "update"},
+    SensorUnit: {
+        *("join", "kind", "leave", "reseed", "reset", "restore", "slow_to", "subscribe"),
+        "update",
+    },
     TwistInput: {"bind", "clear", "send"},
     Input: {"bind", "clear", "send"},
     Output: {"bind", "forget", "hand", "publish", "subscribe"},

@@ -14,6 +14,7 @@ from gazelle.engines.engine import (
     Motion,
     Placement,
 )
+from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
@@ -31,6 +32,7 @@ __all__ = [
     "Hits",
     "Motion",
     "Placement",
+    "RangeRays",
     "SystemEngine",
     "Wrench",
     "changes_of",

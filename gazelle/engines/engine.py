@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
+from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
 
@@ -404,10 +405,8 @@ class Engine(Protocol):
             ignore_own: Whether rays pass through the shapes of the link.
         """
 
-    def cast_ranges(
-        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
-    ) -> tuple[Floats, float]:
-        """Follow the rays of a range finder, the same arrays each time; see ``cast_rays``.
+    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
+        """Follow the rays of a range finder; see ``cast_rays``.
 
         Returns:
             Distances from somewhat behind the origins [m], shape (n, rays), infinite for nothing,

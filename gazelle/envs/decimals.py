@@ -24,12 +24,19 @@ def round2(values: ArrayLike) -> NDArray[np.float64]:
     """
     x = np.asarray(values, dtype=np.float64)
     product = x * _SCALE
+    whole = np.rint(product)
+    tied = np.abs(product - whole) == 0.5  # exact: both are multiples of 0.5 there
+    if tied.any():
+        whole[tied] = _settled(x[tied], product[tied])
+    rounded: NDArray[np.float64] = whole / _SCALE
+    return rounded
+
+
+def _settled(x: NDArray[np.float64], product: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Which ints numbers are nearest to whose product seems to be in the middle."""
     high = x * _SPLIT
     high -= high - x
     error = (high * _SCALE - product) + (x - high) * _SCALE
     below = np.floor(product)
-    on_tie = product - below == 0.5  # exact: both are multiples of 0.5 here
     settled = np.where(error > 0.0, below + 1.0, below)
-    whole = np.where(on_tie & (error != 0.0), settled, np.rint(product))
-    rounded: NDArray[np.float64] = whole / _SCALE
-    return rounded
+    return np.where(error != 0.0, settled, np.rint(product))

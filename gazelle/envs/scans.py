@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
+R = TypeVar("R", np.float32, np.float64)
 
 
-def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats:
+def clean_ranges(ranges: NDArray[R], *, nearest: float, farthest: float) -> NDArray[R]:
     """Replace what is not a number by one.
 
     Args:
@@ -18,14 +20,17 @@ def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats:
         farthest: Stands for +inf, and caps what a longer lidar sees [m].
 
     Returns:
-        Ranges [m] in [0, farthest], shape (n, samples); NaN became 0.
+        Ranges [m] in [0, farthest], shape (n, samples), of the same precision; NaN became 0.
     """
-    cleaned = np.where(np.isnan(ranges), 0.0, ranges)
-    cleaned[np.isneginf(cleaned)] = nearest
-    return np.clip(cleaned, 0.0, farthest, out=cleaned)
+    kind = ranges.dtype.type
+    cleaned: NDArray[R] = np.fmax(ranges, kind(0.0))
+    if np.fmin.reduce(ranges, axis=None, initial=0.0) == -np.inf:
+        cleaned[np.isneginf(ranges)] = nearest
+    np.fmin(cleaned, kind(farthest), out=cleaned)
+    return cleaned
 
 
-def nearest_obstacle(ranges: Floats) -> tuple[Floats, NDArray[np.intp]]:
+def nearest_obstacle(ranges: NDArray[R]) -> tuple[NDArray[R], NDArray[np.intp]]:
     """The shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
     ray = ranges.argmin(axis=1)
     return ranges[np.arange(len(ranges)), ray], ray

@@ -26,6 +26,7 @@ cdef class SystemLoop:
     cdef long long _next_block(self) noexcept nogil
     cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
     cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil
+    cdef long long _moment_of(self, Py_ssize_t index, long long time) noexcept nogil
     cdef void _begin(self, Py_ssize_t part) noexcept nogil
     cdef bint _is_due(self, Py_ssize_t part, Py_ssize_t index, long long time) noexcept nogil
     cdef void _update(self, Py_ssize_t index, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

@@ -68,9 +68,9 @@ class SystemLoop:
             raise TypeError("a loop is of objects of System")
         self.nworld, self.step, self.time, self._pool = nworld, step, time, pool
         size = 1 if pool is None or not cython.compiled else pool.size
-        self._table = np.array(
-            [[id(each), each.rows, each.divisible] for each in self.systems], np.int64
-        ).reshape(-1, 3)
+        rows = [(each.rows, each.divisible, each.late, each.least) for each in self.systems]
+        table = [(id(each), *row) for each, row in zip(self.systems, rows, strict=True)]
+        self._table = np.array(table, np.int64).reshape(-1, 5)
         self._rates = np.array([each.rate for each in self.systems], np.float64)
         self._due = np.zeros((size + 1, len(self.systems)), np.int64)  # the last: at the beginning
         self._shared = np.zeros(APART + 2, np.int64)
@@ -112,7 +112,7 @@ class SystemLoop:
         index: cython.Py_ssize_t
         while self.time < until:
             for index in range(self._table.shape[0]):
-                self._is_due(row, index, self.time)
+                self._is_due(row, index, self._moment_of(index, self.time))
             self.time += self.step
 
     def play_worlds(
@@ -150,9 +150,10 @@ class SystemLoop:
             time = self.time
             while time < until:
                 for index in range(self._table.shape[0]):
-                    if self._is_due(part, index, time):
+                    when: cython.longlong = self._moment_of(index, time)
+                    if self._is_due(part, index, when):
                         rows: cython.longlong = self._table[index, 1]
-                        self._update(index, first * rows, last * rows, time)
+                        self._update(index, first * rows, last * rows, when)
                 time += self.step
 
     @cython.cfunc
@@ -161,22 +162,40 @@ class SystemLoop:
     def _play_together(
         self, part: cython.Py_ssize_t, threads: cython.Py_ssize_t, until: cython.longlong
     ) -> cython.void:
-        """Take a share of every system, and wait for the others after each."""
+        """Take a share of every system, and wait for the others before and after each.
+
+        What cannot be shared out, or is not worth it, is done by the last thread, which waits for
+        nobody between two of them.
+        """
         index: cython.Py_ssize_t
         self._begin(part)
         time: cython.longlong = self.time
+        alone: cython.bint = True  # whether what was done since all waited was not shared out
         while time < until:
             for index in range(self._table.shape[0]):
-                if self._is_due(part, index, time):
+                when: cython.longlong = self._moment_of(index, time)
+                if self._is_due(part, index, when):
                     rows: cython.longlong = self._table[index, 1]
                     unit: cython.longlong = 1 if self._table[index, 2] else rows
                     count: cython.longlong = self.nworld * rows // unit
-                    first: cython.longlong = count * part // threads
-                    last: cython.longlong = count * (part + 1) // threads
-                    if first < last:
-                        self._update(index, first * unit, last * unit, time)
-                    self._wait_for_all(threads)
+                    worth: cython.longlong = count * unit // self._table[index, 4]
+                    parts: cython.longlong = max(1, min(threads, worth, count))
+                    if not (alone and parts == 1):
+                        self._wait_for_all(threads)
+                    alone = parts == 1
+                    mine: cython.longlong = part - (threads - parts)
+                    first: cython.longlong = count * mine // parts
+                    last: cython.longlong = count * (mine + 1) // parts
+                    if mine >= 0:
+                        self._update(index, first * unit, last * unit, when)
             time += self.step
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _moment_of(self, index: cython.Py_ssize_t, time: cython.longlong) -> cython.longlong:
+        """The time of an update in the step that begins at a time [ns]."""
+        return time + self._table[index, 3] * self.step
 
     @cython.cfunc
     @cython.nogil

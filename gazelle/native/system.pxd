@@ -1,6 +1,8 @@
 cdef class System:
     cdef readonly Py_ssize_t rows
     cdef public double rate
+    cdef public bint late
+    cdef public Py_ssize_t least
     cdef readonly bint divisible
     cdef public long long due
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

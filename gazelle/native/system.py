@@ -22,6 +22,8 @@ class System:
 
     Attributes:
         due: When it is updated next [ns]; 0 for at once.
+        late: Whether it is updated after all that moves, for the end of the step.
+        least: Fewer rows are not worth a thread.
 
     Raises:
         ValueError: ``rows`` is less than 1, or ``rate`` than 0.
@@ -37,6 +39,15 @@ class System:
         if rows < 1 or not rate >= 0.0:
             raise ValueError(f"a system has {rows} rows, and is updated {rate} times a second")
         self.rows, self.rate, self.divisible, self.due = rows, rate, divisible, due
+        self.late, self.least = False, 1
+
+    def bring(self, first: int, last: int, time: int) -> None:
+        """``update``, for callers in Python; other threads run meanwhile."""
+        begin: cython.Py_ssize_t = first
+        end: cython.Py_ssize_t = last
+        when: cython.longlong = time
+        with cython.nogil:
+            self.update(begin, end, when)
 
     @cython.cfunc
     @cython.nogil
@@ -52,5 +63,5 @@ class System:
         Args:
             first: Row, counted through all worlds.
             last: The one after the last.
-            time: At the beginning of the step [ns].
+            time: At the beginning of the step, or at its end for those that are late [ns].
         """

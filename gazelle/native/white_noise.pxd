@@ -16,15 +16,12 @@ cdef extern from *:
 
 cdef double uniform_of(
     unsigned long long key, unsigned long long place) noexcept nogil
-@cython.locals(large=cython.bint)
-cdef double logarithm(double value) noexcept nogil
-@cython.locals(pairs=Py_ssize_t)
+@cython.locals(pairs=Py_ssize_t, large=cython.bint)
 cdef void fill_normal(
-    unsigned long long key, unsigned long long start, Py_ssize_t size, double[::1] drawn,
-    double[::1] angles) noexcept nogil
+    unsigned long long key, unsigned long long start, Py_ssize_t size,
+    double[::1] drawn) noexcept nogil
 cpdef void draw_uniform(
-    unsigned long long[::1] keys, unsigned long long[::1] counters, double[:, ::1] drawn) noexcept
-@cython.locals(k=Py_ssize_t)
+    unsigned long long[:] keys, unsigned long long[:] counters, double[:, ::1] drawn) noexcept
 cpdef void draw_normal(
-    unsigned long long[::1] keys, unsigned long long[::1] counters, Py_ssize_t size,
-    double[:, ::1] drawn, double[::1] row, double[::1] room) noexcept
+    unsigned long long[:] keys, unsigned long long[:] counters, Py_ssize_t size,
+    double[:, ::1] drawn) noexcept

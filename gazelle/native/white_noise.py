@@ -5,7 +5,7 @@ All is arithmetic that is rounded as IEEE 754 says, with no function of a C libr
 processor and any build gives the same bits.
 """
 
-# ruff: noqa: FURB136  # loops that become vectors
+# loops that become vectors
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import math
 import struct
 
 import cython
-from cython.cimports.libc.math import floor, sqrt
+from cython.cimports.libc.math import fabs, floor, sqrt
 
 from gazelle.array_types import Floats, UInts64
 
@@ -63,45 +63,39 @@ def uniform_of(key: int, place: int) -> float:
     return drawn
 
 
-def logarithm(value: float) -> float:
-    """Natural logarithm of a number in (0, 1], to 1e-14.
-
-    By the series of the inverse hyperbolic tangent: Abramowitz and Stegun, 4.1.27.
-    """
-    raw = gazelle_bits(value)
-    power = gazelle_double((raw >> 52) | BIG) - (TWO_52 + 1023.0)
-    m = gazelle_double((raw & MANTISSA) | ONE)
-    large = m > SQRT2
-    m = 0.5 * m if large else m
-    power = power + 1.0 if large else power
-    f = (m - 1.0) / (m + 1.0)
-    q = f * f
-    series = 1.0 / 9.0 + q * (1.0 / 11.0 + q * (1.0 / 13.0 + q * (1.0 / 15.0)))
-    series = 1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * series)))
-    whole: float = power * LN2 + 2.0 * f * series
-    return whole
-
-
-def fill_normal(key: int, start: int, size: int, drawn: Floats, angles: Floats) -> None:
+def fill_normal(key: int, start: int, size: int, drawn: Floats) -> None:
     """The next normal numbers of a world, by Box and Muller's transform.
 
-    Sines and cosines by their series about the nearest quarter turn, to 1e-13.
+    The logarithm is by the series of the inverse hyperbolic tangent, to 1e-14: Abramowitz and
+    Stegun, 4.1.27. Sines and cosines are by their series about the nearest quarter turn, to 1e-13.
+    All is written out, and nothing branches, so that compilers make vectors of the loops.
 
     Args:
         key: Of the world.
         start: How many numbers were drawn before.
         size: How many are wanted.
         drawn: Comes out, in the first ``size``; room for one more if that is odd.
-        angles: Room for half as many.
     """
     pairs = (size + 1) // 2
     for k in range(pairs):
         drawn[k] = uniform_of(key, start + k)
-        angles[k] = uniform_of(key, start + (pairs + k))
+        drawn[pairs + k] = uniform_of(key, start + (pairs + k))
     for k in range(pairs):
-        square = -2.0 * logarithm(1.0 - drawn[k])
-        radius = sqrt(square if square > 0.0 else 0.0)
-        t = 4.0 * angles[k]
+        raw = gazelle_bits(1.0 - drawn[k])
+        power = gazelle_double((raw >> 52) | BIG) - (TWO_52 + 1023.0)
+        m = gazelle_double((raw & MANTISSA) | ONE)
+        large = m > SQRT2
+        m = 0.5 * m if large else m
+        power = power + 1.0 if large else power
+        f = (m - 1.0) / (m + 1.0)
+        q = f * f
+        series = 1.0 / 9.0 + q * (1.0 / 11.0 + q * (1.0 / 13.0 + q * (1.0 / 15.0)))
+        series = 1.0 + q * (1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * series)))
+        square = -2.0 * (power * LN2 + 2.0 * f * series)
+        drawn[k] = sqrt(0.5 * (square + fabs(square)))  # not below 0
+    for k in range(pairs):
+        radius = drawn[k]
+        t = 4.0 * drawn[pairs + k]
         quarter = floor(t + 0.5)
         r = (t - quarter) * HALF_PI
         q = r * r
@@ -116,9 +110,7 @@ def fill_normal(key: int, start: int, size: int, drawn: Floats, angles: Floats) 
         sign = 1.0 - 2.0 * (half - 2.0 * floor(0.5 * half))
         a = cosine if odd == 0.0 else -sine
         b = sine if odd == 0.0 else cosine
-        drawn[k], angles[k] = radius * (sign * a), radius * (sign * b)
-    for k in range(pairs):
-        drawn[pairs + k] = angles[k]
+        drawn[k], drawn[pairs + k] = radius * (sign * a), radius * (sign * b)
 
 
 def draw_uniform(keys: UInts64, counters: UInts64, drawn: Floats) -> None:
@@ -137,22 +129,16 @@ def draw_uniform(keys: UInts64, counters: UInts64, drawn: Floats) -> None:
             counters[w] = start + drawn.shape[1]
 
 
-def draw_normal(
-    keys: UInts64, counters: UInts64, size: int, drawn: Floats, row: Floats, room: Floats
-) -> None:
+def draw_normal(keys: UInts64, counters: UInts64, size: int, drawn: Floats) -> None:
     """The next standard normal numbers of some worlds; counters go on.
 
     Args:
         keys: Of the worlds, shape (n,).
         counters: How many numbers each has drawn, shape (n,).
         size: How many numbers each world draws.
-        drawn: Comes out, shape (n, size).
-        row: Room for as many, and one more.
-        room: Room for half as many.
+        drawn: Comes out, shape (n, size), or (n, size + 1) if that is odd.
     """
     with cython.nogil:
         for w in range(drawn.shape[0]):
-            fill_normal(keys[w], counters[w], size, row, room)
-            for k in range(size):
-                drawn[w, k] = row[k]
+            fill_normal(keys[w], counters[w], size, drawn[w])
             counters[w] += 2 * ((size + 1) // 2)

@@ -5,7 +5,7 @@ Tags, defaults and rules are those of gazebo_ros_pkgs 2.9 (Noetic).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.diff_drive_law import DiffDriveLaw
+from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
 from gazelle.plugins.publishing import Published
@@ -78,18 +78,24 @@ class DiffDrive(ModelPlugin):
         self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
         self._reckoned_ns = robot.simulation.clock.now_ns
         self._open_ports(robot, parameters, nworld)
+        self._tables = WheelTables.empty(nworld, 1)
+        self._tables.last_ns[:] = robot.simulation.clock.now_ns
+        self._keep_in(self._tables)
+        self._targets = np.zeros((nworld, 2))  # that the motors have [rad/s]
+        self._bound = -1  # revision of the engine whose motors the law drives by itself
+
+    def _keep_in(self, tables: WheelTables) -> None:
+        """Keep commands and speeds in other tables of one drive from now on."""
+        tables.take_over(self._tables)
+        self._tables = tables
+        self._command.linear, self._command.angular = tables.linear[:, 0], tables.angular[:, 0]
         self._law = DiffDriveLaw(
-            self._command.linear,
-            self._command.angular,
+            tables,
             separation=self.separation,
             radius=self.radius,
             acceleration=self.acceleration,
         )
-        self._last_ns = np.asarray(self._law.last_ns)
-        self._last_ns[:] = robot.simulation.clock.now_ns
-        self._speeds = np.asarray(self._law.speeds)
-        self._targets = np.zeros((nworld, 2))  # that the motors have [rad/s]
-        self._bound = -1  # revision of the engine whose motors the law drives by itself
+        self._bound = -1
 
     def _open_ports(self, robot: Robot, parameters: Parameters, nworld: int) -> None:
         namespace = namespace_of(robot, parameters, robot.name)
@@ -113,16 +119,64 @@ class DiffDrive(ModelPlugin):
             published.append(robot.outputs["joint_states"])
         self._published = tuple(published)
 
+    def kind(self) -> Hashable | None:
+        """All drives whose law alone is to be done."""
+        return "DiffDriveLaw" if self._is_native() else None
+
+    @classmethod
+    def together(cls, plugins: Sequence[DiffDrive]) -> System:
+        """The law of many robots; what they are told and remember is in its tables from then on."""
+        first = plugins[0]
+        tables = WheelTables.empty(first.nworld, len(plugins))
+        for part, each in enumerate(plugins):
+            each.join(tables.column(part))
+        law = DiffDriveLaw(
+            tables,
+            separation=[each.separation for each in plugins],
+            radius=[each.radius for each in plugins],
+            acceleration=[each.acceleration for each in plugins],
+        )
+        motors = [each.motors() for each in plugins]
+        law.send_to(motors[0][0], np.array([columns for _, columns in motors]).T)
+        return law
+
+    @property
+    def nworld(self) -> int:
+        """Number of worlds."""
+        return self._robot.simulation.nworld
+
+    def join(self, tables: WheelTables) -> None:
+        """Be driven by a law of many robots; what was told and is remembered moves to its tables."""
+        self._keep_in(tables)
+        self._targets[:] = np.nan
+
+    def motors(self) -> tuple[Floats, tuple[int, int]]:
+        """Where the engine keeps motors' velocities, and the columns of left and right wheel."""
+        engine = self._robot.simulation.native
+        if engine is None:
+            raise SimulationError("the engine's motors are not to be driven by systems now")
+        names = [f"{self._robot.name}::{name}" for name in self.wheel_joints]
+        targets, left = engine.motor_targets(names[0])
+        return targets, (left, engine.motor_targets(names[1])[1])
+
+    def _is_native(self) -> bool:
+        """Whether nobody listens and nothing but the law is to be done."""
+        if self._robot.simulation.native is None or self._from_encoders:
+            return False
+        for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
+            if output.wanted:
+                return False
+        return True
+
     def system(self) -> System | None:
         """The law alone, while nobody listens and nothing else is to be done."""
         engine = self._robot.simulation.native
-        if engine is None or self._from_encoders or any(p.wanted for p in self._published):
+        if engine is None or not self._is_native():
             return None
         if self._bound != engine.revision:
-            names = [f"{self._robot.name}::{name}" for name in self.wheel_joints]
-            targets, left = engine.motor_targets(names[0])
-            self._law.send_to(targets, left, engine.motor_targets(names[1])[1])
+            self._law.send_to(*self.motors())
             self._bound = engine.revision
+            self._targets[:] = np.nan  # what Python told the motors last is not what they have
         return self._law
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
@@ -137,8 +191,8 @@ class DiffDrive(ModelPlugin):
 
     def _drive(self, now_ns: int) -> None:
         wanted, self._bound = np.empty_like(self._targets), -1
-        self._law.send_to(wanted, 0, 1)
-        self._law.apply(now_ns)
+        self._law.send_to(wanted, (0, 1))
+        self._law.bring(0, len(wanted), now_ns)
         if not np.array_equal(wanted, self._targets):
             self._targets = wanted
             for column, wheel in enumerate(self._wheels):
@@ -162,7 +216,7 @@ class DiffDrive(ModelPlugin):
         return joint_transforms(self._robot, self._wheel_joints)
 
     def _read_wheels(self) -> JointStates:
-        nothing = np.zeros((len(self._speeds), 0))
+        nothing = np.zeros((self.nworld, 0))
         now = self._robot.simulation.clock.now_ns
         # The original names the right wheel first.
         return JointStates(now, self.wheel_joints[::-1], self._angles()[:, ::-1], nothing)
@@ -170,24 +224,27 @@ class DiffDrive(ModelPlugin):
     def reset(self, worlds: Worlds | None) -> None:
         """Stand still at the origin of the odometry."""
         rows = slice(None) if worlds is None else worlds
-        self._speeds[rows] = 0.0
+        self._tables.speeds[:, 0][rows] = 0.0
         self._targets[rows] = np.nan
         self._reckoning.reset(worlds, self._angles())
         if worlds is None:
-            self._last_ns[:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
+            self._tables.last_ns[:, 0][:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Wheel speeds, odometry and times of the last update."""
         rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
-        times = {"last_ns": self._last_ns.copy(), "reckoned_ns": np.array(self._reckoned_ns)}
-        return {"speeds": self._speeds.copy(), **rolled, **times}
+        times = {
+            "last_ns": self._tables.last_ns[:, 0].copy(),
+            "reckoned_ns": np.array(self._reckoned_ns),
+        }
+        return {"speeds": self._tables.speeds[:, 0].copy(), **rolled, **times}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._speeds[:] = state["speeds"]
+        self._tables.speeds[:, 0][:] = state["speeds"]
         self._targets[:] = np.nan  # the motors are given their speeds anew
         self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
-        self._last_ns[:] = state["last_ns"]
+        self._tables.last_ns[:, 0][:] = state["last_ns"]
         self._reckoned_ns = int(state["reckoned_ns"])
 
 

@@ -5,10 +5,10 @@ from gazelle.native.system cimport System
 cdef double RAMP_DEADBAND
 
 cdef class DiffDriveLaw(System):
-    cdef public double half, radius, acceleration
-    cdef public double[:, ::1] linear, angular, speeds, targets
-    cdef public long long[::1] last_ns
-    cdef public Py_ssize_t left, right
-    cpdef void apply(self, long long time)
-    @cython.locals(w=Py_ssize_t, most=double)
+    cdef double[::1] half, radius, acceleration
+    cdef double[:, :, :] linear, angular, speeds
+    cdef double[:, ::1] targets
+    cdef long long[:, :] last_ns
+    cdef Py_ssize_t[:, ::1] columns
+    @cython.locals(row=Py_ssize_t, w=Py_ssize_t, i=Py_ssize_t, most=double)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

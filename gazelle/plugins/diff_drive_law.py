@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import cython
 import numpy as np
 from cython.cimports.gazelle.native.system import System
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats
 
@@ -14,61 +17,89 @@ from gazelle.array_types import Floats
 RAMP_DEADBAND = 0.01
 
 
-@cython.cclass
-class DiffDriveLaw(System):
-    """The wheels of one robot in all worlds.
-
-    Args:
-        linear: Commanded velocities [m/s], shape (nworld, 3).
-        angular: Commanded turning rates [rad/s], shape (nworld, 3).
-        separation: Between the wheels [m].
-        radius: Of a wheel [m].
-        acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit.
+@dataclass(frozen=True, slots=True)
+class WheelTables:
+    """What some drives of two wheels go by and remember, in all worlds; used in place.
 
     Attributes:
-        speeds: Of the left and right wheel on the ground [m/s], shape (nworld, 2).
-        last_ns: Time of the last update in each world [ns], shape (nworld,).
-        targets: Where the wheels' turning rates go [rad/s], shape (nworld, n).
-        left: Column of the left wheel there.
-        right: Column of the right wheel.
+        linear: Commanded velocities [m/s], shape (nworld, n, 3).
+        angular: Commanded turning rates [rad/s], likewise.
+        speeds: Of the left and right wheel on the ground [m/s], shape (nworld, n, 2).
+        last_ns: Time of the last update [ns], shape (nworld, n).
+    """
+
+    linear: Floats
+    angular: Floats
+    speeds: Floats
+    last_ns: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, nworld: int, count: int) -> WheelTables:
+        """Tables of ``count`` drives, all zero."""
+        linear, angular = np.zeros((2, nworld, count, 3))
+        speeds, last_ns = np.zeros((nworld, count, 2)), np.zeros((nworld, count), np.int64)
+        return cls(linear, angular, speeds, last_ns)
+
+    def column(self, part: int) -> WheelTables:
+        """The same memory, of one drive."""
+        own = slice(part, part + 1)
+        return WheelTables(
+            self.linear[:, own], self.angular[:, own], self.speeds[:, own], self.last_ns[:, own]
+        )
+
+    def take_over(self, other: WheelTables) -> None:
+        """Remember what other tables of as many drives do."""
+        self.linear[:], self.angular[:] = other.linear, other.angular
+        self.speeds[:], self.last_ns[:] = other.speeds, other.last_ns
+
+
+@cython.cclass
+class DiffDriveLaw(System):
+    """The wheels of some robots in all worlds, a row each.
+
+    Args:
+        tables: Commands and speeds.
+        separation: Between the wheels [m], shape (n,).
+        radius: Of a wheel [m], shape (n,).
+        acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit; (n,).
     """
 
     def __init__(
         self,
-        linear: Floats,
-        angular: Floats,
+        tables: WheelTables,
         *,
-        separation: float,
-        radius: float,
-        acceleration: float,
+        separation: ArrayLike,
+        radius: ArrayLike,
+        acceleration: ArrayLike,
     ) -> None:
-        System.__init__(self)
-        self.linear, self.angular = linear, angular
-        self.half, self.radius, self.acceleration = separation / 2.0, radius, acceleration
-        self.speeds = np.zeros((len(linear), 2))
-        self.last_ns = np.zeros(len(linear), np.int64)
-        self.send_to(np.zeros((len(linear), 2)), 0, 1)
+        count = tables.speeds.shape[1]
+        System.__init__(self, count)
+        self.least = 1000
+        self.linear, self.angular = tables.linear, tables.angular
+        self.speeds, self.last_ns = tables.speeds, tables.last_ns
+        self.half = np.asarray(separation, np.float64).reshape(count) / 2.0
+        self.radius = np.array(radius, np.float64).reshape(count)
+        self.acceleration = np.array(acceleration, np.float64).reshape(count)
+        self.send_to(np.zeros((len(tables.speeds), 2 * count)), np.arange(2 * count))
 
-    def send_to(self, targets: Floats, left: int, right: int) -> None:
-        """Write the wheels' turning rates to columns of another array."""
-        self.targets, self.left, self.right = targets, left, right
-
-    def apply(self, time: int) -> None:
-        """``update`` of all worlds."""
-        self.update(0, self.speeds.shape[0], time)
+    def send_to(self, targets: Floats, columns: ArrayLike) -> None:
+        """Write turning rates to columns of an array: all the left wheels', then the right ones'."""
+        self.targets = targets
+        self.columns = np.array(columns, np.intp, order="C").reshape(2, self.rows)
 
     def update(self, first: int, last: int, time: int) -> None:
         """Change wheel speeds towards what is commanded."""
-        for w in range(first, last):
-            turning = self.angular[w, 2] * self.half
-            left, right = self.linear[w, 0] - turning, self.linear[w, 0] + turning
-            lack, other = left - self.speeds[w, 0], right - self.speeds[w, 1]
-            most = self.acceleration * ((time - self.last_ns[w]) / 1e9)
-            self.last_ns[w] = time
-            if self.acceleration > 0.0 and min(abs(lack), abs(other)) >= RAMP_DEADBAND:
-                self.speeds[w, 0] += min(max(lack, -most), most)
-                self.speeds[w, 1] += min(max(other, -most), most)
+        for row in range(first, last):
+            w, i = row // self.rows, row % self.rows
+            turning = self.angular[w, i, 2] * self.half[i]
+            left, right = self.linear[w, i, 0] - turning, self.linear[w, i, 0] + turning
+            lack, other = left - self.speeds[w, i, 0], right - self.speeds[w, i, 1]
+            most = self.acceleration[i] * ((time - self.last_ns[w, i]) / 1e9)
+            self.last_ns[w, i] = time
+            if self.acceleration[i] > 0.0 and min(abs(lack), abs(other)) >= RAMP_DEADBAND:
+                self.speeds[w, i, 0] += min(max(lack, -most), most)
+                self.speeds[w, i, 1] += min(max(other, -most), most)
             else:
-                self.speeds[w, 0], self.speeds[w, 1] = left, right
-            self.targets[w, self.left] = self.speeds[w, 0] / self.radius
-            self.targets[w, self.right] = self.speeds[w, 1] / self.radius
+                self.speeds[w, i, 0], self.speeds[w, i, 1] = left, right
+            self.targets[w, self.columns[0, i]] = self.speeds[w, i, 0] / self.radius[i]
+            self.targets[w, self.columns[1, i]] = self.speeds[w, i, 1] / self.radius[i]

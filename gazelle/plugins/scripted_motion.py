@@ -12,7 +12,7 @@ The model becomes kinematic: it pushes others, nothing pushes it. Tags::
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +82,18 @@ class ScriptedMotion(ModelPlugin):
         return PathFollower(
             legs, start, spin=float(self.spin[2]), loop=self.loop, epoch=self._epoch
         )
+
+    def kind(self) -> Hashable | None:
+        """Each script is a system of its own."""
+        return None if self.system() is None else self.robot.name
+
+    @classmethod
+    def together(cls, plugins: Sequence[ScriptedMotion]) -> System:
+        """The path of a script."""
+        system = plugins[0].system()
+        if system is None:
+            raise SimulationError("this script is not followed in native code")
+        return system
 
     def system(self) -> System | None:
         """The path alone, where it is one in the plane."""

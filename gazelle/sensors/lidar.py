@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
-from gazelle.engines import Engine
-from gazelle.sensors.lidar_ranges import RangeLaw
+from gazelle.engines import Engine, RangeRays, SystemEngine
+from gazelle.sensors.lidar_group import LidarGroup
+from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.noise import NoiseModel
+
+_NEAR = 1e-3  # rays are no shorter [m]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +63,8 @@ class LidarModel:
         self, lidar: Lidar, engine: Engine, link: str, pose: Pose, seed: int, name: str
     ) -> None:
         self.lidar = lidar
-        self._engine = engine
+        self.engine = engine
+        self._systems = engine if isinstance(engine, SystemEngine) else None
         self.link = link
         self.angles = angles_of(lidar.horizontal)
         self.vertical_angles = angles_of(lidar.vertical)
@@ -68,13 +73,11 @@ class LidarModel:
         self.directions = local @ rotation.T
         self.origins = np.asarray(pose.position) + lidar.range_min * self.directions
         self._noise = NoiseModel(lidar.noise, seed, name, engine.nworld, len(self.directions))
-        self._law = RangeLaw(
-            len(self.directions),
-            lidar.range_min,
-            lidar.range_max,
-            lidar.quantum,
-            *self._noise.rounding,
-        )
+        reach = max(lidar.range_max - lidar.range_min, _NEAR)  # what is farther is not reported
+        self.rays = RangeRays(link, self.origins, self.directions, reach)
+        self.law = RangeLaw(lidar.range_min, lidar.range_max, lidar.quantum, *self._noise.rounding)
+        self._alone: LidarGroup | None = None
+        self._revision = -1  # of the engine that it was made for
 
     @property
     def samples(self) -> int:
@@ -88,22 +91,69 @@ class LidarModel:
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        ranges, begin = self._engine.cast_ranges(self.link, self.origins, self.directions, worlds)
+        own = self._native() if worlds is None else None
+        if own is not None:
+            return own.measure()
+        ranges, begin = self.engine.cast_ranges(self.rays, worlds)
         ranges = np.ascontiguousarray(ranges)
         offset, noise = self.lidar.range_min - begin, self._noise
         if noise.drifts:
             return self._drifting(ranges + offset, interval, worlds)
-        stddev, keys, counters = noise.white
-        bias = noise.bias
-        measured = np.empty(ranges.shape)
-        if worlds is None:
-            self._law.measure(ranges, offset, stddev, bias, keys, counters, measured)
-            return measured
-        own = counters[worlds]
-        biased = bias[worlds] if len(bias) else bias
-        self._law.measure(ranges, offset, stddev[worlds], biased, keys[worlds], own, measured)
-        counters[worlds] = own
-        return measured
+        samples = ranges.shape[1]
+        measured = np.empty((len(ranges), samples + samples % 2))
+        stddev, keys, counters, bias = noise.tables(worlds)
+        measure(self.law, LidarNoise(stddev, keys, counters, bias), ranges, offset, measured)
+        if worlds is not None:
+            noise.follow(worlds, counters)
+        return measured[:, :samples]
+
+    def kind(self) -> Hashable | None:
+        """Equal for lidars that a ``LidarGroup`` measures together; None where none can."""
+        engine, noise = self._systems, self._noise
+        if noise.drifts or engine is None:
+            return None
+        rays = engine.ranges_kind(self.rays)
+        law = self.law
+        reported = law.low, law.high, law.quantum, law.mean, law.precision
+        return None if rays is None else (rays, reported, noise.biased)
+
+    def _native(self) -> LidarGroup | None:
+        """What measures this lidar alone on all threads, where the engine can."""
+        engine = self._systems
+        if engine is None:
+            return None
+        if self._revision != engine.revision:
+            made = None
+            if self.kind() is not None:
+                rays = [self.rays]
+                made = LidarGroup(
+                    engine, rays, self.law, self.lidar.range_min, *self._noise.tables()
+                )
+            self._alone = made
+            self._revision = engine.revision  # which asking for the kind may change
+        return self._alone
+
+    @classmethod
+    def together(cls, models: Sequence[LidarModel]) -> LidarGroup:
+        """What measures lidars of one kind together; their noise is in its tables from then on."""
+        first = models[0]
+        engine, biased = first.engine, first.noise.biased
+        if not isinstance(engine, SystemEngine):
+            raise TypeError("the engine measures each lidar by itself")
+        shape = engine.nworld, len(models)
+        stddev, bias = np.zeros(shape), np.zeros((*shape, first.samples if biased else 0))
+        keys, counters = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
+        for i, each in enumerate(models):
+            each.move_noise(stddev[:, i : i + 1], keys[:, i], counters[:, i], bias[:, i])
+        rays = [each.rays for each in models]
+        tables = stddev.reshape(-1), keys.reshape(-1), counters.reshape(-1)
+        biases = bias.reshape(stddev.size, -1) if biased else np.zeros((0, 0))
+        return LidarGroup(engine, rays, first.law, first.lidar.range_min, *tables, biases)
+
+    def move_noise(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
+        """Keep what the noise has in other arrays from now on; see ``NoiseModel.move``."""
+        self._noise.move(stddev, keys, counters, bias)
+        self._alone, self._revision = None, -1
 
     def _drifting(self, true: Floats, interval: float, worlds: Worlds | None) -> Floats:
         """A measurement of true ranges with noise whose bias changes with time."""

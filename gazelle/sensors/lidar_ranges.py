@@ -1,5 +1,6 @@
 # cython: infer_types=True, annotation_typing=False
-"""What a lidar reports of true ranges: noise, rounding and limits in one go, in native code."""
+# mypy: disable-error-code="misc"
+"""What lidars report of true ranges: noise, rounding and limits in one go, in native code."""
 
 # ruff: noqa: FURB136  # loops that become vectors
 
@@ -7,19 +8,21 @@ from __future__ import annotations
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.native.system import System
 from cython.cimports.gazelle.native.white_noise import fill_normal
 from cython.cimports.libc.math import rint
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64
 
 INF = cython.declare(cython.double, float("inf"))
+AT_ONCE = cython.declare(cython.Py_ssize_t, 1024)  # ranges that are in the processor's cache
 
 
 class RangeLaw:
     """How a lidar reports ranges.
 
     Args:
-        samples: Rays of a measurement.
         low: Least range that it reports [m].
         high: What is not nearer is reported as infinite [m].
         quantum: What ranges are rounded to [m]; 0 for not.
@@ -28,61 +31,136 @@ class RangeLaw:
     """
 
     def __init__(
-        self, samples: int, low: float, high: float, quantum: float, mean: float, precision: float
+        self, low: float, high: float, quantum: float, mean: float, precision: float
     ) -> None:
         self.low, self.high, self.quantum = low, high, quantum
         self.mean, self.precision = mean, precision
-        self.row, self.room = np.zeros(samples + 1), np.zeros(samples // 2 + 1)
 
-    def measure_one(
-        self, w: int, ranges: Floats, offset: float, deviation: Floats, bias: Floats,
-        keys: UInts64, counters: UInts64, measured: Floats,
-    ) -> None:  # fmt: skip
-        """A measurement in the w-th of some worlds; see ``measure``."""
-        count = ranges.shape[1]
-        spread = deviation[w, 0]
-        noisy = spread != 0.0
-        if noisy:
-            fill_normal(keys[w], counters[w], count, self.row, self.room)
-            counters[w] += 2 * ((count + 1) // 2)
+
+class LidarNoise:
+    """The noise of some lidars, a row each; arrays are views, and go on in place.
+
+    Args:
+        deviation: Standard deviation of the white noise [m], shape (n,).
+        keys: Of its random numbers, shape (n,).
+        counters: How many of them were drawn, shape (n,).
+        bias: Of each sample [m], shape (n, samples), or (0, samples) for none.
+    """
+
+    def __init__(self, deviation: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
+        self.deviation, self.keys, self.counters, self.bias = deviation, keys, counters, bias
+
+
+def add_noise(
+    noise: LidarNoise, m: int, ranges: Floats, count: int, offset: float, mean: float,
+    measured: Floats,
+) -> None:  # fmt: skip
+    """Ranges of the m-th lidar with noise. All arrays but those of noise are rows."""
+    spread = noise.deviation[m]
+    if spread != 0.0:
+        fill_normal(noise.keys[m], noise.counters[m], count, measured)
+        noise.counters[m] += 2 * ((count + 1) // 2)
+    else:
         for k in range(count):
-            v = ranges[w, k] + offset
-            v = v + self.mean
-            if bias.shape[0] > 0:
-                v = v + bias[w, k]
-            if noisy:
-                v = v + spread * self.row[k]
-            measured[w, k] = v
-        if self.precision > 0.0:
-            for k in range(count):
-                measured[w, k] = rint(measured[w, k] / self.precision) * self.precision
-        if self.quantum > 0.0:
-            for k in range(count):
-                measured[w, k] = rint(measured[w, k] / self.quantum) * self.quantum
-        low, high = self.low, self.high
+            measured[k] = 0.0
+    if noise.bias.shape[0] > 0:
         for k in range(count):
-            true, v = ranges[w, k] + offset, measured[w, k]
-            v = v if v > low else low
-            v = v if v < high else high
-            far = INF if true >= high else v
-            measured[w, k] = true if true == -INF else far
+            v = ranges[k] + offset + mean + noise.bias[m, k]
+            measured[k] = v + spread * measured[k]
+    else:
+        for k in range(count):
+            measured[k] = ranges[k] + offset + mean + spread * measured[k]
 
-    def measure(
-        self, ranges: Floats, offset: float, deviation: Floats, bias: Floats, keys: UInts64,
-        counters: UInts64, measured: Floats,
-    ) -> None:  # fmt: skip
-        """Measurements in some worlds.
 
-        Args:
-            ranges: True distances [m]; infinite for nothing, minus infinite from inside of
-                something; shape (n, samples).
-            offset: Added to them [m].
-            deviation: Standard deviation of the white noise in each world [m], shape (n, 1).
-            bias: Of each sample [m], shape (n, samples), or (0, samples) for none.
-            keys: Of the noise's random numbers, shape (n,).
-            counters: How many were drawn; they go on. Shape (n,).
-            measured: Comes out [m], shape (n, samples).
-        """
-        with cython.nogil:
-            for w in range(ranges.shape[0]):
-                self.measure_one(w, ranges, offset, deviation, bias, keys, counters, measured)
+def measure_row(
+    law: RangeLaw, noise: LidarNoise, m: int, ranges: Floats, count: int, offset: float,
+    measured: Floats,
+) -> None:  # fmt: skip
+    """A measurement of the m-th lidar; see ``measure``. All arrays but those of noise are rows."""
+    add_noise(noise, m, ranges, count, offset, law.mean, measured)
+    if law.precision > 0.0:
+        for k in range(count):
+            measured[k] = rint(measured[k] / law.precision) * law.precision
+    if law.quantum > 0.0:
+        for k in range(count):
+            measured[k] = rint(measured[k] / law.quantum) * law.quantum
+    low, high = law.low, law.high
+    for k in range(count):
+        true, v = ranges[k] + offset, measured[k]
+        v = v if v > low else low
+        v = v if v < high else high
+        far = INF if true >= high else v
+        measured[k] = true if true == -INF else far
+
+
+def measure(
+    law: RangeLaw, noise: LidarNoise, ranges: Floats, offset: float, measured: Floats
+) -> None:
+    """Measurements of some lidars.
+
+    Args:
+        law: Of all of them.
+        noise: A row each.
+        ranges: True distances [m]; infinite for nothing, minus infinite from inside of something;
+            shape (n, samples).
+        offset: Added to them [m].
+        measured: Comes out [m], shape (n, samples), or (n, samples + 1) if that is odd.
+    """
+    with cython.nogil:
+        for m in range(ranges.shape[0]):
+            measure_row(law, noise, m, ranges[m], ranges.shape[1], offset, measured[m])
+
+
+@cython.cclass
+class LidarSystem(System):
+    """Lidars with the same beams and the same law, a row each.
+
+    Args:
+        rows: Of a world.
+        cast: Writes true distances, a row each.
+        ranges: What that writes [m], shape (nworld * rows, samples).
+        offset: Added to them [m].
+        law: Of all of them.
+        noise: A row each.
+
+    """
+
+    def __init__(
+        self,
+        rows: int,
+        cast: System,
+        ranges: Floats,
+        offset: float,
+        law: RangeLaw,
+        noise: LidarNoise,
+    ) -> None:
+        System.__init__(self, rows)
+        self.cast, self.ranges, self.offset = cast, ranges, offset
+        self.law, self.noise = law, noise
+        self.stamp = np.zeros(len(ranges), np.int64)
+        self.renew()
+
+    def renew(self) -> Floats:
+        """Measure into a new array from now on, shape (nworld * rows, samples)."""
+        count = self.ranges.shape[1]
+        self.measured = np.empty((self.ranges.shape[0], count + count % 2))
+        return np.asarray(self.measured)[:, :count]
+
+    def latest(self) -> tuple[Floats, NDArray[np.int64]]:
+        """The last measurement [m], shape (nworld * rows, samples), and when of each [ns]."""
+        return np.asarray(self.measured)[:, : self.ranges.shape[1]], np.asarray(self.stamp)
+
+    def update(self, first: int, last: int, time: int) -> None:
+        """Measure with the lidars first to last."""
+        count = self.ranges.shape[1]
+        some = max(1, AT_ONCE // count)
+        begin = first
+        while begin < last:
+            end = min(begin + some, last)
+            self.cast.update(begin, end, time)
+            for m in range(begin, end):
+                measure_row(
+                    self.law, self.noise, m, self.ranges[m], count, self.offset, self.measured[m]
+                )
+                self.stamp[m] = time
+            begin = end

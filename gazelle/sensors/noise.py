@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Noise
 from gazelle.streams import Stream
 
@@ -57,14 +57,38 @@ class NoiseModel:
         self._spread = bool(self._stddev.any())
         self._active = self._noise.type != "none" or self._spread
 
-    @property
-    def white(self) -> tuple[Floats, NDArray[np.uint64], NDArray[np.uint64]]:
-        """What white noise is drawn with, to be used in place by native code.
+    def tables(
+        self, worlds: Worlds | None = None
+    ) -> tuple[Floats, NDArray[np.uint64], NDArray[np.uint64], Floats]:
+        """What native code draws noise with, but for drifts: in place, or copies for some worlds.
 
         Returns:
-            Standard deviations, shape (nworld, 1), and the keys and counters of the stream.
+            Standard deviations, shape (n,), keys and counters of the stream, and the constant bias
+            of each channel, shape (n, channels), or no rows if there is none.
         """
-        return self._stddev, self._stream.keys, self._stream.counters
+        stream, rows = self._stream, slice(None) if worlds is None else worlds
+        bias = self._bias[rows] if self._biased else self._bias[:0]
+        return self._stddev[rows, 0], stream.keys[rows], stream.counters[rows], bias
+
+    def follow(self, worlds: Worlds, counters: UInts64) -> None:
+        """Go on after so many numbers in some worlds, shape (n,)."""
+        self._stream.counters[worlds] = counters
+
+    def move(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
+        """Keep what it has in other arrays from now on, as one row of many models' tables.
+
+        Args:
+            stddev: Shape (nworld, 1).
+            keys: Shape (nworld,).
+            counters: Shape (nworld,).
+            bias: Shape (nworld, channels); not looked at if it has no constant bias.
+        """
+        stddev[:] = self._stddev
+        self._stddev = stddev
+        self._stream.move(keys, counters)
+        if self._biased:
+            bias[:] = self._bias
+            self._bias = bias
 
     @property
     def drifts(self) -> bool:
@@ -74,9 +98,9 @@ class NoiseModel:
         return self._active and changes
 
     @property
-    def bias(self) -> Floats:
-        """The constant bias of each channel, shape (nworld, channels), or no rows if there is none."""
-        return self._bias if self._biased else self._bias[:0]
+    def biased(self) -> bool:
+        """Whether it has a constant bias."""
+        return self._biased
 
     @property
     def rounding(self) -> tuple[float, float]:
@@ -97,6 +121,8 @@ class NoiseModel:
         if worlds is None:
             self._stream.rewind()
             self._bias_stream.rewind()
+        if not self._active:
+            return
         self._drift[slice(None) if worlds is None else worlds] = 0.0
         self._draw_bias(worlds)
 

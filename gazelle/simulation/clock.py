@@ -99,6 +99,12 @@ class Schedule:
         self._count = value
         self.due_ns = 0 if self.rate <= 0.0 else round(value * NANOSECONDS / self.rate)
 
+    def copy(self) -> Schedule:
+        """One that is due at the same times."""
+        made = Schedule(self.rate)
+        made.count = self.count
+        return made
+
     def follow(self, due_ns: int) -> None:
         """Go on as a system that is due at a time [ns] now."""
         if self.rate > 0.0 and due_ns != self.due_ns:

@@ -81,6 +81,7 @@ class EntityManager:
         robot = Robot(self._simulation, model, namespace, stage)
         self.robots[model.name] = robot
         self.sensors.extend(robot.sensors.values())
+        self._simulation.requests.changes += 1
         adopt(self._simulation, model, robot, stage)
         return robot
 
@@ -107,6 +108,7 @@ class EntityManager:
             SimulationError: There is no such model.
         """
         simulation = self._simulation
+        simulation.requests.changes += 1
         if name not in {model.name for model in simulation.engine.world.models}:
             raise SimulationError(
                 f"there is no model '{name}'", hint=did_you_mean(name, self.robots)

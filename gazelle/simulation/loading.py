@@ -114,7 +114,7 @@ def _start(
         ports.back_to(opened)
         warn_of_fault(loaded, name, "while loading and is left out", error, plugin.source)
         return
-    simulation.plugins.append(make_scheduled(loaded, plugin.name, owner))
+    simulation.plugins.append(make_scheduled(loaded, plugin.name, owner, simulation.requests))
 
 
 def _fits(found: type[Plugin], kind: type[Plugin], name: str, plugin: description.Plugin) -> bool:

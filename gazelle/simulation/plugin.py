@@ -7,8 +7,8 @@ its state is arrays with a leading axis over worlds.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Hashable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,19 @@ class Plugin:
         that run systems ask: ``Simulation.native``.
         """
         return None
+
+    def kind(self) -> Hashable | None:
+        """Equal for plugins of one class that ``together`` makes one system of; None for none.
+
+        It is asked when somebody subscribed to an output or ended that, and when models came or
+        went, not between. What such plugins do must not depend on each other.
+        """
+        return None
+
+    @classmethod
+    def together(cls, plugins: Sequence[Any]) -> System:
+        """One system for plugins of one kind that are due together, in the place of each one's."""
+        raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
 
     def on_update(self, time: float) -> None:
         """Act; called at ``update_rate``.

@@ -247,7 +247,18 @@ class Output(StatePart, Generic[T]):
     def subscribe(self, listener: Callable[[T], None]) -> Callable[[], None]:
         """Call a function with every value published; returns what ends it."""
         self._listeners.append(listener)
-        return lambda: self._listeners.remove(listener)
+        self._note()
+        return lambda: self._end(listener)
+
+    @between_steps
+    def _end(self, listener: Callable[[T], None]) -> None:
+        self._listeners.remove(listener)
+        self._note()
+
+    def _note(self) -> None:
+        """Let it be known that somebody else listens now."""
+        if self._requests is not None:
+            self._requests.changes += 1
 
     @between_steps
     def publish(self) -> None:

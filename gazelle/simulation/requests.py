@@ -35,6 +35,7 @@ class RequestQueue:
         owner: Identifier of the thread that owns the state; 0 for nobody.
         waiting: What was asked for and is not done yet.
         closed: Whether nothing can be asked for any more.
+        changes: How often it changed who listens, what is awake, or what there is.
     """
 
     def __init__(self) -> None:
@@ -43,6 +44,7 @@ class RequestQueue:
         self._depth = 0
         self.waiting: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
         self.closed = False
+        self.changes = 0
         self._reason = ""
 
     @property

@@ -125,6 +125,7 @@ def _put_back(
     simulation.seed = header["seed"]
     simulation.loads.restore(decode(header["loads"]))
     simulation.parameters.restore(decode(header["parameters"]))
+    simulation.loop.release()
     for entry, count in zip(simulation.plugins, header["due"], strict=True):
         if entry.schedule is not None:
             entry.schedule.count = count

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Sensor
-from gazelle.sensors import SensorModel
+from gazelle.native.system import System
+from gazelle.sensors import LidarModel, SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
@@ -49,6 +50,8 @@ class SensorUnit:
         self._stamp = 0
         self._awake = False
         self._listeners: list[Callable[[SensorUnit], None]] = []
+        self._group: SensorGroup | None = None
+        self._part = self._seen = 0
 
     @property
     def model(self) -> SensorModel:
@@ -64,6 +67,7 @@ class SensorUnit:
     def slow_to(self, rate: float) -> None:
         """Measure no more often than a rate [Hz]; 0 changes nothing."""
         if rate > 0.0 and not 0.0 < self.schedule.rate <= rate:
+            self._stand_alone()
             self.schedule.rate = rate
 
     @between_steps
@@ -82,7 +86,9 @@ class SensorUnit:
     @between_steps
     def latest(self) -> NDArray[Any]:
         """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
-        self._awake = True
+        if not self._awake:
+            self._awake = True
+            self._requests.changes += 1
         return self.current()
 
     @between_steps
@@ -90,6 +96,7 @@ class SensorUnit:
         """The same without waking it: measured now if it sleeps or never measured."""
         if not self.awake:
             return self.measure()
+        self._catch_up()
         if self._values is None:
             return self.update(self.robot.simulation.clock.now_ns)
         if len(self._stale):
@@ -101,13 +108,20 @@ class SensorUnit:
     @between_steps
     def reading(self, values: NDArray[Any]) -> Any:
         """Values by name."""
+        self._catch_up()
         return self._model.reading(values, self._stamp)
 
     @between_steps
     def subscribe(self, listener: Callable[[SensorUnit], None]) -> Callable[[], None]:
         """Call a function after every measurement; returns what ends it."""
         self._listeners.append(listener)
-        return lambda: self._listeners.remove(listener)
+        self._requests.changes += 1
+        return lambda: self._end(listener)
+
+    @between_steps
+    def _end(self, listener: Callable[[SensorUnit], None]) -> None:
+        self._listeners.remove(listener)
+        self._requests.changes += 1
 
     @between_steps
     def update(self, now_ns: int) -> NDArray[Any]:
@@ -130,16 +144,20 @@ class SensorUnit:
 
         Readings of the other worlds stay as they are, so that they do not depend on who is reset.
         """
+        self._catch_up()
         self._model.reset(worlds)
         if worlds is not None:
-            self._stale = np.union1d(self._stale, worlds)
+            if self._values is not None:
+                self._stale = np.union1d(self._stale, worlds)
             return
+        self._requests.changes += 1
         self._values, self._stale, self._stamp, self._awake = None, _NO_WORLDS, 0, False
         self.schedule.done(self.robot.simulation.clock.now_ns)
 
     @between_steps
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
+        self._catch_up()
         state = dict(self._model.state())
         state["stamp"] = np.array([self._stamp, int(self._awake), self.schedule.count])
         state["stale"] = self._stale
@@ -150,6 +168,7 @@ class SensorUnit:
     @between_steps
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
+        self._stand_alone()
         own = dict(state)
         stamp = own.pop("stamp")
         values: Any = own.pop("values", None)
@@ -162,10 +181,91 @@ class SensorUnit:
         self._values = values
         self.schedule.count = int(stamp[2])
 
+    # -- measuring together ------------------------------------------------------------
+
+    def kind(self) -> Hashable | None:
+        """Equal for those that a ``SensorGroup`` measures together now; None for none."""
+        if self._listeners or self._values is None or not isinstance(self._model, LidarModel):
+            return None
+        kind = self._model.kind()
+        return None if kind is None else (kind, self.schedule.rate, self.schedule.due_ns)
+
+    def join(self, group: SensorGroup, part: int) -> None:
+        """Be measured by a group."""
+        self._group, self._part, self._seen = group, part, group.count
+        self.schedule = group.schedule
+
+    def leave(self) -> None:
+        """Be measured by itself again, with what was measured last."""
+        self._catch_up()
+        if self._group is not None:
+            self.schedule = self._group.schedule.copy()
+        self._group = None
+
+    def _catch_up(self) -> None:
+        """Take over what the group measured meanwhile."""
+        group = self._group
+        if group is not None and self._seen != group.count:
+            self._seen, self._stale = group.count, _NO_WORLDS
+            self._values, self._stamp = group.reading(self._part)
+
+    def _stand_alone(self) -> None:
+        """Be in no group from now on, until they are made anew."""
+        if self._group is not None:
+            self._group.release()
+        self._requests.changes += 1
+
     def _period(self) -> float:
         if self.schedule.rate > 0.0:
             return 1.0 / self.schedule.rate
         return self.robot.simulation.clock.step_ns / NANOSECONDS
+
+
+class SensorGroup:
+    """Sensors whose readings are rows of one table while nobody listens to them in Python.
+
+    Args:
+        units: They are awake, due at one time and of one ``SensorUnit.kind``.
+
+    Attributes:
+        units: The sensors.
+        schedule: Of all of them.
+        count: Measurements so far.
+    """
+
+    def __init__(self, units: Sequence[SensorUnit]) -> None:
+        self.units, self.count = units, 0
+        models = [unit.model for unit in units]
+        self._lidars = LidarModel.together(
+            [each for each in models if isinstance(each, LidarModel)]
+        )
+        self.schedule = units[0].schedule.copy()
+        system = self._lidars.system
+        system.late, system.rate, system.due = True, self.schedule.rate, self.schedule.due_ns
+        for part, unit in enumerate(units):
+            unit.join(self, part)
+
+    @property
+    def system(self) -> System:
+        """What measures."""
+        return self._lidars.system
+
+    def follow(self) -> None:
+        """See whether the system has measured."""
+        due = self.system.due
+        if due != self.schedule.due_ns or self.schedule.rate <= 0.0:
+            self.schedule.follow(due)
+            self.count += 1
+
+    def reading(self, part: int) -> tuple[Floats, int]:
+        """The last measurement of a sensor, a copy of shape (nworld, channels), and when [ns]."""
+        values, stamp = self._lidars.latest
+        return np.ascontiguousarray(values[:, part]), int(stamp[0, part])
+
+    def release(self) -> None:
+        """Let each be measured by itself again."""
+        for unit in self.units:
+            unit.leave()
 
 
 class SensorOutput(Output[Any]):

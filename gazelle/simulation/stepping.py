@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,8 @@ from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.plugin_errors import warn_of_fault
-from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.requests import RequestQueue
+from gazelle.simulation.sensors import SensorGroup, SensorUnit
 
 T = TypeVar("T")
 
@@ -30,16 +31,23 @@ class ScheduledPlugin:
     name: str
     owner: str
     schedule: Schedule | None
+    requests: RequestQueue | None = None
     detached: bool = False
 
     def detach(self, error: Exception, when: str) -> None:
         """Go on without it."""
         self.schedule, self.detached = None, True
+        if self.requests is not None:
+            self.requests.changes += 1
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
 
     def system(self) -> System | None:
         """What is updated in its place now."""
         return self._ask(self.plugin.system, "when asked for its system")
+
+    def kind(self) -> Hashable | None:
+        """What it has in common with those that are updated together with it."""
+        return self._ask(self.plugin.kind, "when asked for its kind")
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Let it begin anew."""
@@ -72,19 +80,143 @@ def title(name: str, owner: str) -> str:
     return f"plugin '{name}' of '{owner}'" if owner else f"plugin '{name}'"
 
 
-def make_scheduled(plugin: Plugin, name: str, owner: str) -> ScheduledPlugin:
+def make_scheduled(
+    plugin: Plugin, name: str, owner: str, requests: RequestQueue | None = None
+) -> ScheduledPlugin:
     """A plugin with the schedule it asks for, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)
-    return ScheduledPlugin(plugin, name, owner, schedule)
+    return ScheduledPlugin(plugin, name, owner, schedule, requests)
+
+
+class PluginGroup:
+    """Plugins of one kind that are due together, updated by one system.
+
+    Args:
+        entries: The plugins, in the order they were loaded; they share one schedule.
+        system: What is updated in their place.
+    """
+
+    def __init__(self, entries: Sequence[ScheduledPlugin], system: System) -> None:
+        self._entries, self._system = entries, system
+        self.schedule: Schedule | None = (entries[0].schedule or Schedule(0.0)).copy()
+        for entry in entries:
+            entry.schedule = self.schedule
+
+    def system(self) -> System:
+        """What is updated in the plugins' place."""
+        return self._system
+
+    def release(self) -> None:
+        """Give each plugin a schedule of its own."""
+        for entry in self._entries:
+            if entry.schedule is self.schedule and self.schedule is not None:
+                entry.schedule = self.schedule.copy()
+
+
+class StepPlan:
+    """Who is asked and updated between steps, until somebody subscribes or models come or go.
+
+    Args:
+        plugins: All, in the order they were loaded.
+        sensors: All.
+        native: Whether the engine updates systems.
+        alone: Whether sensors are measured from Python all the same.
+
+    Attributes:
+        plugins: What is updated in turn, groups in the place of their first plugin.
+        sensors: What is measured from Python: those awake that are in no group.
+        groups: Of sensors.
+    """
+
+    def __init__(
+        self,
+        plugins: Iterable[ScheduledPlugin],
+        sensors: Iterable[SensorUnit],
+        *,
+        native: bool,
+        alone: bool = False,
+    ) -> None:
+        self.sensors = [unit for unit in sensors if unit.awake]
+        self.groups: list[SensorGroup] = []
+        if native and not alone:  # sensors first: asking for their kind may change the engine
+            self._group_sensors()
+        entries = list(plugins)
+        self.plugins: list[ScheduledPlugin | PluginGroup] = [*entries]
+        if native:
+            self.plugins = _with_groups(entries)
+
+    def release(self) -> None:
+        """Let everything be updated by itself again."""
+        for each in self.plugins:
+            if isinstance(each, PluginGroup):
+                each.release()
+        for group in self.groups:
+            group.release()
+
+    def _group_sensors(self) -> None:
+        kinds: dict[Hashable, list[SensorUnit]] = {}
+        for unit in self.sensors:
+            kind = unit.kind()
+            if kind is not None:
+                kinds.setdefault(kind, []).append(unit)
+        self.groups = [SensorGroup(units) for units in kinds.values()]
+        grouped = {id(unit) for group in self.groups for unit in group.units}
+        self.sensors = [unit for unit in self.sensors if id(unit) not in grouped]
+
+
+def _with_groups(entries: Sequence[ScheduledPlugin]) -> list[ScheduledPlugin | PluginGroup]:
+    """Plugins, those of one kind as a group in the place of the first of them."""
+    kinds: dict[Hashable, list[ScheduledPlugin]] = {}
+    for entry in entries:
+        kind = entry.kind()
+        if kind is not None and entry.schedule is not None:
+            kinds.setdefault((type(entry.plugin), kind, *_due(entry.schedule)), []).append(entry)
+    first: dict[int, PluginGroup] = {}
+    others: set[int] = set()
+    for some in kinds.values():
+        system = _together(some)
+        if system is not None:
+            first[id(some[0])] = PluginGroup(some, system)
+            others.update(id(entry) for entry in some[1:])
+    return [first.get(id(entry), entry) for entry in entries if id(entry) not in others]
+
+
+def _together(entries: Sequence[ScheduledPlugin]) -> System | None:
+    """One system for plugins; None, with a warning, if they cannot make it."""
+    plugin = entries[0].plugin
+    try:
+        return type(plugin).together([entry.plugin for entry in entries])
+    except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+        name = title(entries[0].name, entries[0].owner)
+        warn_of_fault(plugin, name, "in together(), and is updated alone", error)
+        return None
+
+
+def _due(schedule: Schedule) -> tuple[float, int]:
+    return schedule.rate, schedule.due_ns
+
+
+class Updated(Protocol):
+    """What may be updated by a system."""
+
+    @property
+    def schedule(self) -> Schedule | None:
+        """When it is due; None for never."""
+
+    def system(self) -> System | None:
+        """What is updated in its place now."""
+
+
+E = TypeVar("E", bound=Updated)
 
 
 def with_systems(
-    plugins: Iterable[ScheduledPlugin],
-) -> tuple[list[System], list[Schedule], list[ScheduledPlugin]]:
+    plugins: Iterable[E],
+) -> tuple[list[System], list[Schedule], list[E]]:
     """The systems that are updated in place of plugins, their schedules, and the other plugins."""
     systems: list[System] = []
     schedules: list[Schedule] = []
-    others: list[ScheduledPlugin] = []
+    others: list[E] = []
     for entry in plugins:
         schedule = entry.schedule
         system = None if schedule is None else entry.system()
@@ -149,4 +281,5 @@ def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None
     """
     if worlds is None:
         return None
-    return np.unique(np.asarray(chosen(worlds, nworld)))
+    some = np.asarray(chosen(worlds, nworld))
+    return some if (some[1:] > some[:-1]).all() else np.unique(some)

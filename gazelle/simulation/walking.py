@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,8 @@ from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.stepping import (
+    ScheduledPlugin,
+    StepPlan,
     steps_to_next,
     update_plugins,
     update_sensors,
@@ -56,6 +58,8 @@ class StepLoop:
         self._loads = loads
         self._entities = simulation.entities
         self._faults = faults
+        self._plan = StepPlan((), (), native=False)
+        self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
         self._schedules: list[Schedule] = []
         self._most = 1
@@ -111,10 +115,12 @@ class StepLoop:
 
     def _advance(self, most: int) -> int:
         """Do what is due, then step towards the next thing that will be; returns the steps."""
-        clock, entities, loads = self._simulation.clock, self._entities, self._loads
-        plugins, sensors = entities.plugins, entities.sensors
+        clock, loads = self._simulation.clock, self._loads
+        plan = self._renew()
+        plugins: Sequence[ScheduledPlugin] = self._entities.plugins
         if self._simulation.native is not None:
-            self._systems, self._schedules, plugins = with_systems(plugins)
+            self._systems, self._schedules, others = with_systems(plan.plugins)
+            plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
         update_plugins(plugins, clock)
         if self._simulation.requests.closed:
             raise SimulationError(CLOSED)
@@ -123,7 +129,7 @@ class StepLoop:
         if self.followers or self._listeners:
             most = 1
         # Nothing is due within a single step: nobody need be asked.
-        steps = 1 if most == 1 else steps_to_next(plugins, sensors, clock, most)
+        steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
@@ -143,19 +149,48 @@ class StepLoop:
         """After steps: move what follows, measure, tell who listens."""
         for follower in tuple(self.followers):
             follower()
-        update_sensors(self._entities.sensors, self._simulation.clock.now_ns)
+        update_sensors(self._plan.sensors, self._simulation.clock.now_ns)
         for listener in tuple(self._listeners):
             listener()
+
+    def _renew(self) -> StepPlan:
+        """The plan, made anew if it no longer holds."""
+        simulation, entities = self._simulation, self._entities
+        native = simulation.native
+        count = len(entities.plugins)
+        # What follows moves before sensors measure, so that Python comes between.
+        changes = simulation.requests.changes, bool(self.followers), count
+        now = *changes, -1 if native is None else native.revision
+        if self._planned != now:
+            self.release()
+            self._plan = StepPlan(
+                entities.plugins,
+                entities.sensors,
+                native=native is not None,
+                alone=bool(self.followers),
+            )
+            # Asking who can be grouped may change the engine.
+            self._planned = *changes, -1 if native is None else native.revision
+        return self._plan
+
+    def release(self) -> None:
+        """Let everything be updated by itself, until a new plan is made."""
+        self._plan.release()
+        self._planned = None
 
     def _step(self, count: int) -> None:
         """Make steps, and update systems whenever they are due."""
         native = self._simulation.native
+        groups = self._plan.groups
         if native is None:
             self._engine.step(count)
             return
-        native.run(self._systems, count, self._simulation.clock.now_ns)
+        systems = [*self._systems, *(each.system for each in groups)]
+        native.run(systems, count, self._simulation.clock.now_ns)
         for schedule, system in zip(self._schedules, self._systems, strict=True):
             schedule.follow(system.due)
+        for group in groups:
+            group.follow()
 
     def _step_piece(self, wanted: int) -> int:
         """Make as many steps at once as are not too long; returns how many."""

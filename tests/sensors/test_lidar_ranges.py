@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.sensors.lidar_ranges import RangeLaw
+from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.streams import Stream
 
 TRUE = st.one_of(st.floats(0.0, 9.0), st.just(np.inf), st.just(-np.inf))
@@ -24,9 +24,10 @@ def test_a_report_is_noise_rounding_and_limits(ranges, precision, quantum, devia
     true = np.array([ranges, ranges])
     stream, same = Stream(3, "lidar", 2), Stream(3, "lidar", 2)
     bias = np.full(true.shape, 0.02)[: 2 if biased else 0]
-    law = RangeLaw(len(ranges), 0.1, 5.0, quantum, 0.01, precision)
-    measured, spread = np.empty(true.shape), np.array([[deviation], [0.0]])
-    law.measure(true, 0.5, spread, bias, stream.keys, stream.counters, measured)
+    law = RangeLaw(0.1, 5.0, quantum, 0.01, precision)
+    measured, spread = np.empty((2, len(ranges) + len(ranges) % 2)), np.array([deviation, 0.0])
+    measure(law, LidarNoise(spread, stream.keys, stream.counters, bias), true, 0.5, measured)
+    measured = measured[:, : len(ranges)]
 
     wanted = true + 0.5 + 0.01 + (0.02 if biased else 0.0)
     if deviation:

@@ -23,6 +23,7 @@ from gazelle.engines.mujoco.order import (
 )
 from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.views import StateViews
+from gazelle.engines.range_rays import RangeRays
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate, turns, yaw_of
 
@@ -335,11 +336,9 @@ class StateAccess(ABC):
             return behind(self._batch, start, along, worlds, own)
         return nearest(self._batch, start, along, worlds, body)[0]
 
-    def cast_ranges(
-        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
-    ) -> tuple[Floats, float]:
+    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
         """Follow rays of a range finder; see the protocol."""
-        hits = self.cast_rays(link, origins, directions, worlds)
+        hits = self.cast_rays(rays.link, rays.origins, rays.directions, worlds)
         return np.where(hits.from_inside, -np.inf, hits.distance), 0.0
 
     def _refresh(self) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -16,8 +17,11 @@ from gazelle.engines.engine import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import Layout
+from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.rays import Caster, caster_of
+from gazelle.engines.planar.rays import Caster, RayFan, caster_of, fan_of
+from gazelle.engines.range_rays import RangeRays
+from gazelle.engines.system_engine import CastRanges
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, yaw_of
 
@@ -58,8 +62,8 @@ class PlanarAccess(ABC):
     _angles: Floats
     _rates: Floats
     _targets: Floats
-    _casters: dict[tuple[str, bytes, bytes], _Kept]
-    _recent: dict[tuple[str, int, int], _Kept]
+    _casters: dict[tuple[str, bytes, bytes, float], _Kept]
+    _recent: dict[tuple[str, int, int, float], _Kept]
 
     @abstractmethod
     def make_kinematic(self, model: str) -> None:
@@ -253,14 +257,12 @@ class PlanarAccess(ABC):
         distance, inside = self.caster(link, origins, directions).cast(worlds)
         return Hits(distance, inside)
 
-    def cast_ranges(
-        self, link: str, origins: Floats, directions: Floats, worlds: Worlds | None = None
-    ) -> tuple[Floats, float]:
+    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
         """Follow the level rays of a range finder; see the protocol."""
-        key = (link, id(origins), id(directions))
+        key = (rays.link, id(rays.origins), id(rays.directions), rays.reach)
         kept = self._recent.get(key)
         if kept is None or not kept.holds(self._angles):
-            kept = self._keep(link, origins, directions)
+            kept = self._keep(rays)
             self._recent = {**self._recent, key: kept} if len(self._recent) < _MOST else {key: kept}
         return kept.caster.ranges(worlds), kept.caster.begin
 
@@ -270,22 +272,48 @@ class PlanarAccess(ABC):
         Raises:
             EngineError: The rays are not level, or their link not the same in all worlds.
         """
-        return self._keep(link, origins, directions).caster
+        return self._keep(RangeRays(link, origins, directions)).caster
 
-    def _keep(self, link: str, origins: Floats, directions: Floats) -> _Kept:
+    def _keep(self, rays: RangeRays) -> _Kept:
         """A caster that is kept, or one that is from now on."""
-        key = (link, origins.tobytes(), directions.tobytes())
+        link, origins, directions = rays.link, rays.origins, rays.directions
+        key = (link, origins.tobytes(), directions.tobytes(), rays.reach)
         kept = self._casters.get(key)
         if kept is not None and kept.holds(self._angles):
             return kept if kept.of is origins else replace(kept, of=origins, along=directions)
-        caster = self._new_caster(link, origins, directions)
+        caster = caster_of(self._fleet, self._rays_on_body(rays))
         model = self._owner(link)
         columns = self._layout.columns[model] + self._model(model).skeleton.columns_of(link)
         angles = self._angles[:, columns].copy() if len(columns) else self._angles[:0]
         kept = self._casters[key] = _Kept(caster, columns, angles, origins, directions)
         return kept
 
-    def _new_caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
+    def ranges_kind(self, rays: RangeRays) -> Hashable | None:
+        """Equal for rays that are cast together; see ``SystemEngine``."""
+        try:
+            found = self._rays_on_body(rays)
+        except EngineError:
+            return None
+        skeleton = self._model(self._owner(rays.link)).skeleton
+        if len(found.mounts) > 1 or len(skeleton.columns_of(rays.link)):
+            return None
+        return found.fan, found.begin
+
+    def ranges_of(self, rays: Sequence[RangeRays]) -> CastRanges:
+        """What casts rays of one kind together; see ``SystemEngine``."""
+        fans = [self._rays_on_body(each) for each in rays]
+        scanner = Scanner(
+            self._fleet,
+            fans[0].fan,
+            [mount for each in fans for mount in each.mounts],
+            missing=math.inf,
+            signed=True,
+        )
+        return CastRanges(scanner.system, scanner.flat_ranges, fans[0].begin)
+
+    def _rays_on_body(self, rays: RangeRays) -> RayFan:
+        """Rays of a link as a fan on its body; its model has one from then on."""
+        link, origins, directions = rays.link, rays.origins, rays.directions
         model = self._owner(link)
         each = self._model(model)
         if model not in self._layout.bodies:
@@ -309,7 +337,8 @@ class PlanarAccess(ABC):
         extent = self._fleet.rows[:, :2]
         low, high = grid[:2], grid[:2] + grid[2] * grid[3:]
         span = np.maximum(high, extent.max(axis=0)) - np.minimum(low, extent.min(axis=0))
-        return caster_of(self._fleet, body, start, along, 2.0 * float(np.hypot(*span)) + 10.0)
+        farthest = 2.0 * float(np.hypot(*span)) + 10.0
+        return fan_of(body, start, along, min(rays.reach, farthest))
 
     # -- finding -----------------------------------------------------------------------
 

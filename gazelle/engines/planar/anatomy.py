@@ -94,7 +94,9 @@ def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:
     """
     pose = model.pose
     yaw = pose.yaw
-    tilt = Pose(yaw=-yaw) * Pose.from_quaternion((0.0, 0.0, 0.0), pose.quaternion)
+    tilt = Pose()
+    if pose.roll != 0.0 or pose.pitch != 0.0:
+        tilt = Pose(yaw=-yaw) * Pose.from_quaternion((0.0, 0.0, 0.0), pose.quaternion)
     skeleton = skeleton_of(model, tilt, kinematic=kinematic)
     loose = not (model.static or kinematic or skeleton.held)
     z = _grounded(model, skeleton, tilt) if loose else pose.z

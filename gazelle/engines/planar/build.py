@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
-from gazelle.engines.planar.anatomy import Anatomies, Anatomy, body_of, levels_of, statics_of
+from gazelle.engines.planar.anatomy import Anatomies, body_of, levels_of, statics_of
 from gazelle.engines.planar.cuts import Levels
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import joined, primitives_of
 from gazelle.engines.planar.stage_layout import StageLayout, layout_of
-from gazelle.engines.planar.wheels import Wheel, grouped, rolling
+from gazelle.engines.planar.wheels import driven, rolling
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,6 @@ class Layout:
         owners: The model of each link, by scoped name.
         joints: First column and number of axes of each joint, by scoped name.
         columns: First column of each model's joints.
-        rollings: Bases with motors on their wheels.
         levels: Heights at which shapes are cut.
         limits: Least and greatest value of each joint axis, shape (2, axes).
         stage: Models of Stage files, which move and are seen as in Stage.
@@ -73,7 +72,6 @@ class Layout:
     owners: dict[str, str]
     joints: dict[str, tuple[int, int]]
     columns: dict[str, int]
-    rollings: tuple[RollingBase, ...]
     levels: Levels
     limits: Floats
     stage: StageLayout
@@ -111,7 +109,7 @@ def build(recipe: Recipe, nworld: int, threads: int | None) -> tuple[Fleet, Layo
     robots = {robot.name for robot in stage.robots}
     kinematic = recipe.kinematic.union(name for name in stage.names if name not in robots)
     models = Anatomies(recipe.world.models, kinematic)
-    return fleet, _layout_of(models, list(anatomies), names, recipe.motors, levels, stage)
+    return fleet, _layout_of(models, list(anatomies), names, levels, stage)
 
 
 def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
@@ -133,11 +131,26 @@ def _heights_of(stage: StageLayout) -> frozenset[float]:
     )
 
 
+def rolling_bases(layout: Layout, motors: Iterable[str]) -> list[RollingBase]:
+    """The bases with motors on their wheels, which are in the motors' order."""
+    order = {name: place for place, name in enumerate(motors)}
+    bases = []
+    owners = {joint.split("::", 1)[0] for joint in order}
+    for name, index in layout.bodies.items():
+        if name not in owners:
+            continue
+        own = layout.models[name]
+        wheels = driven(own.skeleton.wheels, order) if own.loose else ()
+        if wheels:
+            columns = np.array([layout.joints[wheel.joint][0] for wheel in wheels])
+            bases.append(RollingBase(index, columns, rolling(wheels)))
+    return bases
+
+
 def _layout_of(
     models: Anatomies,
     jointed: Iterable[str],
     movers: list[str],
-    motors: Iterable[str],
     levels: Levels,
     stage: StageLayout,
 ) -> Layout:
@@ -150,17 +163,5 @@ def _layout_of(
             joints[hinge.name] = (len(limits), len(hinge.joint.axes))
             limits += [(axis.lower, axis.upper) for axis in hinge.joint.axes]
     bodies = {name: index for index, name in enumerate(movers)}
-    wanted = list(motors)
-    rollings = []
-    for name in jointed:
-        wheels = _wheels_of(models[name], wanted) if name in bodies else ()
-        if wheels:
-            own = np.array([joints[wheel.joint][0] for wheel in wheels])
-            rollings.append(RollingBase(bodies[name], own, rolling(wheels)))
     bounds = np.array(limits).reshape(-1, 2).T.copy()
-    rolled = tuple(rollings)
-    return Layout(models, bodies, models.owners(), joints, columns, rolled, levels, bounds, stage)
-
-
-def _wheels_of(each: Anatomy, motors: list[str]) -> tuple[Wheel, ...]:
-    return grouped(each.skeleton.wheels, motors) if each.loose else ()
+    return Layout(models, bodies, models.owners(), joints, columns, levels, bounds, stage)

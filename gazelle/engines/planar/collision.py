@@ -48,6 +48,8 @@ from cython.cimports.libc.math import sqrt
 
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
+FEW = cython.declare(cython.Py_ssize_t, 16)  # statics up to which all are gone through at once
+
 
 def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radius: float) -> bool:
     """Whether a disc meets a segment."""
@@ -155,7 +157,7 @@ def any_near(w: Bodies, x: float, y: float, radius: float) -> bool:
 def statics_meet(w: Bodies, b: int, k: int) -> bool:
     """Whether body b, of kind k, at its goal meets anything static."""
     x, y, r = w.goal[b, X], w.goal[b, Y], w.kinds[k, RADIUS]
-    if w.lanes.shape[1] > 0 and not any_near(w, x, y, r):
+    if 0 < w.lanes.shape[1] <= FEW and not any_near(w, x, y, r):
         return False
     left = place_in(x - r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
     right = place_in(x + r, w.near_grid[0], w.near_grid[2], w.near_grid[3])

@@ -16,7 +16,7 @@ from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.access import PlanarAccess, rows_of
-from gazelle.engines.planar.build import Layout, Recipe, build
+from gazelle.engines.planar.build import Layout, Recipe, build, rolling_bases
 from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.paths import PathFollower
@@ -27,6 +27,7 @@ from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 
 NANOSECONDS = 1_000_000_000
+_WORTH = 4  # times what is worth a thread: from so much work on other threads are woken for it
 
 # Columns of a snapshot for each body: its row, command, velocity, stall. The row holds the cosine
 # and sine of the heading too, which steps advance by themselves.
@@ -85,14 +86,14 @@ class PlanarEngine(Refusals, PlanarAccess):
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
         self._casters, self._recent = {}, {}
-        self._joints = self._joints_of(layout)
         self._loops: tuple[Sequence[System], SystemLoop] | None = None
         self._before: tuple[System, ...] = ()
         self._after: tuple[System, ...] = ()
 
-    def _joints_of(self, layout: Layout) -> Joints:
+    def _joints(self) -> Joints:
         """Joints and rolling bases as kernels see them."""
-        bases = layout.rollings
+        layout = self._layout
+        bases = rolling_bases(layout, self._recipe.motors)
         return Joints(
             angles=self._angles,
             rates=self._rates,
@@ -107,10 +108,12 @@ class PlanarEngine(Refusals, PlanarAccess):
     def _loop_of(self, systems: Sequence[System]) -> SystemLoop:
         """What makes steps with these systems; kept for the next time."""
         if self._loops is None or self._loops[0] != systems:
-            fleet, joints = self._fleet, self._joints
+            fleet, joints = self._fleet, self._joints()
             last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
-            first = [*systems, *self._before, Rolling(fleet.bodies, joints)]
-            made = [*first, *fleet.systems(), *last, *self._after]
+            early = [each for each in systems if not each.late]
+            late = [each for each in systems if each.late]
+            first = [*early, *self._before, Rolling(fleet.bodies, joints)]
+            made = [*first, *fleet.systems(), *last, *self._after, *late]
             self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.pool)
         return self._loops[1]
 
@@ -203,8 +206,16 @@ class PlanarEngine(Refusals, PlanarAccess):
         loop = self._loop_of(systems)
         loop.step = round(self._fleet.time_step * NANOSECONDS)
         loop.time = now_ns
-        loop.run(now_ns + count * loop.step, self._fleet.threads)
-        self._fleet.changes += 1
+        fleet = self._fleet
+        heavy = any(fleet.nworld * each.rows >= _WORTH * each.least > _WORTH for each in systems)
+        loop.run(now_ns + count * loop.step, 0 if heavy else fleet.threads)
+        fleet.changes += 1
+
+    def update(self, system: System) -> None:
+        """Update a system now, whatever its rate, on all threads."""
+        fleet = self._fleet
+        rows = fleet.nworld * system.rows
+        fleet.pool.share(lambda first, last, _: system.bring(first, last, 0), rows, system.least)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""
@@ -285,7 +296,10 @@ class PlanarEngine(Refusals, PlanarAccess):
         most = float(np.asarray(max_effort, np.float64).reshape(-1)[0])
         if not most > 0.0:
             raise EngineError(f"the largest effort of a motor must be positive, not {most:g}")
-        self._change(replace(self._recipe, motors={**self._recipe.motors, joint: most}))
+        self._recipe = replace(self._recipe, motors={**self._recipe.motors, joint: most})
+        held = self._targets[:, axes.start]
+        held[np.isnan(held)] = 0.0
+        self._loops = None
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``."""

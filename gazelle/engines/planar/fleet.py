@@ -312,7 +312,7 @@ class Fleet:
         """Put worlds back to how they were made: poses, rest, no commands."""
         which = np.arange(self.nworld) if worlds is None else worlds
         rows = (which[:, None] * self.nbody + np.arange(self.nbody)).ravel()
-        self.rows[rows] = np.tile(self.initial, (len(which), 1))
+        self.rows.reshape(self.nworld, *self.initial.shape)[which] = self.initial
         self._command[rows], self._velocity[rows], self._stalled[rows] = 0.0, 0.0, False
         self._relink(rows)
 

@@ -15,6 +15,7 @@ from gazelle.errors import EngineError
 
 _LEVEL = 1e-6
 _EQUAL = 1e-7
+_MARGIN = 1e-6  # of how far rays go: rounding leaves nothing out
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +48,29 @@ class Caster:
         return np.where(names == 0.0, np.inf, flat - self.begin), names < 0.0
 
 
-def caster_of(fleet: Fleet, body: int, origins: Floats, directions: Floats, reach: float) -> Caster:
-    """What casts rays that move with a body.
+@dataclass(frozen=True, slots=True)
+class RayFan:
+    """Rays that move with a body, as beams of one fan on one or more places.
+
+    Attributes:
+        fan: The beams.
+        mounts: Where they start.
+        begin: Distance of where rays begin from where the fan does [m].
+    """
+
+    fan: Fan
+    mounts: tuple[Mount, ...]
+    begin: float
+
+
+def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayFan:
+    """The fan that rays are.
 
     Args:
-        fleet: What they meet.
         body: Its index.
         origins: In the body's frame [m], shape (rays, 3).
         directions: Unit vectors in the body's frame, shape (rays, 3).
-        reach: How far there can be something [m].
+        reach: How far they go [m].
 
     Raises:
         EngineError: The rays do not lie in one level plane.
@@ -72,18 +87,22 @@ def caster_of(fleet: Fleet, body: int, origins: Floats, directions: Floats, reac
     steps = np.diff(angles) % (2.0 * math.pi)
     even = len(angles) > 1 and np.ptp(steps) < _EQUAL and 0.0 < steps.sum() < 2.0 * math.pi + 1e-3
     if centre is not None and begin is not None and even:
-        fan = Fan(float(angles[0]), float(steps.mean()), len(angles), reach, begin)
-        mounts = [Mount(body, float(centre[0]), float(centre[1]), 0.0, z)]
-    else:
-        begin = 0.0
-        fan = Fan(0.0, 1.0, 1, reach)
-        mounts = [
-            Mount(body, float(x), float(y), float(angle), z)
-            for (x, y), angle in zip(origins[:, :2], angles, strict=True)
-        ]
-    named = Scanner(fleet, fan, mounts, named=True)
-    signed = Scanner(fleet, fan, mounts, missing=math.inf, signed=True)
-    return Caster(named, begin, np.arange(len(angles)), signed)
+        whole = (begin + reach) * (1.0 + _MARGIN)
+        fan = Fan(float(angles[0]), float(steps.mean()), len(angles), whole, begin)
+        return RayFan(fan, (Mount(body, float(centre[0]), float(centre[1]), 0.0, z),), begin)
+    mounts = [
+        Mount(body, float(x), float(y), float(angle), z)
+        for (x, y), angle in zip(origins[:, :2], angles, strict=True)
+    ]
+    return RayFan(Fan(0.0, 1.0, 1, reach * (1.0 + _MARGIN)), tuple(mounts), 0.0)
+
+
+def caster_of(fleet: Fleet, rays: RayFan) -> Caster:
+    """What casts rays that move with a body, among what a fleet is."""
+    named = Scanner(fleet, rays.fan, rays.mounts, named=True)
+    signed = Scanner(fleet, rays.fan, rays.mounts, missing=math.inf, signed=True)
+    count = rays.fan.count * len(rays.mounts)
+    return Caster(named, rays.begin, np.arange(count), signed)
 
 
 def _centre_of(origins: Floats, directions: Floats) -> tuple[Floats | None, float | None]:

@@ -13,7 +13,7 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
 from gazelle.engines.planar.shapes import Part, Table, primitives_of
 
-_FEW = 48  # primitives up to which all in one cell are drawn faster than they are looked for
+_FEW = 100  # primitives up to which all in one cell are drawn faster than they are looked for
 _MARGIN = 1e-9  # by which cells are larger than they are [m]
 _MOST_CELLS = 1 << 24  # of all worlds together
 _NEAR = 0.25  # side of the finer grid's cells [m]

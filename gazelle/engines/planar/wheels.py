@@ -87,6 +87,7 @@ def _radius(collision: Collision) -> float:
     return 0.0
 
 
-def grouped(wheels: Mapping[str, Wheel], motors: Sequence[str]) -> tuple[Wheel, ...]:
-    """The wheels that have motors, in the motors' order."""
-    return tuple(wheels[joint] for joint in motors if joint in wheels)
+def driven(wheels: Mapping[str, Wheel], motors: Mapping[str, int]) -> tuple[Wheel, ...]:
+    """The wheels that have motors, in the order of the numbers that those have."""
+    names = sorted((joint for joint in wheels if joint in motors), key=motors.__getitem__)
+    return tuple(wheels[joint] for joint in names)

@@ -30,7 +30,7 @@ class Sight:
         position: Of the robots in the world frame [m], shape (n, 2).
     """
 
-    ranges: Floats
+    ranges: Floats32
     nearest: Floats
     rounded: Floats
     ray: NDArray[np.intp]
@@ -56,11 +56,12 @@ def sight(
         pose: Of the robots in the world frame: x, y [m] and heading [rad], shape (n, 3).
         goal: In the world frame [m], shape (n, 2).
     """
-    cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
     # Single precision, as in a LaserScan message and in the observation: what is worked out of
     # ranges here comes out the same from those.
-    cleaned = cleaned.astype(np.float32).astype(np.float64)
-    nearest, ray = nearest_obstacle(cleaned)
+    single = ranges.astype(np.float32)
+    cleaned = clean_ranges(single, nearest=range_min, farthest=rules.range_max)
+    shortest, ray = nearest_obstacle(cleaned)
+    nearest = shortest.astype(np.float64)
     heading = heading_to(pose, pose[:, 2], goal)
     rounded, distance, heading = round2(np.stack((nearest, distance_to(pose, goal), heading)))
     return Sight(cleaned, nearest, rounded, ray, distance, heading, pose[:, :2])
