@@ -257,7 +257,7 @@ class SensorGroup:
             self.schedule.follow(due)
             self.count += 1
 
-    def reading(self, part: int) -> tuple[Floats, int]:
+    def reading(self, part: int) -> tuple[NDArray[Any], int]:
         """The last measurement of a sensor, a copy of shape (nworld, channels), and when [ns]."""
         values, stamp = self._lidars.latest
         return np.ascontiguousarray(values[:, part]), int(stamp[0, part])

@@ -116,12 +116,8 @@ class StepLoop:
     def _advance(self, most: int) -> int:
         """Do what is due, then step towards the next thing that will be; returns the steps."""
         clock, loads = self._simulation.clock, self._loads
-        plan = self._renew()
-        plugins: Sequence[ScheduledPlugin] = self._entities.plugins
-        if self._simulation.native is not None:
-            self._systems, self._schedules, others = with_systems(plan.plugins)
-            plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
-        update_plugins(plugins, clock)
+        plugins = self._update_plugins()
+        plan = self._plan
         if self._simulation.requests.closed:
             raise SimulationError(CLOSED)
         if loads.any:
@@ -145,6 +141,21 @@ class StepLoop:
         self._look_back()
         return steps
 
+    def _update_plugins(self) -> Sequence[ScheduledPlugin]:
+        """Run plugins that are due from Python; returns those that are not run by systems."""
+        simulation, asked = self._simulation, set[int]()
+        while True:
+            plan = self._renew()
+            plugins: Sequence[ScheduledPlugin] = self._entities.plugins
+            if simulation.native is not None:
+                self._systems, self._schedules, others = with_systems(plan.plugins)
+                plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
+            update_plugins([each for each in plugins if id(each) not in asked], simulation.clock)
+            # One of them may have woken a sensor, or let others come or go.
+            if simulation.requests.closed or self._planned == self._now():
+                return plugins
+            asked.update(map(id, plugins))
+
     def _look_back(self) -> None:
         """After steps: move what follows, measure, tell who listens."""
         for follower in tuple(self.followers):
@@ -155,23 +166,26 @@ class StepLoop:
 
     def _renew(self) -> StepPlan:
         """The plan, made anew if it no longer holds."""
-        simulation, entities = self._simulation, self._entities
-        native = simulation.native
-        count = len(entities.plugins)
-        # What follows moves before sensors measure, so that Python comes between.
-        changes = simulation.requests.changes, bool(self.followers), count
-        now = *changes, -1 if native is None else native.revision
+        now = self._now()
         if self._planned != now:
             self.release()
+            native, entities = self._simulation.native, self._entities
             self._plan = StepPlan(
                 entities.plugins,
                 entities.sensors,
                 native=native is not None,
+                # What follows moves before sensors measure, so that Python comes between.
                 alone=bool(self.followers),
             )
             # Asking who can be grouped may change the engine.
-            self._planned = *changes, -1 if native is None else native.revision
+            self._planned = *now[:3], -1 if native is None else native.revision
         return self._plan
+
+    def _now(self) -> tuple[int, bool, int, int]:
+        """What a plan holds for."""
+        native = self._simulation.native
+        count, changes = len(self._entities.plugins), self._simulation.requests.changes
+        return changes, bool(self.followers), count, -1 if native is None else native.revision
 
     def release(self) -> None:
         """Let everything be updated by itself, until a new plan is made."""

@@ -232,3 +232,29 @@ def test_a_hundred_robots_load_quickly_enough_to_be_tested():
     """Motors were given by building the whole world anew: a hundred robots took minutes."""
     with yard(100) as sim:
         assert sim.engine.revision == 1
+
+
+class Looker(ModelPlugin):
+    """Looks through its robot's lidar once a second, from the middle of a run on."""
+
+    update_rate = 1.0
+
+    def load(self, robot, parameters):
+        self.robot = robot
+        self.stamps = robot.simulation.looked = []
+
+    def on_update(self, time):
+        if time > 0.5:
+            self.robot.sensors["eyes"].latest()
+            self.stamps.append(self.robot.sensors["eyes"].read().stamp)
+
+
+def test_a_sensor_that_a_plugin_wakes_is_measured_at_its_rate_from_then_on():
+    register("liblooker.so", Looker)
+    plugin = "<plugin name='look' filename='liblooker.so'/>"
+    with yard(2) as sim:
+        text = robot(20).replace("<plugin name='drive'", f"{plugin}<plugin name='drive'")
+        new = sim.spawn(formats.load_string(f"<sdf version='1.7'>{text}</sdf>").models[0])
+        sim.run(2.98)
+        assert sim.looked == [1_000_000_000, 2_000_000_000]
+        assert new.sensors["eyes"].read().stamp == 2_860_000_000  # 7 Hz, on steps of 20 ms
