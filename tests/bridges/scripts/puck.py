@@ -61,9 +61,12 @@ while pub.get_num_connections() < 1:
 t = Twist()
 t.linear.y = -0.5
 pub.publish(t)
-rospy.sleep(1.0)
-o2 = rospy.wait_for_message("/puck/odom", Odometry, 60)
-print("moved", 0.3 < o.pose.pose.position.y - o2.pose.pose.position.y < 0.8)
+while True:
+    rospy.sleep(0.5)
+    o2 = rospy.wait_for_message("/puck/odom", Odometry, 60)
+    if o.pose.pose.position.y - o2.pose.pose.position.y > 0.3:
+        break
+print("moved", abs(o.pose.pose.position.x - o2.pose.pose.position.x) < 0.2)
 print(rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)("puck").status_message)
 rospy.sleep(0.3)
 pub.unregister()

@@ -25,6 +25,12 @@ class Teleporter:
     def on_states(self, msg):
         self.states = msg
 
+    def told(self):
+        if self.states is None:
+            return None
+        index = self.states.name.index(self.model)
+        return "%.1f" % self.states.pose[index].position.x
+
     def state(self, x, y, yaw):
         state = ModelState()
         state.model_name = self.model
@@ -56,10 +62,9 @@ class Teleporter:
         odd = self.state(0, 0, 0)
         odd.reference_frame = "nowhere"
         print(self.set_state(odd).status_message)
-        while self.states is None:
+        while self.told() != "0.8":  # what came last may be from before
             rospy.sleep(0.02)
-        index = self.states.name.index(self.model)
-        print("%.1f" % self.states.pose[index].position.x)
+        print(self.told())
 
 
 if __name__ == "__main__":
