@@ -136,6 +136,8 @@ def test_a_node_is_started_listed_and_ended(master):
         assert processes.running == [name]
         with Node("asker", master_uri=master.uri) as node:
             assert node.get_param("/camp/pole/colour") == "red"
+            # Then it has begun, and takes itself off the master when it is ended.
+            until(lambda: "/tf" in dict(node.master.published_topics()))
         processes.stop(name)
         until(lambda: name not in processes.nodes())
         with pytest.raises(ClientError, match="nothing called"):

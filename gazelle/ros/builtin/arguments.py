@@ -42,10 +42,14 @@ class NodeArguments:
         from gazelle.ros.rosout_log import report_on_rosout
 
         node = self._join(**keywords)
-        if rosout:
-            report_on_rosout(node)
-        for name, text in self.parameters.items():
-            node.set_param(f"~{name}", load_yaml(text))
+        try:
+            if rosout:
+                report_on_rosout(node)
+            for name, text in self.parameters.items():
+                node.set_param(f"~{name}", load_yaml(text))
+        except BaseException:
+            node.close()  # so that a node that is ended while it begins is off the master, too
+            raise
         return node
 
     def _join(self, **keywords: Any) -> Node:
