@@ -109,6 +109,8 @@ class JointHardware(SimulatedHardware):
         self._joints = tuple(setup.joints)
         names = [each.name for each in self._joints]
         self._handles = [robot.joints[name] for name in names]
+        self._names = [handle.name for handle in self._handles]
+        self._loads = robot.simulation.loads
         for handle in self._handles:
             if handle.axes != 1:
                 raise SimulationError(
@@ -197,10 +199,10 @@ class JointHardware(SimulatedHardware):
             for kind, claimed in info.claimed.items():
                 for name in claimed if kind in INTERFACES else ():
                     self._active[names.index(name)] = kind
-        for index, (old, new) in enumerate(zip(before, self._active, strict=True)):
-            if old != new:
-                self._set_effort(index, np.zeros(self.nworld))
-        if before != self._active:
+        pairs = enumerate(zip(before, self._active, strict=True))
+        left = np.array([index for index, (old, new) in pairs if old != new], np.intp)
+        if left.size:
+            self._set_efforts(left, np.zeros((self.nworld, left.size)))
             self._arrange()
 
     # -- the loop ----------------------------------------------------------------------
@@ -210,13 +212,14 @@ class JointHardware(SimulatedHardware):
         if not self._handles:
             return
         states = self.states
-        measured = np.concatenate([each.positions() for each in self._handles], axis=1)
+        engine = self.robot.simulation.engine
+        measured = np.concatenate([engine.joint_position(name) for name in self._names], axis=1)
         onward = states.position + shortest(states.position, measured)
         states.position[:] = np.where(self._turning, onward, measured)
         states.effort[:] = self._applied
-        for column, each in enumerate(self._handles):
+        for column, name in enumerate(self._names):
             if column not in self._put:
-                states.velocity[:, column] = each.velocities()[:, 0]
+                states.velocity[:, column] = engine.joint_velocity(name)[:, 0]
             else:  # what a step adds to it the next one takes away
                 states.velocity[:, column] = self._speeds[:, column]
 
@@ -254,8 +257,7 @@ class JointHardware(SimulatedHardware):
         limited = self._effort_limiter.enforce(values[:, own], *self._state(EFFORT))
         values[:, own] = limited
         efforts = np.where(self._stopped[:, None], 0.0, limited)
-        for row, index in enumerate(self._columns[EFFORT].tolist()):
-            self._set_effort(index, efforts[:, row])
+        self._set_efforts(self._columns[EFFORT], efforts)
 
     def _write_positions(self, period: float) -> None:
         values, own = self._commands[POSITION]
@@ -301,8 +303,7 @@ class JointHardware(SimulatedHardware):
         """Turn errors into efforts."""
         most = self._strength[columns]
         efforts = np.clip(self._pids[kind].compute(error, period), -most, most)
-        for row, index in enumerate(columns.tolist()):
-            self._set_effort(index, efforts[:, row])
+        self._set_efforts(columns, efforts)
 
     def _place(self, index: int, wanted: Floats, period: float) -> None:
         """Put a joint where it has to be after the step, as fast as its command moves."""
@@ -322,13 +323,16 @@ class JointHardware(SimulatedHardware):
         engine.set_joint_position(handle.name, start[chosen, None], rows)
         engine.set_joint_velocity(handle.name, speed[chosen, None], rows)
 
-    def _set_effort(self, index: int, efforts: Floats) -> None:
+    def _set_efforts(self, columns: Indices, efforts: Floats) -> None:
+        """Let efforts act on joints, shape (nworld, n)."""
         # What is no number would end the world; the engine is spared it.
         safe = np.where(np.isfinite(efforts), efforts, 0.0)
-        if np.array_equal(safe, self._applied[:, index]):
-            return  # it acts already; what Python makes of a joint that nothing controls stays
-        self._applied[:, index] = safe
-        self._handles[index].effort = safe
+        changed = (safe != self._applied[:, columns]).any(axis=0)
+        # What acts already, such as what Python makes of a joint that nothing controls, stays.
+        for row in np.flatnonzero(changed).tolist():
+            index = int(columns[row])
+            self._applied[:, index] = safe[:, row]
+            self._loads.set_lasting(self._names[index], safe[:, row, None])
 
     # -- beginning anew ----------------------------------------------------------------
 
