@@ -13,7 +13,7 @@ from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.control.base_controller import BaseController
 from gazelle.control.interfaces import POSITION, VELOCITY
 from gazelle.control.parameters import ControllerParameters
-from gazelle.control.values import FourWheelCommand, FourWheelOdometry
+from gazelle.control.values import BaseTwist, FourWheelCommand, FourWheelOdometry
 from gazelle.control.wheel_geometry import wheel_distance, wheel_radius
 from gazelle.errors import ControlError, ControlWarning
 
@@ -25,7 +25,7 @@ _WHEELS = ("front_wheel", "rear_wheel", "front_steering", "rear_steering")
 class FourWheelSteeringController(BaseController):
     """Steers so that all wheels roll about one point; joints are left and right, in this order.
 
-    Commands are the speed and a front and a rear angle, or a velocity with ``enable_twist_cmd``.
+    Commands are the speed and a front and a rear angle, or a velocity: the newest counts.
     """
 
     def init(self, parameters: ControllerParameters) -> None:
@@ -37,15 +37,13 @@ class FourWheelSteeringController(BaseController):
                     f"two joints are needed in '{parameters.place}/{kind}', left and right, not {len(pair)}"
                 )
         self.open_base(parameters)
-        self._by_twist = parameters.flag("enable_twist_cmd", default=False)
+        self._by_twist: Bools = np.zeros(self.nworld, bool)
         self._read_sizes(parameters, names)
         self._wheels = self.claim(VELOCITY, (*names["front_wheel"], *names["rear_wheel"]))
         self._steers = self.claim(POSITION, (*names["front_steering"], *names["rear_steering"]))
         self._angles: Floats = np.zeros((self.nworld, 2))
         self._measured: Floats = np.zeros((self.nworld, 2))
-        if not self._by_twist:
-            del self.inputs["cmd_vel"]
-            self.add_input("cmd_four_wheel_steering", FourWheelCommand, self._receive_angles)
+        self.add_input("cmd_four_wheel_steering", FourWheelCommand, self._receive_angles)
         self.add_output("odom_steer", FourWheelOdometry, self._tell, queue_size=100)
 
     def _read_sizes(
@@ -85,24 +83,26 @@ class FourWheelSteeringController(BaseController):
             warnings.warn(ControlWarning(text), stacklevel=3)
             return
         self._angles[rows] = np.clip(wanted[:2], -math.pi / 2.0, math.pi / 2.0)
+        self._by_twist[rows] = False
         self.command_speed(command.speed, rows)
+
+    def _receive(self, twist: BaseTwist, worlds: Worlds | None) -> None:
+        super()._receive(twist, worlds)
+        if np.isfinite(twist.linear).all() and np.isfinite(twist.angular).all():
+            self._by_twist[self.rows(worlds)] = True
 
     def drive(self, twist: Floats, period: float) -> None:  # noqa: ARG002  it needs no time
         """Steer all wheels about one point, and roll each as fast as it is far from it."""
-        forward = twist[:, 0]
-        if self._by_twist:
-            turning = twist[:, 2]
-            across = 0.5 * self._length * turning  # of the front axle; the rear's is opposite
-            sideways = np.stack((across, -across), axis=1)
-            rolling = sideways
-        else:
-            fresh = ~self.too_old()
-            slopes = np.tan(np.where(fresh[:, None], self._angles, 0.0))
-            turning = forward * (slopes[:, 0] - slopes[:, 1]) / self._length
-            sideways = forward[:, None] * slopes
-            # Where front and rear are steered alike, the speed is that along the wheels.
-            bent = np.abs(slopes[:, 0] - slopes[:, 1]) > _BENT
-            rolling = np.where(bent[:, None], sideways, 0.0)
+        forward, by_twist = twist[:, 0], self._by_twist
+        slopes = np.tan(np.where(self.too_old()[:, None], 0.0, self._angles))
+        bend = slopes[:, 0] - slopes[:, 1]
+        turning = np.where(by_twist, twist[:, 2], forward * bend / self._length)
+        across = 0.5 * self._length * turning  # of the front axle; the rear's is opposite
+        opposite = np.stack((across, -across), axis=1)
+        sideways = np.where(by_twist[:, None], opposite, forward[:, None] * slopes)
+        # Where angles in front and behind are alike, the speed is that along the wheels.
+        bent = by_twist | (np.abs(bend) > _BENT)
+        rolling = np.where(bent[:, None], sideways, 0.0)
         half = 0.5 * self._track * turning
         along = np.stack((forward - half, forward + half), axis=1)
         moving = np.abs(forward) > _SLOW
@@ -117,9 +117,8 @@ class FourWheelSteeringController(BaseController):
             columns = slice(2 * axle, 2 * axle + 2)
             speeds[:, columns] = np.where(moving[:, None], size / self._radius, 0.0)
             angles[:, columns] = self._turned_to(sign[:, None], along, across, moving)
-        if not self._by_twist:
-            standing = self._standing_angles()
-            angles = np.where(moving[:, None], angles, standing)
+        kept = moving | by_twist
+        angles = np.where(kept[:, None], angles, self._standing_angles())
         self._wheels.set_command(speeds)
         self._steers.set_command(angles)
 
@@ -146,6 +145,7 @@ class FourWheelSteeringController(BaseController):
     def stand(self, rows: Worlds) -> None:
         """Do not roll, steer straight ahead."""
         self._angles[rows] = 0.0
+        self._by_twist[rows] = False
         self._wheels.set_command(0.0, None, rows)
         self._steers.set_command(0.0, None, rows)
 
@@ -194,12 +194,14 @@ class FourWheelSteeringController(BaseController):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """With the angles that are wanted."""
-        return {**super().state(), "angles": self._angles.copy()}
+        own = {"angles": self._angles.copy(), "by_twist": self._by_twist.copy()}
+        return {**super().state(), **own}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         super().restore(state)
         self._angles = np.array(state["angles"])
+        self._by_twist = np.array(state["by_twist"], bool)
 
 
 def _mean_angle(pair: Floats) -> Floats:
