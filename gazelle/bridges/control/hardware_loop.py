@@ -105,11 +105,11 @@ class HardwareLoop(Closeable):
                 self.step()
             except NodeClosedError:
                 break
-            due = max(due + self._period_ns, clock.now())
+            due += self._period_ns
             with contextlib.suppress(TimeMovedBackwardsError):
                 clock.sleep(due - clock.now(), self._over.is_set)
-            if due - clock.now() > self._period_ns:
-                due = clock.now()  # simulated time began again
+            if abs(due - clock.now()) > self._period_ns:
+                due = clock.now()  # too late to be made up for, or simulated time began again
 
     def start(self) -> HardwareLoop:
         """Let ``run`` go on in a thread of its own; returns this."""

@@ -92,11 +92,19 @@ def _keep_time(node: Node, loop: HardwareLoop) -> int:
     try:
         while not node.closed:
             loop.step(PERIOD_S)
-            due = max(due + PERIOD_S, time.monotonic())
-            time.sleep(max(0.0, due - time.monotonic()))
+            due = _rest(due + PERIOD_S)
     except KeyboardInterrupt:
         pass
     return 0
+
+
+def _rest(due: float) -> float:
+    """Sleep until then; what is late by more than a period is not made up for."""
+    late = time.monotonic() - due
+    if late > PERIOD_S:
+        return due + late
+    time.sleep(max(0.0, -late))
+    return due
 
 
 def _make_time(node: Node, clock: SimulatedClock, loop: HardwareLoop) -> int:
@@ -109,8 +117,7 @@ def _make_time(node: Node, clock: SimulatedClock, loop: HardwareLoop) -> int:
             publisher.publish(kind(clock=loop.graph.stamp(now)))
             now += round(PERIOD_S * SECOND)
             clock.set(now)
-            due = max(due + PERIOD_S, time.monotonic())
-            time.sleep(max(0.0, due - time.monotonic()))
+            due = _rest(due + PERIOD_S)
     except KeyboardInterrupt:
         pass
     return 0
