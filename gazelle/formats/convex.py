@@ -22,7 +22,7 @@ from gazelle.formats.blocks import Blocks, blocks_of
 from gazelle.formats.hull import Solid, convex_hull, hulls_of
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.patches import joined_flat, thick_patches
-from gazelle.formats.surface import Surface, clean, components, twins_of
+from gazelle.formats.surface import Surface, clean, components
 
 CACHED = 256
 PROMISED = 0.01
@@ -142,7 +142,7 @@ def _cut(surface: Surface, *, static: bool) -> tuple[list[Solid], bool, float]:
         return [], False, 0.0
     number = components(surface)
     parts = int(number.max()) + 1
-    closed = np.bincount(number, (twins_of(surface) < 0).reshape(-1, 3).any(axis=1)) == 0
+    closed = np.bincount(number, (surface.twins < 0).reshape(-1, 3).any(axis=1)) == 0
     volume = _volumes(surface, number)
     whole = closed & _convex_parts(surface, number)
     if static:
@@ -208,7 +208,7 @@ def _convex_parts(surface: Surface, number: NDArray[np.intp]) -> NDArray[np.bool
     A closed surface that is, is convex (Van Heijenoort, "On locally convex manifolds",
     Communications on Pure and Applied Mathematics 5, 1952).
     """
-    twins = twins_of(surface)
+    twins = surface.twins
     edges = np.flatnonzero(twins >= 0)
     here, there = edges // 3, twins[edges]
     far = surface.vertices[surface.faces.ravel()[there - there % 3 + (there + 2) % 3]]

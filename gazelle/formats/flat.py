@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.formats.outlines import Planar, filled, hull_rows
-from gazelle.formats.surface import Surface, twins_of
+from gazelle.formats.surface import Surface
 
 _CELL = 8.0
 """Of the cells of which polygons are parts at first, in tolerances."""
@@ -76,7 +76,7 @@ class Polygons:
         self._tail = surface.faces.ravel()
         self._next = np.roll(rows, -1, axis=1).ravel()
         self._before = np.roll(rows, 1, axis=1).ravel()
-        self._twin = twins_of(surface)
+        self._twin = surface.twins
         self._gone = np.zeros(3 * self.count, bool)
         self._label = np.arange(self.count)
         self._start = 3 * np.arange(self.count)

@@ -36,6 +36,26 @@ class Surface:
         """Diagonal of the bounding box [m]."""
         return float(np.linalg.norm(np.ptp(self.vertices[self.faces].reshape(-1, 3), axis=0)))
 
+    @cached_property
+    def twins(self) -> Indices:
+        """The half-edge that runs back along each, shape (3 m,); -1 if there is none, or several.
+
+        Half-edge 3 f + i of face f runs from its corner i to the next.
+        """
+        tails, heads = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
+        count = np.int64(len(self.vertices))
+        forward, backward = tails * count + heads, heads * count + tails
+        order = np.argsort(forward, kind="stable")
+        keys = forward[order]
+        place = np.searchsorted(keys, backward)
+        place[place == len(keys)] = 0
+        single = np.ones(len(keys), bool)
+        single[1:] &= keys[1:] != keys[:-1]
+        single[:-1] &= keys[1:] != keys[:-1]
+        found = np.where((keys[place] == backward) & single[place], order[place], -1)
+        found[order[~single]] = -1
+        return found.astype(np.intp)
+
     @property
     def volume(self) -> float:
         """Signed volume [m³], if it is closed; negative if its faces look inwards."""
@@ -50,7 +70,7 @@ class Surface:
 
     def is_closed(self) -> bool:
         """Whether each edge belongs to two faces, which run along it in opposite ways."""
-        return bool((twins_of(self) >= 0).all())
+        return bool((self.twins >= 0).all())
 
 
 def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
@@ -103,23 +123,3 @@ def components(surface: Surface) -> Indices:
     rank = np.empty(len(first), np.intp)
     rank[np.argsort(first, kind="stable")] = np.arange(len(first))
     return rank[number]
-
-
-def twins_of(surface: Surface) -> Indices:
-    """The half-edge that runs back along each, shape (3 m,); -1 if there is none, or several.
-
-    Half-edge 3 f + i of face f runs from its corner i to the next.
-    """
-    tails, heads = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
-    count = np.int64(len(surface.vertices))
-    forward, backward = tails * count + heads, heads * count + tails
-    order = np.argsort(forward, kind="stable")
-    keys = forward[order]
-    place = np.searchsorted(keys, backward)
-    place[place == len(keys)] = 0
-    single = np.ones(len(keys), bool)
-    single[1:] &= keys[1:] != keys[:-1]
-    single[:-1] &= keys[1:] != keys[:-1]
-    found = np.where((keys[place] == backward) & single[place], order[place], -1)
-    found[order[~single]] = -1
-    return found.astype(np.intp)
