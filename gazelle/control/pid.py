@@ -104,7 +104,8 @@ class Pid:
         inner = np.array([g.antiwindup and g.i != 0.0 for g in gains], bool)
         outer = np.array([not g.antiwindup for g in gains], bool)
         divisor = np.where(inner, self._i, 1.0)
-        ends = np.sort(np.stack((self._least / divisor, self._most / divisor)), axis=0)
+        with np.errstate(over="ignore"):  # a tiny gain has no bounds
+            ends = np.sort(np.stack((self._least / divisor, self._most / divisor)), axis=0)
         self._sum_least = np.where(inner, ends[0], -math.inf)
         self._sum_most = np.where(inner, ends[1], math.inf)
         self._term_least = np.where(outer, self._least, -math.inf)

@@ -55,9 +55,15 @@ def make(setup: ControllerSetup) -> Controller:
         raise ControlError(
             f"could not load controller '{setup.name}' because controller type '{setup.type}' does "
             "not exist",
-            hint=did_you_mean(setup.type, types()),
+            hint=did_you_mean(setup.type, _beside(setup.type)),
         )
     return found(setup)
+
+
+def _beside(name: str) -> list[str]:
+    """The types of the same package, among which a name that nearly fits is found; all if it has none."""
+    package = name.partition("/")[0]
+    return [each for each in types() if each.startswith(f"{package}/")] or types()
 
 
 def _find(name: str) -> type[Controller] | None:
