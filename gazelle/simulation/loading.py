@@ -71,9 +71,10 @@ def adopt(
         stage: Moves it, and lets it see; plugins that do so in other engines are left out.
     """
     if stage is not None:
-        from gazelle.simulation.stage.handles import inputs_of
+        from gazelle.simulation.stage.handles import inputs_of, open_outputs
 
         robot.inputs.update(inputs_of(stage, model.name))
+        open_outputs(stage, robot)
         model = without_stand_ins(model)
     for placed in model.walk():
         for plugin in placed.model.plugins:

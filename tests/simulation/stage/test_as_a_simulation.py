@@ -291,3 +291,21 @@ def test_cameras_are_sensors_too(open_file):
             assert np.array_equal(image.color, seen.color[..., :3])
             assert np.array_equal(image.depth, seen.depth)
     assert np.isfinite(sensors["camera:0"].read(0).depth).any()
+
+
+def test_outputs_tell_what_stage_ros_would(open_file):
+    sim = open_file(NOISY, nworld=2)
+    robot, told = sim.robots["b"], []
+    assert set(robot.outputs) == {"base_scan", "odom"}
+    robot.inputs["cmd_vel"].send(0.4, 0.2)
+    end = robot.outputs["odom"].subscribe(told.append)
+    sim.step(3)
+    end()
+    sim.step(3)
+    assert [odometry.stamp for odometry in told] == [50_000_000, 100_000_000, 150_000_000]
+    assert (told[-1].frame, told[-1].child_frame) == ("robot_1/odom", "robot_1/base_footprint")
+    assert told[-1].linear[:, 0] == pytest.approx(0.4)
+    now = robot.outputs["odom"].last
+    assert np.array_equal(now.position[:, :2], sim.stage.odometry[:, 1, :2])
+    assert robot.outputs["base_scan"].topic == "/robot_1/base_scan"
+    assert robot.outputs["base_scan"].last.ranges.shape[-1] == 31
