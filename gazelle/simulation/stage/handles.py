@@ -78,20 +78,20 @@ class _OdometryOutput(Output[Odometry]):
     ) -> None:
         super().__init__(absolute(namespace, "odom"), Odometry, self._measure, namespace=namespace)
         self._fleet, self._robot, self._frames = fleet, robot, frames
-        self._end: Callable[[], None] | None = None
+        self._stop_telling: Callable[[], None] | None = None
 
     @between_steps
     def subscribe(self, listener: Callable[[Odometry], None]) -> Callable[[], None]:
         """Call a function with every value published; returns what ends it."""
         end = super().subscribe(listener)
-        if self._end is None:
-            self._end = self._robot.simulation.subscribe(self.publish)
+        if self._stop_telling is None:
+            self._stop_telling = self._robot.simulation.subscribe(self.publish)
 
         def finish() -> None:
             end()
-            if not self.wanted and self._end is not None:
-                self._end()
-                self._end = None
+            if not self.wanted and self._stop_telling is not None:
+                self._stop_telling()
+                self._stop_telling = None
 
         return finish
 
