@@ -2,6 +2,7 @@
 
 import numpy as np
 from control_samples import CONTROL_MAKERS
+from picture_samples import PICTURE_MAKERS
 
 from gazelle.engines import Contacts
 from gazelle.navigation.values import Path
@@ -159,6 +160,7 @@ def bumper(rng, nworld, _stamp):
 
 MAKERS = {
     **CONTROL_MAKERS,
+    **PICTURE_MAKERS,
     Odometry: _odometry(Odometry),
     TruePose: _odometry(TruePose),
     JointStates: joint_states,

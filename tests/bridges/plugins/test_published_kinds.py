@@ -7,6 +7,7 @@ import pytest
 from control_samples import CONTROL_SAYS
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from picture_samples import PICTURES_SAY
 from value_samples import FRAMES, MAKERS
 
 import gazelle.bridges.binding
@@ -299,6 +300,7 @@ def says_flag(message, value, world, _view):
 
 SAYS = {
     **CONTROL_SAYS,
+    **PICTURES_SAY,
     Odometry: says_odometry,
     TruePose: says_true_pose,
     JointStates: says_joints,
