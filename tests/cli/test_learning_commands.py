@@ -114,3 +114,16 @@ def test_interrupt_saves_says_how_to_resume_and_resumes(cli, tmp_path):
     assert code == 0
     assert "trained: 2,048 control steps" in out
     assert "cannot save its state" in err
+
+
+def test_tasks_are_listed_with_what_their_recipes_reach(cli):
+    from gazelle.training import VERIFIED
+
+    code, out, _ = cli("tasks")
+    assert code == 0
+    lines = {line.split()[0]: line for line in out.splitlines() if line}
+    assert "gazelle/TurtleBot3Stage1Continuous-v0" in lines["TurtleBot3Stage1Continuous"]
+    for name, found in VERIFIED.items():
+        for engine, rate in found.success.items():
+            assert f"{engine} {100.0 * rate.value:.1f} %" in lines[name]
+        assert f"  {found.seconds:.0f}  " in lines[name]
