@@ -33,7 +33,7 @@ from gazelle.description import (
     Pose,
     Surface,
 )
-from gazelle.engines.mujoco.compiler import Recipe, compile_world
+from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
 
 STEP = 0.001
 WINDOWS = 20
@@ -206,7 +206,7 @@ def boxes(seconds: float) -> None:
 def asleep_in_mujoco(seconds: float) -> None:
     """What a sleeping box costs in bare MuJoCo, and in which of its parts."""
     count = COUNTS[-1]
-    model = compile_world(Recipe(grid(count, moving=False), STEP)).model
+    model = compile_world(CompilerInput(grid(count, moving=False), STEP)).model
     data = mujoco.MjData(model)
     mujoco.mj_step(model, data, nstep=600)
     parts = {

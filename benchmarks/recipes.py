@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from gazelle.training import Evaluation, Rate, Run, choose_progress, evaluate, train
+from gazelle.training import Evaluation, Run, SuccessRate, choose_progress, evaluate, train
 
 _SCENARIOS = {
     "held-out": {},
@@ -51,14 +51,14 @@ def line(stage: int, engine: str, scenario: str, found: list[Evaluation]) -> str
     return f"{stage:<6}{engine:<8}{scenario:<10}{tried:>7}  {seeds}{rates}{late:9.1%}"
 
 
-def share(rates: list[Rate | None]) -> str:
+def share(rates: list[SuccessRate | None]) -> str:
     """All of them together: ``91.2 % (88.4 to 93.4)``."""
     told = [rate for rate in rates if rate is not None]
     if not told:
         return "-"
     effective = sum(rate.total if rate.effective is None else rate.effective for rate in told)
     count, total = sum(rate.count for rate in told), sum(rate.total for rate in told)
-    low, high = (100.0 * end for end in Rate(count, total, effective).interval)
+    low, high = (100.0 * end for end in SuccessRate(count, total, effective).interval)
     return f"{100.0 * count / total:.1f} % ({low:.1f} to {high:.1f})"
 
 

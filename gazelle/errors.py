@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from typing import Protocol
 
 
-class Source(Protocol):
+class FilePlace(Protocol):
     """A place in a file: of a description, of a launch file."""
 
     @property
@@ -48,7 +48,7 @@ class Error(Exception):
         line: int | None = None,
         element: str | None = None,
         hint: str | None = None,
-        source: Source | None = None,
+        source: FilePlace | None = None,
     ) -> None:
         if source is not None:
             file, line, element = source.file, source.line, source.element
@@ -141,7 +141,7 @@ def describe(
     return f"{text}; {hint}" if hint else text
 
 
-def located(message: str, source: Source | None) -> str:
+def located(message: str, source: FilePlace | None) -> str:
     """A message with the file and line that it is about, where they are known."""
     return message if source is None else describe(message, file=source.file, line=source.line)
 

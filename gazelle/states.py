@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-class Part(Protocol):
+class Restorable(Protocol):
     """Something whose state can be taken and put back."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
@@ -19,7 +19,7 @@ class Part(Protocol):
         """Put back what ``state`` gave."""
 
 
-def states_of(parts: Mapping[str, Part]) -> dict[str, NDArray[np.generic]]:
+def states_of(parts: Mapping[str, Restorable]) -> dict[str, NDArray[np.generic]]:
     """The states of parts, each key as ``name/key``; no name may be the head of another."""
     return {
         f"{name}/{key}": value
@@ -28,7 +28,7 @@ def states_of(parts: Mapping[str, Part]) -> dict[str, NDArray[np.generic]]:
     }
 
 
-def restore_all(parts: Mapping[str, Part], state: Mapping[str, NDArray[np.generic]]) -> None:
+def restore_all(parts: Mapping[str, Restorable], state: Mapping[str, NDArray[np.generic]]) -> None:
     """Put back what ``states_of`` gave; ``state`` may hold more."""
     for name, part in parts.items():
         start = f"{name}/"

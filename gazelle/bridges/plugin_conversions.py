@@ -24,9 +24,9 @@ from gazelle.simulation.values import (
     JointPath,
     LinkPair,
     Number,
-    Outcome,
     PathRequest,
     Push,
+    ServiceOutcome,
     TurnCommand,
 )
 
@@ -61,7 +61,7 @@ def _path_request(request: Any) -> PathRequest:
     return PathRequest(path, point(pose.position), quaternion(pose.orientation))
 
 
-def _outcome(answer: Outcome) -> dict[str, Any]:
+def _outcome(answer: ServiceOutcome) -> dict[str, Any]:
     return {"success": answer.success, "status_message": answer.text}
 
 
@@ -72,7 +72,9 @@ def _flags(message: Any, value: Flags, view: ConversionContext) -> None:
 add_encoder(Flags, Encoder("std_msgs/Bool", _flags))
 add_decoder(JointPath, Decoder("trajectory_msgs/JointTrajectory", _path))
 add_service(
-    PathRequest, Outcome, ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome)
+    PathRequest,
+    ServiceOutcome,
+    ServiceCodec("gazebo_msgs/SetJointTrajectory", _path_request, _outcome),
 )
 add_decoder(
     EmergencyStop, Decoder("std_msgs/Bool", lambda message: EmergencyStop(bool(message.data)))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gazelle.builders.errors import BuildError, positive
 from gazelle.description import Geometry, Inertial, Pose
-from gazelle.formats.solids import Solid, inertial_of, joined, solid_of
+from gazelle.formats.solids import UnitSolid, inertial_of, joined, solid_of
 
 
 def solid_inertial(parts: Sequence[tuple[Geometry, Pose]], mass: float) -> Inertial:
@@ -29,7 +29,7 @@ def solid_inertial(parts: Sequence[tuple[Geometry, Pose]], mass: float) -> Inert
     return inertial_of(whole.scaled(mass / whole.volume))
 
 
-def _solid(shape: Geometry) -> Solid:
+def _solid(shape: Geometry) -> UnitSolid:
     found = solid_of(shape)
     if found is None:
         kind = type(shape).__name__.lower()

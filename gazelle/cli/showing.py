@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gazelle.training import Evaluation, Rate, TrainResult
+    from gazelle.training import Evaluation, SuccessRate, TrainResult
 
 
 def table(rows: Sequence[Sequence[str]], width: int = 80) -> str:
@@ -46,7 +46,7 @@ def evaluation(result: Evaluation) -> str:
     return table([("  " + name, text) for name, text in rows])
 
 
-def rate(value: Rate | None) -> str:
+def rate(value: SuccessRate | None) -> str:
     """``97.0 % (95 % interval 91.5 to 99.0 %, 97 of 100)``."""
     if value is None:
         return "not told by this task"

@@ -18,7 +18,7 @@ from gazelle.description import Pose, Visual, World
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class RayHits:
     """What rays met.
 
     Attributes:
@@ -42,7 +42,7 @@ class Tracer(Protocol):
     def place(self, poses: Mapping[str, Pose]) -> None:
         """Put links, by scoped name, at poses in the world."""
 
-    def trace(self, origins: Floats, directions: Floats) -> Sight:
+    def trace(self, origins: Floats, directions: Floats) -> RayHits:
         """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
 
 

@@ -56,7 +56,7 @@ class Finals:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class BatchStep:
     """A control step in every world, with the next episode begun where one ended.
 
     Attributes:
@@ -181,7 +181,7 @@ class BatchedTask(ABC):
             verdict.observation, verdict.reward, verdict.terminated, truncated, verdict.info
         )
 
-    def step(self, actions: ArrayLike) -> Step:
+    def step(self, actions: ArrayLike) -> BatchStep:
         """Make one control step in every world, and begin the next episode where one ended.
 
         Args:
@@ -193,7 +193,7 @@ class BatchedTask(ABC):
         last = self.advance(actions)
         done = last.terminated | last.truncated
         if not done.any():
-            return Step(last, None)
+            return BatchStep(last, None)
         worlds = np.flatnonzero(done)
         observation = last.observation.copy()
         first, start = self.begin(worlds)
@@ -205,7 +205,7 @@ class BatchedTask(ABC):
             {name: _only(values, worlds) for name, values in last.info.items()},
         )
         now = Transition(observation, last.reward, last.terminated, last.truncated, info)
-        return Step(now, finals)
+        return BatchStep(now, finals)
 
     def advance_or_begin(self, actions: ArrayLike, over: Worlds) -> Transition:
         """Make one control step in some worlds, and begin the next episode in the others.

@@ -9,7 +9,7 @@ import gymnasium as gym
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class RegisteredTask:
     """One task.
 
     Attributes:
@@ -27,10 +27,10 @@ class Entry:
     kwargs: dict[str, Any] = field(default_factory=dict)
 
 
-def _turtlebot3() -> list[Entry]:
+def _turtlebot3() -> list[RegisteredTask]:
     home = "gazelle.envs.turtlebot3.envs"
     return [
-        Entry(
+        RegisteredTask(
             id=f"gazelle/TurtleBot3Stage{stage}{twin}-v0",
             env=f"{home}:TurtleBot3{twin}Env",
             vector_env=f"{home}:TurtleBot3{twin}VectorEnv",
@@ -42,9 +42,9 @@ def _turtlebot3() -> list[Entry]:
     ]
 
 
-def _agv_fleet() -> Entry:
+def _agv_fleet() -> RegisteredTask:
     home = "gazelle.envs.agv_fleet.envs"
-    return Entry(
+    return RegisteredTask(
         id="gazelle/AGVFleet-v0",
         env=f"{home}:AGVFleetEnv",
         vector_env=f"{home}:AGVFleetVectorEnv",

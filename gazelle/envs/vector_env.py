@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import autoreset_mode as mode_of
-from gazelle.envs.batched_task import BatchedTask, Finals, Info, Step
+from gazelle.envs.batched_task import BatchedTask, BatchStep, Finals, Info
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import RENDER_MODES, check_name
@@ -149,7 +149,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
         """
         check_ready(what, closed=self.closed, begun=self._begun)
 
-    def _step(self, actions: ArrayLike) -> Step:
+    def _step(self, actions: ArrayLike) -> BatchStep:
         """A control step in the environment's mode."""
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             return self.task.step(actions)
@@ -161,7 +161,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
             )
         result = self.task.advance_or_begin(actions, over)
         self._over = result.terminated | result.truncated
-        return Step(result, None)
+        return BatchStep(result, None)
 
     @property
     def scenario_names(self) -> tuple[str, ...]:

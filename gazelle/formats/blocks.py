@@ -16,7 +16,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Floats32, Ints32
 from gazelle.formats.block_cuts import BlockCutter
-from gazelle.formats.surface import Surface
+from gazelle.formats.surface import WeldedSurface
 from gazelle.formats.voxels import voxels_of
 
 MOST_BLOCKS = 128
@@ -79,7 +79,7 @@ class _Block:
     hull: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
 
-def blocks_of(surface: Surface, side: float, *, patient: bool = True) -> Blocks | None:
+def blocks_of(surface: WeldedSurface, side: float, *, patient: bool = True) -> Blocks | None:
     """Blocks of a surface; the worse half is cut on first.
 
     Args:
@@ -175,7 +175,7 @@ def _thinned(points: Floats32) -> Floats32:
     return np.ascontiguousarray(points[:: max(1, len(points) // _TRIED)])
 
 
-def _directions(surface: Surface) -> Floats:
+def _directions(surface: WeldedSurface) -> Floats:
     """Unit vectors all around, the axes and the normals of the largest faces, shape (n, 3)."""
     turn = math.pi * (3.0 - math.sqrt(5.0)) * np.arange(_DIRECTIONS)
     z = 1.0 - (2.0 * np.arange(_DIRECTIONS) + 1.0) / _DIRECTIONS

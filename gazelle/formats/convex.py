@@ -22,7 +22,7 @@ from gazelle.formats.blocks import Blocks, blocks_of
 from gazelle.formats.hull import Solid, convex_hull, hulls_of
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.patches import joined_flat, thick_patches
-from gazelle.formats.surface import Surface, clean, components
+from gazelle.formats.surface import WeldedSurface, clean, components
 
 CACHED = 256
 PROMISED = 0.01
@@ -58,12 +58,12 @@ _FIRST_LOOK = 256
 """Places that are looked at first."""
 _MAX_PAIRS = 2_000_000
 
-_MEMORY: dict[str, Pieces] = {}
+_MEMORY: dict[str, ConvexPieces] = {}
 _SPENT = {"seconds": 0.0}
 
 
 @dataclass(frozen=True, slots=True)
-class Pieces:
+class ConvexPieces:
     """Convex pieces that stand for a mesh.
 
     Attributes:
@@ -87,7 +87,7 @@ def convex_pieces(mesh: MeshData, *, static: bool = False) -> list[MeshData]:
     return list(decompose(mesh, static=static).solids)
 
 
-def decompose(mesh: MeshData, *, static: bool) -> Pieces:
+def decompose(mesh: MeshData, *, static: bool) -> ConvexPieces:
     """Convex pieces that together stand for a mesh; one if it is nearly convex.
 
     The same mesh gives the same pieces. They are kept in memory, and those that took long on
@@ -108,7 +108,7 @@ def decompose(mesh: MeshData, *, static: bool) -> Pieces:
     return _MEMORY[key]
 
 
-def _made(key: str, mesh: MeshData, *, static: bool) -> Pieces:
+def _made(key: str, mesh: MeshData, *, static: bool) -> ConvexPieces:
     """The pieces of a mesh from disk, or cut."""
     stored = piece_cache.load(key)
     if stored is None:
@@ -128,7 +128,7 @@ def _made(key: str, mesh: MeshData, *, static: bool) -> Pieces:
         faces.setflags(write=False)
     size = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     promised = PROMISED if static else _promised(size)
-    return Pieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised, closed)
+    return ConvexPieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised, closed)
 
 
 def _promised(size: float) -> float:
@@ -136,7 +136,7 @@ def _promised(size: float) -> float:
     return max(PROMISED, _REACH * size)
 
 
-def _cut(surface: Surface, *, static: bool) -> tuple[list[Solid], bool, float]:
+def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, float]:
     """Solids, whether the one is the whole, and how far they are off."""
     if not len(surface.faces):
         return [], False, 0.0
@@ -167,7 +167,9 @@ def _cut(surface: Surface, *, static: bool) -> tuple[list[Solid], bool, float]:
     return solids + patches.solids, False, patches.gap
 
 
-def _solids_of(surface: Surface, number: NDArray[np.intp], parts: NDArray[np.intp]) -> list[Solid]:
+def _solids_of(
+    surface: WeldedSurface, number: NDArray[np.intp], parts: NDArray[np.intp]
+) -> list[Solid]:
     """Some parts of a surface, each as it is."""
     order = np.argsort(number, kind="stable")
     starts = np.searchsorted(number[order], parts)
@@ -176,7 +178,7 @@ def _solids_of(surface: Surface, number: NDArray[np.intp], parts: NDArray[np.int
     return [(part.vertices, part.faces.astype(np.int32)) for part in map(surface.part, rows)]
 
 
-def _blocks(surface: Surface, polygons: int) -> Blocks | None:
+def _blocks(surface: WeldedSurface, polygons: int) -> Blocks | None:
     """Blocks, on a finer grid if few are enough.
 
     None if they are farther from the surface than promised, and there is another way: its
@@ -194,7 +196,7 @@ def _blocks(surface: Surface, polygons: int) -> Blocks | None:
     return found
 
 
-def _volumes(surface: Surface, number: NDArray[np.intp]) -> Floats:
+def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
     """Signed volume within the faces of each part [m³]; negative if they look inwards."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     each = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
@@ -202,7 +204,7 @@ def _volumes(surface: Surface, number: NDArray[np.intp]) -> Floats:
     return volumes
 
 
-def _convex_parts(surface: Surface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Whether each part is bent one way only along all of its edges.
 
     A closed surface that is, is convex (Van Heijenoort, "On locally convex manifolds",
@@ -221,7 +223,7 @@ def _convex_parts(surface: Surface, number: NDArray[np.intp]) -> NDArray[np.bool
 
 
 def _with_cavities(
-    surface: Surface, number: NDArray[np.intp], inwards: NDArray[np.bool_]
+    surface: WeldedSurface, number: NDArray[np.intp], inwards: NDArray[np.bool_]
 ) -> NDArray[np.intp]:
     """The parts that have one of those that look inwards inside of them."""
     if not inwards.any():
@@ -236,7 +238,7 @@ def _with_cavities(
     return np.flatnonzero(around)
 
 
-def _is_convex(surface: Surface, tolerance: float) -> bool:
+def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
     """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
     if len(surface.vertices) > _MOST_CORNERS:
         return False

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.formats.outlines import Planar, filled, hull_rows
-from gazelle.formats.surface import Surface
+from gazelle.formats.surface import WeldedSurface
 
 _CELL = 8.0
 """Of the cells of which polygons are parts at first, in tolerances."""
@@ -69,7 +69,7 @@ class Polygons:
         count: How many there are.
     """
 
-    def __init__(self, surface: Surface) -> None:
+    def __init__(self, surface: WeldedSurface) -> None:
         self.surface = surface
         self.count = len(surface.faces)
         rows = np.arange(3 * self.count).reshape(-1, 3)
@@ -359,7 +359,7 @@ def across(normals: Floats) -> tuple[Floats, Floats]:
     return first, second
 
 
-def _candidates(surface: Surface, twins: Indices) -> tuple[Indices, Floats]:
+def _candidates(surface: WeldedSurface, twins: Indices) -> tuple[Indices, Floats]:
     """Half-edges between two triangles, one of each pair, and how far those are from flat [m].
 
     What is flat but for rounding counts as flat.

@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import Surface, clean
+from gazelle.formats.surface import WeldedSurface, clean
 
 FEWEST = 4000
 """Triangles from which on a mesh is asked whether it is ground; fewer collide as they are."""
@@ -83,7 +83,7 @@ def _one_sided(mesh: MeshData) -> bool:
     return not bool((up > least).any() and (up < -least).any())
 
 
-def _nodes(surface: Surface, span: Floats) -> tuple[int, int]:
+def _nodes(surface: WeldedSurface, span: Floats) -> tuple[int, int]:
     """Columns and rows: those of the mesh if it is a grid, else as many as there may be."""
     places = np.round((surface.vertices[:, :2] - surface.vertices[:, :2].min(axis=0)) / span[:2], 6)
     columns, rows = len(np.unique(places[:, 0])), len(np.unique(places[:, 1]))

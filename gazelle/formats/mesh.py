@@ -27,7 +27,7 @@ _LFS_POINTER = b"version https://git-lfs"
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class MeshPart:
     """A named piece of a mesh file.
 
     Attributes:
@@ -95,7 +95,7 @@ def bounds(mesh: Mesh) -> tuple[Vector3, Vector3]:
     return ((low[0], low[1], low[2]), (high[0], high[1], high[2]))
 
 
-def load_parts(path: Path) -> tuple[Part, ...]:
+def load_parts(path: Path) -> tuple[MeshPart, ...]:
     """The pieces of a mesh file, unscaled, in the file's frame turned z up, in metres.
 
     Raises:
@@ -126,7 +126,7 @@ class _Content:
 
 
 @lru_cache(maxsize=CACHED)
-def _parse_cached(_: str, content: _Content) -> tuple[Part, ...]:
+def _parse_cached(_: str, content: _Content) -> tuple[MeshPart, ...]:
     data, path = content.data or b"", content.path
     content.data = None  # the cache keeps the key, and need not keep the file
     if not data:
@@ -152,7 +152,7 @@ def _parse_cached(_: str, content: _Content) -> tuple[Part, ...]:
     return tuple(parts)
 
 
-def _check(part: Part, path: Path) -> None:
+def _check(part: MeshPart, path: Path) -> None:
     if not np.isfinite(part.vertices).all():
         raise FormatError("the file holds coordinates that are not finite", file=str(path))
     if part.faces.min() < 0 or part.faces.max() >= len(part.vertices):
@@ -161,18 +161,18 @@ def _check(part: Part, path: Path) -> None:
     part.faces.setflags(write=False)
 
 
-def _parse(data: bytes, path: Path) -> list[Part]:
+def _parse(data: bytes, path: Path) -> list[MeshPart]:
     kind = path.suffix.lower().lstrip(".")
     if kind in {"stl", "stlb"}:
-        return [Part("", *stl.parse(data))]
+        return [MeshPart("", *stl.parse(data))]
     if kind == "dae":
-        return [Part(*piece) for piece in collada.parse(data)]
+        return [MeshPart(*piece) for piece in collada.parse(data)]
     if kind == "obj":
-        return [Part(*piece) for piece in wavefront.parse(data)]
+        return [MeshPart(*piece) for piece in wavefront.parse(data)]
     return _parse_with_trimesh(data, kind)
 
 
-def _parse_with_trimesh(data: bytes, kind: str) -> list[Part]:
+def _parse_with_trimesh(data: bytes, kind: str) -> list[MeshPart]:
     import io
 
     import trimesh
@@ -184,13 +184,13 @@ def _parse_with_trimesh(data: bytes, kind: str) -> list[Part]:
         )
     scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
     return [
-        Part(name, np.asarray(piece.vertices, np.float64), np.asarray(piece.faces, np.int32))
+        MeshPart(name, np.asarray(piece.vertices, np.float64), np.asarray(piece.faces, np.int32))
         for name, piece in ((m.metadata.get("name", ""), m) for m in scene.dump())
         if hasattr(piece, "faces")
     ]
 
 
-def _chosen(parts: tuple[Part, ...], mesh: Mesh) -> list[Part]:
+def _chosen(parts: tuple[MeshPart, ...], mesh: Mesh) -> list[MeshPart]:
     if mesh.submesh is None:
         return list(parts)
     chosen = [part for part in parts if part.name == mesh.submesh]
@@ -204,7 +204,7 @@ def _chosen(parts: tuple[Part, ...], mesh: Mesh) -> list[Part]:
     return chosen
 
 
-def _joined(parts: list[Part]) -> MeshData:
+def _joined(parts: list[MeshPart]) -> MeshData:
     if len(parts) == 1:
         return MeshData(parts[0].vertices, parts[0].faces)
     starts = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.formats.surface import Surface
+from gazelle.formats.surface import WeldedSurface
 
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""
 
 
 def first_hits(
-    surface: Surface, origins: Floats, directions: Floats
+    surface: WeldedSurface, origins: Floats, directions: Floats
 ) -> tuple[Floats, NDArray[np.bool_]]:
     """Distance along rays to the first triangle, and whether they come from behind it.
 

@@ -18,7 +18,7 @@ from gazelle.array_types import Floats
 from gazelle.formats.flat import Polygons, Rims
 from gazelle.formats.hull import Solid
 from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import Surface
+from gazelle.formats.surface import WeldedSurface
 
 FINE = 7e-3
 """How far solids may be off a surface before there are as many as it takes [m]."""
@@ -57,7 +57,7 @@ class Patches:
     gap: float
 
 
-def joined_flat(surface: Surface) -> Polygons:
+def joined_flat(surface: WeldedSurface) -> Polygons:
     """The convex polygons of a surface that are flat but for rounding."""
     joined = Polygons(surface)
     joined.join(_ROUNDING * surface.size, notches=False)
@@ -95,7 +95,7 @@ def _tolerances(size: float, count: int) -> Iterator[tuple[float, int]]:
     yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))
 
 
-def _widths(surface: Surface, rims: Rims) -> Floats:
+def _widths(surface: WeldedSurface, rims: Rims) -> Floats:
     """About how wide each polygon is at its middle [m], shape (k,); 0 if it has no three corners."""
     widths = np.zeros(len(rims.sizes))
     real = np.flatnonzero(rims.sizes)
@@ -109,7 +109,7 @@ def _widths(surface: Surface, rims: Rims) -> Floats:
     return widths
 
 
-def _depths(surface: Surface, rims: Rims, closed: NDArray[np.bool_]) -> Floats:
+def _depths(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_]) -> Floats:
     """How thick each solid is [m], shape (k,)."""
     faces = np.arange(0, len(surface.faces), 1 + len(surface.faces) // _MOST_RAYS)
     of_rim, count = rims.rows, len(rims.sizes)

@@ -25,10 +25,10 @@ def convex_polygons(outlines: Sequence[Outline]) -> list[Floats]:
         return []
     levels = np.unique(edges[:, :, 1])
     size = float(np.ptp(edges.reshape(-1, 2), axis=0).max())
-    parts: list[_Part] = []
-    open_parts: list[_Part] = []
+    parts: list[_Slab] = []
+    open_parts: list[_Slab] = []
     for low, high in itertools.pairwise(levels.tolist()):
-        slab = [_Part(corners, low, high) for corners in _slab(edges, low, high)]
+        slab = [_Slab(corners, low, high) for corners in _slab(edges, low, high)]
         open_parts = [_grown(part, open_parts, size) for part in slab]
         parts.extend(part for part in open_parts if part.bottom == low)
     # a part that grew stands in the list as it was begun; its corners are the grown ones
@@ -36,7 +36,7 @@ def convex_polygons(outlines: Sequence[Outline]) -> list[Floats]:
 
 
 @dataclass(slots=True)
-class _Part:
+class _Slab:
     """A convex polygon between two levels of y."""
 
     corners: Floats
@@ -79,7 +79,7 @@ def _slab(edges: Floats, low: float, high: float) -> list[Floats]:
     return found
 
 
-def _grown(part: _Part, below: list[_Part], size: float) -> _Part:
+def _grown(part: _Slab, below: list[_Slab], size: float) -> _Slab:
     """A part of the slab below with this one added, if both together are convex."""
     for other in below:
         both = np.concatenate([other.corners, part.corners])

@@ -15,7 +15,7 @@ _BITS = 21
 
 
 @dataclass(frozen=True)
-class Surface:
+class WeldedSurface:
     """Triangles whose equal corners are one vertex.
 
     Attributes:
@@ -62,18 +62,18 @@ class Surface:
         a, b, c = (self.vertices[self.faces[:, i]] - self.vertices[0] for i in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
-    def part(self, rows: Indices | NDArray[np.bool_]) -> Surface:
+    def part(self, rows: Indices | NDArray[np.bool_]) -> WeldedSurface:
         """Some of the faces, with their vertices only."""
         used, inverse = np.unique(self.faces[rows], return_inverse=True)
         faces = inverse.reshape(-1, 3).astype(np.intp)
-        return Surface(self.vertices[used], faces, self.normals[rows], self.areas[rows])
+        return WeldedSurface(self.vertices[used], faces, self.normals[rows], self.areas[rows])
 
     def is_closed(self) -> bool:
         """Whether each edge belongs to two faces, which run along it in opposite ways."""
         return bool((self.twins >= 0).all())
 
 
-def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
+def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     """Weld corners at the same place; leave out faces without area, and all but one of each.
 
     Of two faces that are each other's back, as in sheets drawn from both sides, the first
@@ -96,7 +96,7 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> Surface:
     doubled = np.linalg.norm(normals, axis=1)
     real = doubled > step * step
     normals = normals[real] / doubled[real, None]
-    return Surface(points, welded[real], normals, doubled[real] / 2.0)
+    return WeldedSurface(points, welded[real], normals, doubled[real] / 2.0)
 
 
 def _packed(rows: Indices) -> NDArray[np.int64]:
@@ -104,7 +104,7 @@ def _packed(rows: Indices) -> NDArray[np.int64]:
     return (rows[:, 0] << 2 * _BITS) + (rows[:, 1] << _BITS) + rows[:, 2]
 
 
-def components(surface: Surface) -> Indices:
+def components(surface: WeldedSurface) -> Indices:
     """Which part each face belongs to, shape (m,); parts hang together by their corners.
 
     They are numbered from 0 in the order of their first faces.

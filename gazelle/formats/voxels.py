@@ -10,7 +10,7 @@ import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.formats.cube_samples import CubeSampler
-from gazelle.formats.surface import Surface
+from gazelle.formats.surface import WeldedSurface
 
 _MOST_CELLS = 4_000_000
 _RATIO = 1.2
@@ -50,7 +50,7 @@ class Voxels:
         return math.sqrt(3.0) * steps * self.side
 
 
-def voxels_of(surface: Surface, side: float) -> Voxels:
+def voxels_of(surface: WeldedSurface, side: float) -> Voxels:
     """The grid of a surface; coarser than asked if it would have too many cubes.
 
     Air is outside if it can flow there from beyond the grid, straight along its axes.
@@ -72,7 +72,7 @@ Grid: TypeAlias = tuple[Floats, float, tuple[int, int, int]]
 """The least corner of a grid [m], the side of its cubes [m], how many along x, y and z."""
 
 
-def samples(surface: Surface, spacing: float, grid: Grid) -> tuple[Floats, Indices, Bools]:
+def samples(surface: WeldedSurface, spacing: float, grid: Grid) -> tuple[Floats, Indices, Bools]:
     """Of places all over a surface, about this far from each other at most, one a cube.
 
     Args:

@@ -133,7 +133,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
     return _convert(root, name, None, {})
 
 
-class _Builder(expatbuilder.ExpatBuilderNS):
+class _DomBuilder(expatbuilder.ExpatBuilderNS):
     """Builds a DOM whose elements know their places."""
 
     def __init__(self, file: str) -> None:
@@ -152,7 +152,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 def _parse(data: bytes, name: str, reading: Reading) -> Any:
     """A DOM whose elements know their lines; entities are refused as elsewhere."""
     _, text = xml.parsed(data, name=name, report=reading.misread)
-    return _Builder(name).parseString(text)
+    return _DomBuilder(name).parseString(text)
 
 
 @contextlib.contextmanager

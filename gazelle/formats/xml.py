@@ -112,7 +112,7 @@ def _parsed(data: bytes, name: str, *, is_text: bool) -> tuple[Parameters, bytes
     if data.lstrip(_BLANK)[:1] not in _FIRST:
         raise FormatError("this is not XML: it does not begin with '<'", file=name, line=1)
     data = _declaration_first(data.removeprefix(codecs.BOM_UTF8))
-    builder = _Builder(name, encoding="utf-8" if is_text else None)
+    builder = _TreeBuilder(name, encoding="utf-8" if is_text else None)
     return builder.read(data), data
 
 
@@ -137,7 +137,7 @@ class _Open:
     counts: dict[str, int] = field(default_factory=dict)
 
 
-class _Builder:
+class _TreeBuilder:
     """Turns expat's events into a tree."""
 
     def __init__(self, name: str, encoding: str | None) -> None:

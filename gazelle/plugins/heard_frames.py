@@ -14,7 +14,7 @@ from gazelle.simulation import Transforms
 
 
 @dataclass(slots=True)
-class _Step:
+class _HeardTransform:
     """Where a frame is in its parent, in the worlds that it is known in.
 
     Attributes:
@@ -41,7 +41,7 @@ class HeardFrames:
 
     def __init__(self, nworld: int) -> None:
         self._nworld = nworld
-        self._steps: dict[str, _Step] = {}
+        self._steps: dict[str, _HeardTransform] = {}
 
     @property
     def any(self) -> bool:
@@ -60,10 +60,10 @@ class HeardFrames:
             step.known[rows] = True
             step.position[rows], step.quaternion[rows] = each.position, each.quaternion
 
-    def _fresh(self, parent: str, *, static: bool) -> _Step:
+    def _fresh(self, parent: str, *, static: bool) -> _HeardTransform:
         upright = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
         known = np.zeros(self._nworld, np.bool_)
-        return _Step(parent, static, known, np.zeros((self._nworld, 3)), upright)
+        return _HeardTransform(parent, static, known, np.zeros((self._nworld, 3)), upright)
 
     def find(self, frame: str, base: str) -> tuple[NDArray[np.bool_], Floats, Floats]:
         """Where a frame is in another one, and in which worlds that is known.
@@ -131,7 +131,7 @@ class HeardFrames:
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._steps = {
-            str(frame): _Step(
+            str(frame): _HeardTransform(
                 str(state["parents"][i]),
                 bool(state["static"][i]),
                 np.array(state["known"][i], np.bool_),

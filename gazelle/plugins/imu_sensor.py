@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
-from gazelle.plugins.publishing import Publisher
+from gazelle.plugins.publishing import PublishingPlugin
 from gazelle.plugins.sensor_kinds import model_of
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply
@@ -13,7 +13,7 @@ from gazelle.sensors import ImuModel, ImuReading, NoiseModel
 from gazelle.simulation import Output, SensorPlugin, SensorUnit, absolute, namespace_of
 
 
-class ImuSensor(Noisy, Publisher, SensorPlugin):
+class ImuSensor(Noisy, PublishingPlugin, SensorPlugin):
     """Publishes an IMU sensor's readings at a rate of its own, gravity included."""
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:

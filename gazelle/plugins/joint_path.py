@@ -12,7 +12,7 @@ from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.simulation import Input, ModelPlugin, Robot, Service, absolute, namespace_of
-from gazelle.simulation.values import JointPath, Outcome, PathRequest
+from gazelle.simulation.values import JointPath, PathRequest, ServiceOutcome
 
 
 @dataclass(slots=True)
@@ -45,7 +45,7 @@ class JointPoseTrajectory(ModelPlugin):
         robot.services[name] = Service(
             absolute(namespace, parameters.get("serviceName", name)),
             PathRequest,
-            Outcome,
+            ServiceOutcome,
             self._answer,
         )
 
@@ -86,14 +86,14 @@ class JointPoseTrajectory(ModelPlugin):
         everywhere = np.arange(self._robot.simulation.nworld)
         self._plays.append(_Play(path, start, everywhere if worlds is None else worlds))
 
-    def _answer(self, request: PathRequest, worlds: Worlds | None) -> Outcome:
+    def _answer(self, request: PathRequest, worlds: Worlds | None) -> ServiceOutcome:
         try:
             self._begin(request.path, worlds)
         except SimulationError as error:
-            return Outcome(success=False, text=str(error))
+            return ServiceOutcome(success=False, text=str(error))
         if request.position is not None:
             self._robot.set_pose(request.position, request.quaternion, worlds=worlds)
-        return Outcome(success=True, text="SetJointTrajectory: trajectory set")
+        return ServiceOutcome(success=True, text="SetJointTrajectory: trajectory set")
 
     def reset(self, worlds: Worlds | None) -> None:
         """End all paths in these worlds."""

@@ -18,7 +18,7 @@ class Published(Protocol):
         """Hand a new value to all who listen."""
 
 
-class Publisher(Plugin):
+class PublishingPlugin(Plugin):
     """Publishes its outputs at its rate, and needs no updates while nobody listens."""
 
     def __init__(self) -> None:
@@ -38,5 +38,5 @@ class Publisher(Plugin):
             output.publish()
 
 
-class Publishing(Publisher, ModelPlugin):
+class Publishing(PublishingPlugin, ModelPlugin):
     """A publisher of a model."""

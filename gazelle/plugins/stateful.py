@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.simulation import Plugin
-from gazelle.states import Part, restore_all, states_of
+from gazelle.states import Restorable, restore_all, states_of
 
 
-class Stateful(Part, Protocol):
+class Stateful(Restorable, Protocol):
     """Noise or a sensor: something with random numbers and drifts."""
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Light, Plane, Pose, Visual, World
-from gazelle.engines.tracer import Sight, Tracer
+from gazelle.engines.tracer import RayHits, Tracer
 
 _GREY = (0.7, 0.7, 0.7)
 _SKY_TOP = np.array([0.45, 0.62, 0.86])
@@ -59,7 +59,7 @@ def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
     colour = _background(world, directions)
     hit = sight.visual >= 0
     if hit.any():
-        met = Sight(sight.distance[hit], sight.normal[hit], sight.visual[hit])
+        met = RayHits(sight.distance[hit], sight.normal[hit], sight.visual[hit])
         points = eye[hit] + met.distance[:, None] * directions[hit]
         colour[hit] = _shade(tracer, world, met, points, directions[hit])
     fine = colour.reshape(view.height, view.samples, view.width, view.samples, 3)
@@ -99,7 +99,7 @@ def _background(world: World, directions: Floats) -> Floats:
     return np.tile(np.asarray(world.scene.background[:3]), (len(directions), 1))
 
 
-def _shade(tracer: Tracer, world: World, met: Sight, points: Floats, along: Floats) -> Floats:
+def _shade(tracer: Tracer, world: World, met: RayHits, points: Floats, along: Floats) -> Floats:
     facing = np.where((met.normal * along).sum(axis=1, keepdims=True) > 0.0, -1.0, 1.0)
     normal = met.normal * facing
     surface = _surface_colours(tracer.visuals, met.visual, points, grid=world.scene.grid)

@@ -7,13 +7,13 @@ import traceback
 import warnings
 from pathlib import Path
 
-from gazelle.errors import Error, PluginWarning, Source, describe, located
+from gazelle.errors import Error, FilePlace, PluginWarning, describe, located
 
 _LIBRARY = str(Path(__file__).parents[1])
 
 
 def warn_of_fault(
-    plugin: object, name: str, when: str, error: Exception, source: Source | None = None
+    plugin: object, name: str, when: str, error: Exception, source: FilePlace | None = None
 ) -> None:
     """Name a plugin that failed, and the line where it did.
 

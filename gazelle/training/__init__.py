@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from gazelle.training.records import EpisodeRecord
     from gazelle.training.runs import Run, RunConfig
     from gazelle.training.session import TrainResult, resume, train
-    from gazelle.training.statistics import Rate, wilson_interval
+    from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
     from gazelle.training.verified import VERIFIED, Verified
 
@@ -49,7 +49,7 @@ _HOMES = {
     "PPOSettings": "recipes",
     "Progress": "progress",
     "RECIPES": "recipes",
-    "Rate": "statistics",
+    "SuccessRate": "statistics",
     "Recipe": "recipes",
     "Run": "runs",
     "RunConfig": "runs",
@@ -80,10 +80,10 @@ __all__ = [
     "OffPolicySettings",
     "PPOSettings",
     "Progress",
-    "Rate",
     "Recipe",
     "Run",
     "RunConfig",
+    "SuccessRate",
     "Task",
     "TrainResult",
     "Verified",

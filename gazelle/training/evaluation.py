@@ -16,7 +16,7 @@ from gazelle.training.actor import Actor, load_actor
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.records import EpisodeRecord, Ledger, Trail
 from gazelle.training.runs import Run
-from gazelle.training.statistics import Rate
+from gazelle.training.statistics import SuccessRate
 from gazelle.training.stepper import Stepper
 from gazelle.training.tasks import (
     control_period,
@@ -45,13 +45,13 @@ class Evaluation:
     """How many of them differ: the others repeat one of these."""
     seed: int
     """Seed of the environment."""
-    success: Rate | None
+    success: SuccessRate | None
     """Goals that were reached; None when the task does not tell."""
-    collision: Rate | None
+    collision: SuccessRate | None
     """Attempts that ended in a collision; None when the task does not tell."""
-    timeout: Rate
+    timeout: SuccessRate
     """Attempts that ran out of time."""
-    other: Rate
+    other: SuccessRate
     """Attempts that ended otherwise, such as by a fall."""
     mean_return: float
     """Mean sum of rewards of an episode."""
@@ -223,7 +223,7 @@ def _resolve(
     return load_actor(Path(run_or_policy)), task, options
 
 
-def _rate_to_dict(rate: Rate | None) -> dict[str, float] | None:
+def _rate_to_dict(rate: SuccessRate | None) -> dict[str, float] | None:
     if rate is None:
         return None
     low, high = rate.interval

@@ -24,7 +24,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, loss_of
 from gazelle.training.scaling import ObservationScale
-from gazelle.training.stepper import Step
+from gazelle.training.stepper import TrainingStep
 from gazelle.training.threads import products
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -168,7 +168,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     def _note_cut_off(
         self,
         row: int,
-        step: Step,
+        step: TrainingStep,
         cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]],
     ) -> None:
         """Remember the last observations of episodes that were cut off, to value them later."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from gazelle.array_types import UInts64
 from gazelle.training.episodes import Episodes
-from gazelle.training.statistics import Rate, clustered_rate
+from gazelle.training.statistics import SuccessRate, clustered_rate
 
 _ENDS = ("collisions", "timeouts", "others")
 _NAMES = {"collisions": "collision", "timeouts": "time-out", "others": "other"}
@@ -101,7 +101,7 @@ class Ledger:
             told = ended.scenarios
             self._keys.append(trails[row].tobytes() if told is None else told[row].tobytes())
 
-    def rate(self, what: str) -> Rate:
+    def rate(self, what: str) -> SuccessRate:
         """How many of all attempts were ``goals``, or ended as `EpisodeRecord.ends` names."""
         ends = np.array([record.ends for record in self.records], dtype=np.int64)
         goals = np.array([record.goals for record in self.records], dtype=np.int64)

@@ -17,7 +17,7 @@ _ENDS = {"success_rate": "goals", "collision_rate": "collisions", "timeout_rate"
 
 
 @dataclass(frozen=True, slots=True)
-class Rate:
+class SuccessRate:
     """How often something happened, with a 95 % confidence interval."""
 
     count: int
@@ -64,7 +64,7 @@ def wilson_interval(count: float, total: float, z: float = _Z_95) -> tuple[float
 
 def clustered_rate(
     counts: npt.NDArray[np.int64], totals: npt.NDArray[np.int64], clusters: npt.NDArray[np.int64]
-) -> Rate:
+) -> SuccessRate:
     """A rate over episodes of which some are repetitions of others.
 
     Repetitions tell less than fresh draws: nothing more where they end alike. The number of
@@ -85,7 +85,7 @@ def clustered_rate(
     sizes, hits = sizes[sizes > 0], hits[sizes > 0]
     many = len(sizes)
     if sizes.max(initial=0.0) <= 1:
-        return Rate(count, total)
+        return SuccessRate(count, total)
     # If all attempts of a cluster end alike (L. Kish, "Survey Sampling", 1965, sec. 8.2).
     alike = total**2 / float((sizes**2).sum())
     # Few clusters tell little of how alike their attempts end. Two more that are, one of each
@@ -96,7 +96,7 @@ def clustered_rate(
     share = hits.sum() / sizes.sum()
     variance = float(((hits - share * sizes) ** 2).sum()) / sizes.sum() ** 2
     draws = share * (1.0 - share) / variance * many / (many + 2)
-    return Rate(count, total, float(min(max(draws, alike), total)))
+    return SuccessRate(count, total, float(min(max(draws, alike), total)))
 
 
 class EpisodeLog:

@@ -34,7 +34,7 @@ _FEW = 8  # numbers of an info that a record of an episode keeps at most
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class TrainingStep:
     """What one control step of all N copies brought."""
 
     obs: Floats32
@@ -109,7 +109,7 @@ class Stepper:
         self.obs = np.array(obs, dtype=np.float32)
         return self.obs
 
-    def step(self, actions: npt.NDArray[Any]) -> Step:
+    def step(self, actions: npt.NDArray[Any]) -> TrainingStep:
         """Do one control step in every copy.
 
         Args:
@@ -143,7 +143,7 @@ class Stepper:
         if self._teacher is not None and began.any():
             self._teacher.begin(info, began)
         self.obs = obs
-        return Step(obs, rewards, taught, terminated, truncated, valid, final_obs, ended)
+        return TrainingStep(obs, rewards, taught, terminated, truncated, valid, final_obs, ended)
 
     def _taught(
         self,

@@ -17,7 +17,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.training.episodes import Episodes
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.stepper import Step, Stepper
+from gazelle.training.stepper import Stepper, TrainingStep
 
 
 class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
@@ -57,8 +57,8 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
 
-    def advance(self, actions: npt.NDArray[Any]) -> Step:
-        """One control step as a `Step`, without infos (rewards are not scaled)."""
+    def advance(self, actions: npt.NDArray[Any]) -> TrainingStep:
+        """One control step as a `TrainingStep`, without infos (rewards are not scaled)."""
         step = self.stepper.step(actions)
         if step.ended is not None and self.on_episodes is not None:
             self.on_episodes(step.ended)

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gazelle.training.statistics import Rate
+from gazelle.training.statistics import SuccessRate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verified:
     """What the recipe of a task was found to reach, on held-out starts and goals."""
 
-    success: dict[str, Rate]
+    success: dict[str, SuccessRate]
     """Goals reached of those tried, one an episode, by the engine of the evaluation."""
     seeds: int
     """How many trainings they are of, with seeds from 0."""
@@ -25,16 +25,24 @@ class Verified:
 
 VERIFIED: dict[str, Verified] = {
     "TurtleBot3Stage1": Verified(
-        success={"planar": Rate(2000, 2000), "mujoco": Rate(300, 300)}, seeds=2, seconds=10
+        success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
+        seeds=2,
+        seconds=10,
     ),
     "TurtleBot3Stage2": Verified(
-        success={"planar": Rate(1998, 2000), "mujoco": Rate(299, 300)}, seeds=2, seconds=18
+        success={"planar": SuccessRate(1998, 2000), "mujoco": SuccessRate(299, 300)},
+        seeds=2,
+        seconds=18,
     ),
     "TurtleBot3Stage3": Verified(
-        success={"planar": Rate(1970, 2000), "mujoco": Rate(971, 1000)}, seeds=2, seconds=18
+        success={"planar": SuccessRate(1970, 2000), "mujoco": SuccessRate(971, 1000)},
+        seeds=2,
+        seconds=18,
     ),
     "TurtleBot3Stage4": Verified(
-        success={"planar": Rate(2797, 3000), "mujoco": Rate(279, 300)}, seeds=3, seconds=40
+        success={"planar": SuccessRate(2797, 3000), "mujoco": SuccessRate(279, 300)},
+        seeds=3,
+        seconds=40,
     ),
 }
 """By the task's name, for the recipe that `recipe_for` gives."""

@@ -12,7 +12,7 @@ from PIL import Image
 from gazelle.cli.failures import save_failures
 from gazelle.envs import FloorPlan
 from gazelle.errors import TaskError
-from gazelle.training import Actor, EpisodeRecord, Evaluation, Rate, evaluate
+from gazelle.training import Actor, EpisodeRecord, Evaluation, SuccessRate, evaluate
 from gazelle.viewer.failures import draw_failures
 
 RED, INK = (206, 62, 52), (60, 60, 66)
@@ -64,7 +64,7 @@ def record(outcome, **info):
 
 
 def evaluation(records, plan=None):
-    rate = Rate(0, max(len(records), 1))
+    rate = SuccessRate(0, max(len(records), 1))
     return Evaluation(
         "test/T-v0", len(records), len(records), 0, rate, rate, rate, rate, 0.0, 0.0, 1.0, None,
         records, plan,

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from gazelle.cli import showing
-from gazelle.training import Evaluation, Rate
+from gazelle.training import Evaluation, SuccessRate
 
 
 def test_tables_wrap_their_last_column_and_break_no_path():
@@ -23,7 +23,7 @@ def test_durations_are_in_a_fitting_unit(seconds, text):
 
 
 def test_rates_come_with_their_interval():
-    text = showing.rate(Rate(97, 100))
+    text = showing.rate(SuccessRate(97, 100))
     assert "97.0 %" in text
     assert "91.5 % to 99.0 %" in text
     assert "(97 of 100)" in text
@@ -31,7 +31,7 @@ def test_rates_come_with_their_interval():
 
 def test_evaluation_fits_80_columns():
     result = Evaluation(
-        "gazelle/T-v0", 10_000, 9_000, 1, Rate(9_900, 10_000), None, Rate(100, 10_000), Rate(0, 10_000),
+        "gazelle/T-v0", 10_000, 9_000, 1, SuccessRate(9_900, 10_000), None, SuccessRate(100, 10_000), SuccessRate(0, 10_000),
         -123456.789, 499.9, 1234.5, 1e7,
     )  # fmt: skip
     text = showing.evaluation(result)

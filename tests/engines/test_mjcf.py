@@ -67,10 +67,10 @@ def test_it_steps_as_the_engine_does(name):
 
 
 def test_every_number_is_the_one_compiled():
-    from gazelle.engines.mujoco.compiler import Recipe, compile_world
+    from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
 
     world = box_world()
-    ours = compile_world(Recipe(world, 0.001)).model
+    ours = compile_world(CompilerInput(world, 0.001)).model
     theirs = mujoco.MjModel.from_xml_string(to_mjcf(world, visuals=False))
     for field in FIELDS:
         np.testing.assert_array_equal(getattr(theirs, field), getattr(ours, field), field)

@@ -20,7 +20,7 @@ from gazelle.description import (
 from gazelle.engines import make_engine
 from gazelle.engines.laws import with_profile
 from gazelle.engines.mujoco.balance import unbalanced_dofs
-from gazelle.engines.mujoco.compiler import Recipe, compile_world
+from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
 from gazelle.errors import EngineWarning
 from gazelle.rotations import rotate
 
@@ -196,13 +196,15 @@ def test_what_turns_about_changing_axes_is_found():
     def found(*models):
         return tuple(
             len(each)
-            for each in unbalanced_dofs(compile_world(Recipe(scenes.world(*models), 0.001)).model)
+            for each in unbalanced_dofs(
+                compile_world(CompilerInput(scenes.world(*models), 0.001)).model
+            )
         )
 
     assert found(scenes.burger()) == (0, 3)
     assert found(chain(1).world.models[0]) == (0, 0)
     assert found(chain(2).world.models[0]) == (2, 0)
-    tyred = Recipe(scenes.world(scenes.burger()), 0.001, tyres=frozenset({LEFT}))
+    tyred = CompilerInput(scenes.world(scenes.burger()), 0.001, tyres=frozenset({LEFT}))
     hinges, _ = unbalanced_dofs(compile_world(tyred).model)
     assert len(hinges) == 1  # how fast the tyre slips on its wheel
     assert found(scenes.box()) == (0, 0)

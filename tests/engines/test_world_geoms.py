@@ -22,7 +22,7 @@ from gazelle.description import (
 )
 from gazelle.engines import make_engine
 from gazelle.engines.mujoco import world_geoms
-from gazelle.engines.mujoco.compiler import Recipe, compile_world
+from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
 
 FIELDS = ("geom_pos", "geom_quat", "geom_size", "geom_type", "geom_friction", "geom_group")
 
@@ -60,11 +60,11 @@ def town(folder):
 @pytest.mark.parametrize(("few", "together"), [(0, 1), (2, 3), (5, 100)])
 def test_a_world_is_the_same_however_it_is_put_together(tmp_path, monkeypatch, few, together):
     world = town(tmp_path)
-    plain = compile_world(Recipe(world, 0.001))
+    plain = compile_world(CompilerInput(world, 0.001))
     engine = make_engine("mujoco", world)
     monkeypatch.setattr(world_geoms, "_FEW", few)
     monkeypatch.setattr(world_geoms, "_TOGETHER", together)
-    other = compile_world(Recipe(world, 0.001))
+    other = compile_world(CompilerInput(world, 0.001))
     assert other.geoms.keys() == plain.geoms.keys()
     for name, geoms in plain.geoms.items():
         rows = [plain.model.geom(geom).id for geom in geoms]

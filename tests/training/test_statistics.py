@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.stats import binomtest
 
 from gazelle.training.episodes import Episodes
-from gazelle.training.statistics import EpisodeLog, Rate, clustered_rate, wilson_interval
+from gazelle.training.statistics import EpisodeLog, SuccessRate, clustered_rate, wilson_interval
 
 
 @given(st.integers(1, 500).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
@@ -19,7 +19,7 @@ def test_wilson_interval_agrees_with_scipy(case):
 
 def test_nothing_counted_means_nothing_known():
     assert wilson_interval(0, 0) == (0.0, 1.0)
-    assert Rate(0, 0).value == 0.0
+    assert SuccessRate(0, 0).value == 0.0
 
 
 def episodes(returns, goals=None, since=3, **outcomes):
@@ -105,7 +105,7 @@ def test_intervals_hold_the_truth_where_episodes_repeat(share, alike, episodes, 
         counts = (rng.random(len(clusters)) < chance[clusters]).astype(np.int64)
         low, high = clustered_rate(counts, np.ones_like(counts), clusters).interval
         held += low - 1e-12 <= share <= high + 1e-12
-        low, high = Rate(int(counts.sum()), len(counts)).interval
+        low, high = SuccessRate(int(counts.sum()), len(counts)).interval
         naive += low <= share <= high
     assert held / trials >= 0.9
     assert naive / trials < 0.75 or alike == 0.0

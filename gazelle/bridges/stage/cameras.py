@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
-from gazelle.simulation.stage import Camera, cameras_of
+from gazelle.simulation.stage import MountedCamera, cameras_of
 
 _MILLIMETRES = 1000.0
 
@@ -21,7 +21,7 @@ class _Eye:
     """A camera that is published."""
 
     which: int
-    camera: Camera
+    camera: MountedCamera
     frame: str
     image: Publisher
     depth: Publisher

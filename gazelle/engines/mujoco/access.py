@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
 from gazelle.engines.engine import Hits, Motion, Placement
-from gazelle.engines.mujoco.layout import Layout, LinkSlot, ModelSlot
+from gazelle.engines.mujoco.layout import LinkSlot, ModelSlot, MujocoLayout
 from gazelle.engines.mujoco.order import (
     joint_from_mujoco,
     joint_to_mujoco,
@@ -53,7 +53,7 @@ class StateAccess(ABC):
     """The part of ``gazelle.engines.engine.Engine`` that reads and writes states."""
 
     _batch: Batch
-    _layout: Layout
+    _layout: MujocoLayout
     _state: StateViews
     _nworld: int
     _stale: bool
@@ -77,7 +77,7 @@ class StateAccess(ABC):
         """Let a model move only when told to."""
 
     @abstractmethod
-    def _now(self) -> Layout:
+    def _now(self) -> MujocoLayout:
         """The layout of what runs, once pending changes have been made."""
 
     @abstractmethod

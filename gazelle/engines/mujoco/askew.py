@@ -15,13 +15,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from gazelle.description import Box, Capsule, Collision, Cylinder, Geometry, Pose
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 
 # A tenth of ODE's surface layer [m].
 _LAYER = 1e-4
 
 
-def straight_pose(collision: Collision, body: Body, bodies: Mapping[str, Body]) -> Pose:
+def straight_pose(collision: Collision, body: TreeLink, bodies: Mapping[str, TreeLink]) -> Pose:
     """The pose of a collision in its link, put straight if it is askew by rounding.
 
     Args:
@@ -44,7 +44,7 @@ def straight_pose(collision: Collision, body: Body, bodies: Mapping[str, Body]) 
     return Pose.from_quaternion(collision.pose.position, put.quaternion)
 
 
-def _in_carrier(body: Body, bodies: Mapping[str, Body]) -> Pose:
+def _in_carrier(body: TreeLink, bodies: Mapping[str, TreeLink]) -> Pose:
     """The pose of a link in the first above it that a joint moves, or that nothing carries."""
     pose = Pose()
     while body.joint is not None and body.joint.type == "fixed" and body.parent is not None:

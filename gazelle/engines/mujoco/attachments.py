@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import mujoco
 
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 
 # A weld is as stiff as MuJoCo allows: a time constant of two physics steps would be the
 # limit of stability, three leave room for what hangs on it.
@@ -39,7 +39,7 @@ class Attachment:
 def add_attachments(
     spec: mujoco.MjSpec,
     attachments: tuple[Attachment, ...],
-    bodies: Mapping[str, list[Body]],
+    bodies: Mapping[str, list[TreeLink]],
 ) -> None:
     """Put a weld, switched off, into the model for every pair.
 

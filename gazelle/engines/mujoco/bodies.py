@@ -11,7 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines.engine import Placement
 from gazelle.engines.mujoco.access import StateAccess, rows_of, unit
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.layout import Layout, LinkSlot
+from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
@@ -30,7 +30,7 @@ class BodyAccess(StateAccess):
         """Change a physical parameter."""
 
     @abstractmethod
-    def _prepare(self, pair: Attachment) -> Layout:
+    def _prepare(self, pair: Attachment) -> MujocoLayout:
         """The layout of what runs, in which two links can be held together."""
 
     # -- placing -----------------------------------------------------------------------

@@ -14,7 +14,7 @@ from gazelle.description import Collision, Inertial, Model, Pose, World
 from gazelle.engines.mujoco.askew import straight_pose
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import (
-    Solid,
+    ContactGeom,
     Spring,
     add_pairs,
     ask_for_cone,
@@ -41,7 +41,7 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.treads import possible_treads
-from gazelle.engines.mujoco.tree import Body, Closure, tree_of
+from gazelle.engines.mujoco.tree import Closure, TreeLink, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
 from gazelle.engines.mujoco.world_geoms import WorldGeoms
 from gazelle.errors import EngineError
@@ -51,7 +51,7 @@ VISUAL_GROUP = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Recipe:
+class CompilerInput:
     """All that a compiled model depends on.
 
     Attributes:
@@ -87,7 +87,7 @@ class Compiled:
     """
 
     model: mujoco.MjModel
-    bodies: Mapping[str, list[Body]]
+    bodies: Mapping[str, list[TreeLink]]
     geoms: Mapping[str, list[str]]
     springs: Sequence[int] = ()
     closures: Sequence[Closure] = ()
@@ -112,7 +112,7 @@ class Draft:
 
     spec: mujoco.MjSpec
     shapes: ShapeBuilder
-    bodies: Mapping[str, list[Body]]
+    bodies: Mapping[str, list[TreeLink]]
     geoms: Mapping[str, list[str]]
     springs: list[Spring]
     closures: Sequence[Closure]
@@ -155,7 +155,7 @@ class Draft:
             compiled.opt.disableflags = self.spec.option.disableflags = flags
 
 
-def compile_world(recipe: Recipe) -> Compiled:
+def compile_world(recipe: CompilerInput) -> Compiled:
     """Build the MuJoCo model of a world's collision shapes.
 
     Raises:
@@ -173,7 +173,7 @@ def compile_world(recipe: Recipe) -> Compiled:
     return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures, recipe.motors)
 
 
-def draft_world(recipe: Recipe) -> Draft:
+def draft_world(recipe: CompilerInput) -> Draft:
     """All that the model of a world is compiled from.
 
     Raises:
@@ -188,7 +188,7 @@ def draft_world(recipe: Recipe) -> Draft:
     bodies = {name: tree.bodies for name, tree in trees.items()}
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.tyres - held)
-    builder = _Builder(spec, recipe, bodies, slips)
+    builder = _SpecBuilder(spec, recipe, bodies, slips)
     for model in models:
         builder.add_model(model)
     builder.world.finish()
@@ -233,14 +233,14 @@ def draft_world(recipe: Recipe) -> Draft:
     )
 
 
-class _Builder:
+class _SpecBuilder:
     """Fills an ``MjSpec`` model by model."""
 
     def __init__(
         self,
         spec: mujoco.MjSpec,
-        recipe: Recipe,
-        bodies: Mapping[str, list[Body]],
+        recipe: CompilerInput,
+        bodies: Mapping[str, list[TreeLink]],
         tyres: Collection[str],
     ) -> None:
         self._spec = spec
@@ -255,7 +255,7 @@ class _Builder:
             name: sum((part.link.inertial or Inertial()).mass for part in parts)
             for name, parts in bodies.items()
         }
-        self.solids: list[Solid] = []
+        self.solids: list[ContactGeom] = []
         self._ranks = friction_ranks(
             collision
             for parts in bodies.values()
@@ -272,7 +272,7 @@ class _Builder:
         if not model.static and model.name:
             self._exclude_own(self._bodies[model.name])
 
-    def _add_body(self, parent: Any, body: Body) -> Any:
+    def _add_body(self, parent: Any, body: TreeLink) -> Any:
         if body.root == "static":
             # Shapes of the world itself: one body is faster than hundreds that never move.
             self._add_shapes(self.world.add_geom, body, body.pose)
@@ -291,7 +291,7 @@ class _Builder:
         self._add_shapes(lambda **geom: shaped.add_geom(**geom).name, body, Pose())
         return handle
 
-    def _add_shapes(self, add_geom: Callable[..., str], body: Body, pose: Pose) -> None:
+    def _add_shapes(self, add_geom: Callable[..., str], body: TreeLink, pose: Pose) -> None:
         """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
             surface = surface_options(collision, self._time_step, self._ranks)
@@ -308,14 +308,14 @@ class _Builder:
                 name = f"{body.name}::{collision.name}#{len(names)}"
                 names.append(add_geom(name=name, mass=0.0, **seen))
 
-    def _solid(self, name: str, body: Body, collision: Collision, placed: Pose) -> Solid:
+    def _solid(self, name: str, body: TreeLink, collision: Collision, placed: Pose) -> ContactGeom:
         model = body.name.partition("::")[0]
         moves = body.root not in ("static", "kinematic")
         where = body.name if body.root != "static" else ""
         mass = self._masses[model] if moves else math.inf
-        return Solid(name, where, model, mass, body.self_collide, collision, placed)
+        return ContactGeom(name, where, model, mass, body.self_collide, collision, placed)
 
-    def _exclude_own(self, bodies: list[Body]) -> None:
+    def _exclude_own(self, bodies: list[TreeLink]) -> None:
         """Links of one model collide only if both say so, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
@@ -324,12 +324,12 @@ class _Builder:
                 one, two = self._solid_body(first), self._solid_body(second)
                 self._spec.add_exclude(bodyname1=one, bodyname2=two)
 
-    def _solid_body(self, body: Body) -> str:
+    def _solid_body(self, body: TreeLink) -> str:
         """MuJoCo's body that has the shapes of a link."""
         return tyre_name(body.name) if body.name in self._tyres else body.name
 
 
-def _set_inertial(handle: Any, body: Body) -> None:
+def _set_inertial(handle: Any, body: TreeLink) -> None:
     inertial = body.link.inertial or Inertial()
     if inertial.mass <= 0.0:
         raise EngineError(

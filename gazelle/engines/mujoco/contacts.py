@@ -61,7 +61,7 @@ _POINTS = {Sphere: 1, Ellipsoid: 1, Capsule: 2}
 
 
 @dataclass(frozen=True, slots=True)
-class Solid:
+class ContactGeom:
     """One geom that may touch others.
 
     Attributes:
@@ -116,7 +116,7 @@ class Pairs:
 
 
 def add_pairs(
-    spec: mujoco.MjSpec, solids: Iterable[Solid], time_step: float, gravity: float
+    spec: mujoco.MjSpec, solids: Iterable[ContactGeom], time_step: float, gravity: float
 ) -> Pairs:
     """Add a contact pair for every two surfaces that MuJoCo would mix wrongly.
 
@@ -153,7 +153,7 @@ def add_pairs(
     return Pairs(springs, bounces, _rubs_of(everything) if directional else {})
 
 
-def ask_for_cone(solids: Iterable[Solid]) -> bool:
+def ask_for_cone(solids: Iterable[ContactGeom]) -> bool:
     """Whether some contact may have more friction than a pyramid bears."""
     frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
     return needs_cone(
@@ -161,12 +161,12 @@ def ask_for_cone(solids: Iterable[Solid]) -> bool:
     )
 
 
-def may_slide(solids: Iterable[Solid]) -> bool:
+def may_slide(solids: Iterable[ContactGeom]) -> bool:
     """Whether something that moves rubs."""
     return any(friction_of(each.collision) and math.isfinite(each.mass) for each in solids)
 
 
-def exits_of(solids: Iterable[Solid], world: World) -> dict[str, float]:
+def exits_of(solids: Iterable[ContactGeom], world: World) -> dict[str, float]:
     """The velocities at which geoms leave what they overlap, by name [m/s]; none if none moves."""
     solids = list(solids)
     if not any(math.isfinite(each.mass) for each in solids):
@@ -175,12 +175,12 @@ def exits_of(solids: Iterable[Solid], world: World) -> dict[str, float]:
     return {each.geom: min(each.collision.surface.contact.max_vel, most) for each in solids}
 
 
-def _rubs_of(solids: Iterable[Solid]) -> dict[str, Rub]:
+def _rubs_of(solids: Iterable[ContactGeom]) -> dict[str, Rub]:
     found = ((solid.geom, rub_of(solid.collision, solid.placed)) for solid in solids)
     return {geom: rub for geom, rub in found if rub is not None}
 
 
-def _with_shares(solids: list[Solid]) -> list[Solid]:
+def _with_shares(solids: list[ContactGeom]) -> list[ContactGeom]:
     """The solids with the share of their mass that one of the springs below a model carries."""
     points: dict[str, int] = defaultdict(int)
     for solid in solids:
@@ -192,7 +192,9 @@ def _with_shares(solids: list[Solid]) -> list[Solid]:
     ]
 
 
-def _special_pairs(solids: list[Solid], time_step: float) -> Iterable[tuple[Solid, Solid]]:
+def _special_pairs(
+    solids: list[ContactGeom], time_step: float
+) -> Iterable[tuple[ContactGeom, ContactGeom]]:
     special = [s for s in solids if _bounces(s) or _is_soft(s) or is_directional(s.collision)]
     seen: set[tuple[str, str]] = set()
     for first, second in itertools.product(special, solids):
@@ -253,7 +255,7 @@ def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list
     }
 
 
-def _friction_terms(first: Solid, second: Solid) -> dict[str, Any]:
+def _friction_terms(first: ContactGeom, second: ContactGeom) -> dict[str, Any]:
     one, two = friction_between(first.collision, second.collision)
     spin = max(torsional_friction_of(first.collision), torsional_friction_of(second.collision))
     return {"condim": condim_of(max(one, two), spin), "friction": [one, two, spin, 0.0, 0.0]}
@@ -263,7 +265,7 @@ def _geoms(model: mujoco.MjModel, pair: int) -> tuple[int, int]:
     return int(model.pair_geom1[pair]), int(model.pair_geom2[pair])
 
 
-def _may_touch(first: Solid, second: Solid) -> bool:
+def _may_touch(first: ContactGeom, second: ContactGeom) -> bool:
     if first.geom == second.geom or first.body == second.body:
         return False
     if math.isinf(first.mass) and math.isinf(second.mass):
@@ -276,7 +278,9 @@ def _may_touch(first: Solid, second: Solid) -> bool:
     return bool(a.collide_bitmask & b.collide_bitmask)
 
 
-def _spring_between(first: Solid, second: Solid, time_step: float) -> tuple[float, float] | None:
+def _spring_between(
+    first: ContactGeom, second: ContactGeom, time_step: float
+) -> tuple[float, float] | None:
     """Stiffness and damping of a contact; None for one that is as good as rigid."""
     a, b = first.collision.surface.contact, second.collision.surface.contact
     (kp1, kd1), (kp2, kd2) = _stiffness_of(a, time_step), _stiffness_of(b, time_step)
@@ -300,12 +304,12 @@ def _stiffness_of(contact: Contact, time_step: float) -> tuple[float, float]:
     return contact.kp, contact.kd
 
 
-def _restitution(first: Solid, second: Solid) -> float:
+def _restitution(first: ContactGeom, second: ContactGeom) -> float:
     e = min(_bounce_of(first.collision), _bounce_of(second.collision))
     return min(e, 1.0)
 
 
-def _bounces(solid: Solid) -> bool:
+def _bounces(solid: ContactGeom) -> bool:
     return _bounce_of(solid.collision) > 0.0
 
 
@@ -316,6 +320,6 @@ def _bounce_of(collision: Collision) -> float:
     return bounce.restitution_coefficient
 
 
-def _is_soft(solid: Solid) -> bool:
+def _is_soft(solid: ContactGeom) -> bool:
     contact = solid.collision.surface.contact
     return contact.kp <= _STIFFEST or contact.soft_cfm > 0.0

@@ -16,7 +16,7 @@ import numpy as np
 from gazelle.description import Inertial, Joint, Mimic, Pose
 from gazelle.engines.mujoco.inertia import inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
-from gazelle.engines.mujoco.tree import Body, Closure, lost_in_loop
+from gazelle.engines.mujoco.tree import Closure, TreeLink, lost_in_loop
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
@@ -31,7 +31,7 @@ _ARM = 0.1
 _LIGHTER, _RIGID = 0.01, [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
 
-def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[Body], time_step: float) -> None:
+def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: float) -> None:
     """Tie together what the joints of a model tie: screws and mimics.
 
     Raises:
@@ -84,7 +84,7 @@ def _require_leader(name: str, joint: Joint, mimic: Mimic, axes: Mapping[str, in
 
 
 def add_closure(
-    spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float
+    spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float
 ) -> None:
     """Close a loop, or couple two joints through a gearbox.
 
@@ -108,18 +108,18 @@ def _warn_of_loss(closure: Closure) -> None:
     warnings.warn(EngineWarning(located(text, joint.source)), stacklevel=2)
 
 
-def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:
+def _weld(spec: mujoco.MjSpec, closure: Closure, _: list[TreeLink], time_step: float) -> None:
     equality = _between(spec, mujoco.mjtEq.mjEQ_WELD, closure, time_step)
     equality.name = closure.name
 
 
-def _ball(spec: mujoco.MjSpec, closure: Closure, _: list[Body], time_step: float) -> None:
+def _ball(spec: mujoco.MjSpec, closure: Closure, _: list[TreeLink], time_step: float) -> None:
     equality = _between(spec, mujoco.mjtEq.mjEQ_CONNECT, closure, time_step)
     equality.name = closure.name
     equality.data[:3] = closure.pose.position
 
 
-def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float) -> None:
+def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float) -> None:
     """Two points on the axis held together leave only the turn about it."""
     _ball(spec, closure, bodies, time_step)
     axis = closure.joint.axes[0].xyz if closure.joint.axes else (0.0, 0.0, 1.0)
@@ -130,7 +130,7 @@ def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step:
 
 
 def _through_a_link(
-    spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float
+    spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float
 ) -> None:
     """Give the parent another link, which moves as the joint says, and weld the child to that.
 
@@ -164,7 +164,7 @@ def _through_a_link(
     equality.solimp = _RIGID
 
 
-def _at_rest(body: Body, by_name: Mapping[str, Body]) -> Pose:
+def _at_rest(body: TreeLink, by_name: Mapping[str, TreeLink]) -> Pose:
     """The pose of a body in the world with all joints at zero."""
     pose = body.pose
     while body.parent is not None:
@@ -173,7 +173,9 @@ def _at_rest(body: Body, by_name: Mapping[str, Body]) -> Pose:
     return pose
 
 
-def _gearbox(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_step: float) -> None:
+def _gearbox(
+    spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float
+) -> None:
     """The child turns -ratio times as far as the parent, both against the reference body."""
     joint = closure.joint
     driving = _turning(closure, joint.parent, bodies, 0)
@@ -182,7 +184,7 @@ def _gearbox(spec: mujoco.MjSpec, closure: Closure, bodies: list[Body], time_ste
     _tie(spec, driven[0], driving[0], (0.0, ratio), time_step)
 
 
-def _turning(closure: Closure, link: str, bodies: list[Body], axis: int) -> tuple[str, float]:
+def _turning(closure: Closure, link: str, bodies: list[TreeLink], axis: int) -> tuple[str, float]:
     """The hinge that a link turns on, and whether it turns with or against the gear's axis."""
     joint = closure.joint
     for body in bodies:
@@ -196,7 +198,7 @@ def _turning(closure: Closure, link: str, bodies: list[Body], axis: int) -> tupl
     )
 
 
-_CLOSERS: dict[str, Callable[[mujoco.MjSpec, Closure, list[Body], float], None]] = {
+_CLOSERS: dict[str, Callable[[mujoco.MjSpec, Closure, list[TreeLink], float], None]] = {
     "ball": _ball,
     "continuous": _hinge,
     "fixed": _weld,

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.engines.mujoco.views import StateViews
 
 
@@ -63,7 +63,7 @@ class EffortLimits:
 
 
 def effort_limits(
-    bodies: Iterable[Body], velocities: Mapping[str, tuple[slice, ...]]
+    bodies: Iterable[TreeLink], velocities: Mapping[str, tuple[slice, ...]]
 ) -> EffortLimits:
     """The limits that the joints of a world have.
 

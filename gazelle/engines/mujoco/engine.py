@@ -18,10 +18,10 @@ from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.compiler import Compiled, Recipe, compile_world
+from gazelle.engines.mujoco.compiler import Compiled, CompilerInput, compile_world
 from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.forcing import ForcedSteps
-from gazelle.engines.mujoco.layout import Layout, layout_of
+from gazelle.engines.mujoco.layout import MujocoLayout, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.motors import motor_again, motor_of, refuse_motors
 from gazelle.engines.mujoco.overlaps import Overlaps
@@ -69,10 +69,10 @@ class MujocoEngine(ForcedSteps):
         self._nworld = nworld
         self._threads = min(threads or os.cpu_count() or 1, nworld)
         self._parameters = ParameterStore(nworld)
-        self._pending: Recipe | None = None
-        self._run(Recipe(world, step), compile_world(Recipe(world, step)))
+        self._pending: CompilerInput | None = None
+        self._run(CompilerInput(world, step), compile_world(CompilerInput(world, step)))
 
-    def _run(self, recipe: Recipe, compiled: Compiled) -> None:
+    def _run(self, recipe: CompilerInput, compiled: Compiled) -> None:
         """Go on with a compiled model, from its initial state."""
         keep_awake(compiled.model, recipe.world)
         self._sleepy = bool(compiled.model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
@@ -255,13 +255,13 @@ class MujocoEngine(ForcedSteps):
         else:
             self._change(recipe)
 
-    def _now(self) -> Layout:
+    def _now(self) -> MujocoLayout:
         """The layout of what runs, once pending changes have been made."""
         if self._pending is not None:
             self._change(self._pending)
         return self._layout
 
-    def _change(self, recipe: Recipe) -> None:
+    def _change(self, recipe: CompilerInput) -> None:
         """Go on with another model, with all states that both have."""
         self._pending = None
         compiled = compile_world(recipe)
@@ -270,7 +270,7 @@ class MujocoEngine(ForcedSteps):
         carry_over(batch, layout, self._batch, self._layout)
         self._overlaps.carry(self._batch, overlaps)
 
-    def _prepare(self, pair: Attachment) -> Layout:
+    def _prepare(self, pair: Attachment) -> MujocoLayout:
         """The layout of what runs, in which two links can be held together."""
         if pair not in self._recipe.attachments:
             pairs = (*self._recipe.attachments, pair)
@@ -345,7 +345,7 @@ class MujocoEngine(ForcedSteps):
         kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
         motors = [motor_again(*call.arguments) for call in history if call.method == "add_motor"]
         pairs = [Attachment(*call.arguments) for call in history if call.method == "attach"]
-        recipe = Recipe(
+        recipe = CompilerInput(
             self.world,
             self._recipe.time_step,
             frozenset(kinematic),

@@ -15,7 +15,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Inertial
 from gazelle.engines.mujoco.remarks import LEAST_MOMENT
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineError
 
 _ROUNDING = 1e-9
@@ -39,7 +39,7 @@ def possible(moments: Floats) -> Floats:
     return raised
 
 
-def inertia_of(body: Body) -> tuple[Floats, Floats]:
+def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
     """A link's moments, (3,), and axes (w, x, y, z), (4,).
 
     Raises:
@@ -57,7 +57,7 @@ def inertia_of(body: Body) -> tuple[Floats, Floats]:
     return np.maximum(moments[0], LEAST_MOMENT), axes[0]
 
 
-def give_inertias(model: mujoco.MjModel, bodies: Iterable[Body]) -> None:
+def give_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
     """Let links have the moments of the file where those that were compiled had to be raised."""
     changed = False
     for body in bodies:

@@ -13,7 +13,7 @@ from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
 from gazelle.engines.mujoco.motors import MotorSlot, motor_slots
-from gazelle.engines.mujoco.tree import Body, Closure, RootKind
+from gazelle.engines.mujoco.tree import Closure, RootKind, TreeLink
 from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
 from gazelle.errors import EngineError, did_you_mean
 
@@ -106,7 +106,7 @@ class ModelSlot:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class MujocoLayout:
     """Names to places.
 
     Attributes:
@@ -182,7 +182,7 @@ def look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
         raise EngineError(f"there is no {kind} '{name}'", hint=did_you_mean(name, known)) from None
 
 
-def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
+def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> MujocoLayout:
     """Find everything of a compiled world."""
     model = compiled.model
     links: dict[str, LinkSlot] = {}
@@ -216,7 +216,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
         for closure in compiled.closures
         if closure.joint.type != "gearbox"
     }
-    return Layout(
+    return MujocoLayout(
         links,
         joints,
         models,
@@ -232,7 +232,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> Layout:
     )
 
 
-def _link_slot(model: mujoco.MjModel, body: Body, above: LinkSlot | None) -> LinkSlot:
+def _link_slot(model: mujoco.MjModel, body: TreeLink, above: LinkSlot | None) -> LinkSlot:
     index = 0 if body.root == "static" else model.body(body.name).id
     free = _slot(model, model.joint(body.name).id) if body.root == "free" else None
     mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
@@ -259,7 +259,7 @@ def _slot(model: mujoco.MjModel, joint: int) -> Slot:
     return Slot(slice(q, q + nq), slice(v, v + nv))
 
 
-def _model_slot(bodies: list[Body], joints: Mapping[str, tuple[Slot, ...]]) -> ModelSlot:
+def _model_slot(bodies: list[TreeLink], joints: Mapping[str, tuple[Slot, ...]]) -> ModelSlot:
     roots = tuple(body.name for body in bodies if body.parent is None)
     canonical = bodies[0]
     offset = canonical.link.pose.inverse()

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 import mujoco
 
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Inertial, Model, Sphere, World
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 
 # From so many loose bodies on the time saved outweighs an ``MjData`` for every world.
 _MANY = 16
@@ -85,7 +85,7 @@ def keep_awake(model: mujoco.MjModel, world: World) -> None:
                     model.tree_sleep_policy[model.body_treeid[body]] = never
 
 
-def tumbling(world: World, bodies: Mapping[str, Sequence[Body]]) -> list[str]:
+def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str]:
     """Loose links that turn about changing axes, to whose spin Euler's method would add.
 
     Args:
@@ -103,7 +103,7 @@ def tumbling(world: World, bodies: Mapping[str, Sequence[Body]]) -> list[str]:
     ]
 
 
-def swings(world: World, bodies: Mapping[str, Sequence[Body]]) -> bool:
+def swings(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> bool:
     """Whether there are joints, to whose swing Euler's method would add.
 
     Args:
@@ -119,7 +119,7 @@ def swings(world: World, bodies: Mapping[str, Sequence[Body]]) -> bool:
     )
 
 
-def _is_round(body: Body) -> bool:
+def _is_round(body: TreeLink) -> bool:
     """Whether all axes through a link's centre are alike."""
     inertia = (body.link.inertial or Inertial()).inertia
     mixed = (inertia.ixy, inertia.ixz, inertia.iyz)

@@ -12,8 +12,8 @@ from typing import Any
 import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
-from gazelle.engines.mujoco.compiler import VISUAL_GROUP, Draft, Recipe, draft_world
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.compiler import VISUAL_GROUP, CompilerInput, Draft, draft_world
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineWarning
 
 _EXACT = 17
@@ -37,7 +37,7 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
         FormatError: A mesh cannot be read.
     """
     step = world.profile.max_step_size if time_step is None else time_step
-    draft = draft_world(Recipe(world, step))
+    draft = draft_world(CompilerInput(world, step))
     draft.spec.modelname = world.name
     _warn_of(draft)
     if visuals:
@@ -72,7 +72,7 @@ def _add_visuals(draft: Draft) -> None:
                 _add_visual(handle, visual, body, draft)
 
 
-def _add_visual(handle: Any, visual: Visual, body: Body, draft: Draft) -> None:
+def _add_visual(handle: Any, visual: Visual, body: TreeLink, draft: Draft) -> None:
     pose = (body.pose if body.root == "static" else Pose()) * visual.pose
     material = visual.material
     red, green, blue, alpha = (material and (material.diffuse or material.ambient)) or _GREY

@@ -19,7 +19,7 @@ from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.engines.mujoco.joints import dry_friction
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineError
 
 # How many axes of a joint can have a motor. The second of a screw follows from the first.
@@ -69,7 +69,7 @@ class MotorSlot:
     givings: slice
 
 
-def motor_of(joint: str, max_effort: ArrayLike, parts: Iterable[Sequence[Body]]) -> Motor:
+def motor_of(joint: str, max_effort: ArrayLike, parts: Iterable[Sequence[TreeLink]]) -> Motor:
     """A motor on a joint of a world.
 
     Args:
@@ -126,7 +126,7 @@ def refuse_motors(model: str, motors: Iterable[str]) -> None:
         )
 
 
-def _type_of(joint: str, parts: Iterable[Sequence[Body]]) -> str:
+def _type_of(joint: str, parts: Iterable[Sequence[TreeLink]]) -> str:
     for bodies in parts:
         for body in bodies:
             if body.joint is not None and body.joint_name == joint:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats
 from gazelle.engines.mujoco.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.joints import LIMIT_STEPS
-from gazelle.engines.mujoco.layout import Layout, look_up
+from gazelle.engines.mujoco.layout import MujocoLayout, look_up
 from gazelle.engines.mujoco.motors import stiffen_worlds
 from gazelle.engines.mujoco.options import PASSIVE_OFF
 from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
@@ -39,7 +39,7 @@ class _Target:
     """A batch, and where things are in it."""
 
     batch: Batch
-    layout: Layout
+    layout: MujocoLayout
 
     def body(self, link: str) -> int:
         """The body of a link that moves."""
@@ -259,21 +259,21 @@ class ParameterStore:
         """What was set, by kind and name, shape (nworld, width)."""
         return self._values
 
-    def read(self, batch: Batch, layout: Layout, kind: str, name: str) -> Floats:
+    def read(self, batch: Batch, layout: MujocoLayout, kind: str, name: str) -> Floats:
         """Values of all worlds, shape (nworld, width)."""
         if (kind, name) in self._values:
             return self._values[kind, name].copy()
         compiled = look_up("parameter", kind, _READERS)(_Target(batch, layout), name)
         return np.tile(compiled, (self._nworld, 1))
 
-    def write(self, batch: Batch, layout: Layout, key: Key, values: Floats) -> None:
+    def write(self, batch: Batch, layout: MujocoLayout, key: Key, values: Floats) -> None:
         """Let worlds have these values from now on, shape (nworld, width)."""
         _WRITERS[key[0]](_Target(batch, layout), key[1], values)
         self._values[key] = values
         if key[0] in _DERIVED_FROM:
             self._derive(batch, layout)
 
-    def apply(self, batch: Batch, layout: Layout) -> None:
+    def apply(self, batch: Batch, layout: MujocoLayout) -> None:
         """Give a new batch all that was set."""
         target = _Target(batch, layout)
         for (kind, name), values in self._values.items():
@@ -282,7 +282,7 @@ class ParameterStore:
         if any(kind in _DERIVED_FROM for kind, _ in self._values):
             self._derive(batch, layout)
 
-    def _derive(self, batch: Batch, layout: Layout) -> None:
+    def _derive(self, batch: Batch, layout: MujocoLayout) -> None:
         """What follows from masses and inertias: springs and slips stay as they are."""
         batch.set_const()
         stiffen_worlds(batch)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.mujoco.access import rows_of
 from gazelle.engines.mujoco.bodies import BodyAccess
-from gazelle.engines.mujoco.layout import Layout, LoopSlot, look_up
+from gazelle.engines.mujoco.layout import LoopSlot, MujocoLayout, look_up
 from gazelle.engines.mujoco.options import SENSORS_OFF
 from gazelle.engines.mujoco.order import xyzw_from_wxyz
 from gazelle.engines.reactions import Contacts, Wrench
@@ -50,13 +50,13 @@ class _GeomList:
         names: Scoped names of their collisions.
     """
 
-    def __init__(self, layout: Layout, count: int) -> None:
+    def __init__(self, layout: MujocoLayout, count: int) -> None:
         self.names = np.empty(count, np.object_)
         for name, geoms in layout.collisions.items():
             self.names[geoms] = name
         self._ranks: dict[tuple[str, ...], NDArray[np.intp]] = {}
 
-    def ranks(self, layout: Layout, collisions: tuple[str, ...]) -> NDArray[np.intp]:
+    def ranks(self, layout: MujocoLayout, collisions: tuple[str, ...]) -> NDArray[np.intp]:
         """How early each geom's collision is named; the last number is that of those that are not.
 
         Raises:
@@ -80,7 +80,7 @@ class ForceAccess(BodyAccess):
     _probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
     """A world apart from the batch, for what only a single world of MuJoCo has."""
 
-    _listed: tuple[Layout, _GeomList] | None = None
+    _listed: tuple[MujocoLayout, _GeomList] | None = None
     """The layout for which geoms were listed last, and the list."""
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
@@ -234,7 +234,7 @@ class ForceAccess(BodyAccess):
             torque=sign * (wrench[:, None, 3:] @ axes)[:, 0],
         )
 
-    def _list_of(self, layout: Layout) -> _GeomList:
+    def _list_of(self, layout: MujocoLayout) -> _GeomList:
         if self._listed is None or self._listed[0] is not layout:
             self._listed = (layout, _GeomList(layout, int(self._batch.model.ngeom)))
         return self._listed[1]

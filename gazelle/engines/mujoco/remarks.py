@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineWarning, located
 
 LEAST_MOMENT = 1e-12
@@ -16,7 +16,7 @@ LEAST_MOMENT = 1e-12
 _NAMED = 5
 
 
-def warn_of_links(models: Iterable[Sequence[Body]]) -> None:
+def warn_of_links(models: Iterable[Sequence[TreeLink]]) -> None:
     """Say which links have an inertia too small to simulate, or what has no effect here."""
     moving = [body for bodies in models for body in bodies if body.root != "static"]
     _warn(
@@ -33,18 +33,18 @@ def warn_of_links(models: Iterable[Sequence[Body]]) -> None:
     )
 
 
-def _is_tiny(body: Body) -> bool:
+def _is_tiny(body: TreeLink) -> bool:
     inertial = body.link.inertial
     return inertial is not None and bool(
         np.linalg.eigvalsh(inertial.inertia.matrix())[0] < LEAST_MOMENT
     )
 
 
-def _decays(body: Body) -> bool:
+def _decays(body: TreeLink) -> bool:
     return bool(body.link.velocity_decay_linear or body.link.velocity_decay_angular)
 
 
-def _warn(bodies: Sequence[Body], what: str) -> None:
+def _warn(bodies: Sequence[TreeLink], what: str) -> None:
     if not bodies:
         return
     names = ", ".join(f"'{body.name}'" for body in bodies[:_NAMED])

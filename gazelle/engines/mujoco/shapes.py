@@ -36,7 +36,7 @@ from gazelle.errors import EngineWarning, located
 from gazelle.formats.ground import Ground
 
 if TYPE_CHECKING:
-    from gazelle.formats.convex import Pieces
+    from gazelle.formats.convex import ConvexPieces
 
 CONTACT_GROUP = 2
 """Of what collides and is not seen by rays, since a mesh stands for it."""
@@ -98,7 +98,7 @@ class ShapeBuilder:
             _warn_of_gap(shape, pieces.gap, source)
         return self._piece_geoms((_key_of(shape), static), pieces, pose)
 
-    def _piece_geoms(self, key: Any, pieces: Pieces, pose: Pose) -> list[dict[str, Any]]:
+    def _piece_geoms(self, key: Any, pieces: ConvexPieces, pose: Pose) -> list[dict[str, Any]]:
         """A geom of each piece, with its middle as origin: far from it MuJoCo's hull rounds."""
         if not pieces.solids:
             return []

@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from gazelle.description import Capsule, Collision, Cylinder, Pose, Sphere, TorsionalFriction
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineWarning
 
 Slip = tuple[float, float]
@@ -22,7 +22,7 @@ Slip = tuple[float, float]
 _ALONG, _ACROSS = 0.99, 0.14
 
 
-def described_slips(models: Iterable[Sequence[Body]]) -> dict[str, Slip]:
+def described_slips(models: Iterable[Sequence[TreeLink]]) -> dict[str, Slip]:
     """Wheels that slip as their collisions say: by scoped link, [m/s/N] and [rad/s/(N m)].
 
     The first number is along the axle, the second about it. Without ``fdir1`` the first
@@ -41,7 +41,7 @@ def described_slips(models: Iterable[Sequence[Body]]) -> dict[str, Slip]:
     return slips
 
 
-def warn_of_losses(models: Iterable[Sequence[Body]], known: Collection[str]) -> None:
+def warn_of_losses(models: Iterable[Sequence[TreeLink]], known: Collection[str]) -> None:
     """Say what friction of some surface is not simulated: slip of what is no wheel, and patches.
 
     Args:
@@ -85,7 +85,7 @@ def _is_lost(torsional: TorsionalFriction | None) -> bool:
     return torsional.slip > 0.0 or (not torsional.use_patch_radius and torsional.surface_radius > 0)
 
 
-def _placed(bodies: Sequence[Body]) -> Iterator[tuple[Body, Pose]]:
+def _placed(bodies: Sequence[TreeLink]) -> Iterator[tuple[TreeLink, Pose]]:
     """Bodies with their poses in the world at the start."""
     poses: dict[str, Pose] = {}
     for body in bodies:
@@ -99,7 +99,7 @@ def _has_slip(collision: Collision) -> bool:
     return rubs and (friction.slip1 > 0.0 or friction.slip2 > 0.0)
 
 
-def _slip_of(collision: Collision, body: Body, pose: Pose) -> Slip | None:
+def _slip_of(collision: Collision, body: TreeLink, pose: Pose) -> Slip | None:
     """The slip of a wheel's shape; None if it cannot be told."""
     friction = collision.surface.friction
     if not _has_slip(collision):
@@ -118,7 +118,7 @@ def _slip_of(collision: Collision, body: Body, pose: Pose) -> Slip | None:
     return lateral, rolling / shape.radius**2
 
 
-def _first_is_along(collision: Collision, body: Body, pose: Pose) -> bool | None:
+def _first_is_along(collision: Collision, body: TreeLink, pose: Pose) -> bool | None:
     """Whether a wheel's first friction direction is its axle; None if it is oblique."""
     if body.joint is None:
         return None

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import mujoco
 
 from gazelle.description import JointAxis, JointPhysics
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 
 # A spring is followed when its period with what it moves takes at least so many steps.
 _FEWEST_STEPS_A_PERIOD = 10.0
@@ -25,7 +25,7 @@ _RIGID = 1e8
 _LEAST, _MOST = 1e-4, 0.9999
 
 
-def tune_stops(model: mujoco.MjModel, bodies: Iterable[Body]) -> None:
+def tune_stops(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
     """Give limits with a spring the terms of ODE's implicit spring and damper.
 
     They are those of a springy contact (see ``contacts.tune_springs``): erp = h k / (h k + c)

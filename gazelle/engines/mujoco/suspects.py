@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.mujoco.layout import Layout
+from gazelle.engines.mujoco.layout import MujocoLayout
 from gazelle.engines.mujoco.views import StateViews
 
 
-def suspect(layout: Layout, views: StateViews, states: Floats, before: Floats) -> str:
+def suspect(layout: MujocoLayout, views: StateViews, states: Floats, before: Floats) -> str:
     """What of a world was not finite, or else moved fastest, before it broke down.
 
     Args:
@@ -42,7 +42,7 @@ def _within(states: Floats, view: Floats) -> slice:
     return slice(start, start + int(np.prod(view.shape[1:])))
 
 
-def _places(layout: Layout, views: StateViews) -> Iterator[tuple[str, Floats, slice | int]]:
+def _places(layout: MujocoLayout, views: StateViews) -> Iterator[tuple[str, Floats, slice | int]]:
     for name, slots in layout.joints.items():
         for slot in slots:
             yield f"the position of joint '{name}'", views.qpos, slot.position
@@ -61,7 +61,7 @@ def _places(layout: Layout, views: StateViews) -> Iterator[tuple[str, Floats, sl
         yield f"the command of the motor on '{name}'", views.userdata, motor.targets
 
 
-def _moving(layout: Layout) -> Iterator[tuple[str, slice]]:
+def _moving(layout: MujocoLayout) -> Iterator[tuple[str, slice]]:
     for name, slots in layout.joints.items():
         for slot in slots:
             yield f"joint '{name}'", slot.velocity

@@ -14,7 +14,7 @@ from gazelle.description import Link, Plane, Pose, Visual, World
 from gazelle.engines.mujoco.order import wxyz_from_xyzw
 from gazelle.engines.mujoco.rays import BESIDE
 from gazelle.engines.mujoco.shapes import ShapeBuilder
-from gazelle.engines.tracer import Sight
+from gazelle.engines.tracer import RayHits
 from gazelle.errors import EngineError
 
 
@@ -79,7 +79,7 @@ class MujocoTracer:
                 quaternion = np.asarray(poses[name].quaternion)
                 self._batch.mocap_quat[0, row] = wxyz_from_xyzw(quaternion)
 
-    def trace(self, origins: Floats, directions: Floats) -> Sight:
+    def trace(self, origins: Floats, directions: Floats) -> RayHits:
         """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
         start = origins + BESIDE if self._batch.model.nmesh else origins
         distance, geom, normal = self._batch.ray(start, directions, normal=True)
@@ -88,7 +88,7 @@ class MujocoTracer:
             visual = np.full(len(origins), -1, dtype=np.intp)
         else:
             visual = np.where(missed, -1, self._visual_of_geom[np.maximum(geom[0], 0)])
-        return Sight(np.where(missed, np.inf, distance[0]), normal[0], visual)
+        return RayHits(np.where(missed, np.inf, distance[0]), normal[0], visual)
 
 
 def _bounded(shape: dict[str, Any], visual: Visual) -> dict[str, Any]:

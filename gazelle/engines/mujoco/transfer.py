@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from mujoco.batch import Batch
 
-from gazelle.engines.mujoco.layout import Layout, LinkSlot, Slot
+from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout, Slot
 
 # Arrays with one column a degree of freedom.
 _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
 
 
-def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -> None:
+def carry_over(old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout) -> None:
     """Copy the state of all joints, kinematic bodies, motors, attachments and tyres of both."""
     new.time[:] = old.time
     for name, slots in new_layout.joints.items():
@@ -31,7 +31,7 @@ def carry_over(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -
             new.eq_active[:, column] = old.eq_active[:, old_layout.attachments[name]]
 
 
-def _copy_tyres(old: Batch, old_layout: Layout, new: Batch, new_layout: Layout) -> None:
+def _copy_tyres(old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout) -> None:
     for name, tyre in new_layout.tyres.items():
         former = old_layout.tyres.get(name)
         if former is not None:

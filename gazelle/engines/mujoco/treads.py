@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Capsule, Cylinder, Mesh
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 
 # How far a tread may be from round, and from its axle, as a share of its radius.
 _ROUND = 0.05
@@ -27,7 +27,7 @@ _LIMITLESS = 100.0
 
 
 def possible_treads(
-    models: Iterable[Sequence[Body]], geoms: Mapping[str, Sequence[str]]
+    models: Iterable[Sequence[TreeLink]], geoms: Mapping[str, Sequence[str]]
 ) -> dict[str, str]:
     """Geoms that may be treads, and the joints that they turn on, by MuJoCo's names.
 
@@ -46,7 +46,7 @@ def possible_treads(
     }
 
 
-def _turns_freely(body: Body) -> bool:
+def _turns_freely(body: TreeLink) -> bool:
     joint = body.joint
     if joint is None or joint.type not in {"continuous", "revolute"}:
         return False

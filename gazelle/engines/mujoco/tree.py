@@ -20,7 +20,7 @@ RootKind = Literal["free", "static", "kinematic"]
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class TreeLink:
     """A link's place in the tree.
 
     Attributes:
@@ -45,7 +45,7 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
+class _PosedLink:
     """A link with its pose in the world, and whether its own model never moves."""
 
     link: Link
@@ -70,14 +70,14 @@ class Closure:
 
 
 @dataclass(frozen=True, slots=True)
-class Tree:
+class KinematicTree:
     """A model taken apart: parents before children, and what is left over."""
 
-    bodies: list[Body]
+    bodies: list[TreeLink]
     closures: list[Closure]
 
 
-def tree_of(model: Model, *, kinematic: bool = False) -> Tree:
+def tree_of(model: Model, *, kinematic: bool = False) -> KinematicTree:
     """All bodies of a model and its nested models, and the joints that close loops.
 
     Of several joints that move one link the tree's is the first that would lose something if
@@ -91,24 +91,24 @@ def tree_of(model: Model, *, kinematic: bool = False) -> Tree:
     root: RootKind = "kinematic" if kinematic else "static" if model.static else "free"
     if root != "free":
         bodies = [
-            Body(name, part.link, None, part.pose, None, "", root, part.self_collide)
+            TreeLink(name, part.link, None, part.pose, None, "", root, part.self_collide)
             for name, part in parts.items()
         ]
-        return Tree(bodies, [])
+        return KinematicTree(bodies, [])
     joints, closures = _sort_joints(model, parts)
     held, opened = _open_rings(parts, joints)
     children = defaultdict(list)
     for name in parts:
         parent = _parent_of(held[name][1]) if name in held else None
         children[parent].append(name)
-    return Tree(list(_walk(children, parts, held)), closures + opened)
+    return KinematicTree(list(_walk(children, parts, held)), closures + opened)
 
 
 def _walk(
     children: dict[str | None, list[str]],
-    parts: dict[str, _Part],
+    parts: dict[str, _PosedLink],
     joints: dict[str, tuple[str, Joint]],
-) -> Iterator[Body]:
+) -> Iterator[TreeLink]:
     pending: list[tuple[str, str | None]] = [(name, None) for name in reversed(children[None])]
     while pending:
         name, above = pending.pop()
@@ -118,12 +118,12 @@ def _walk(
         root: RootKind | None = "free" if joint is None else None
         if part.static:
             root = "static"
-        yield Body(name, part.link, above, pose, joint, scoped, root, part.self_collide)
+        yield TreeLink(name, part.link, above, pose, joint, scoped, root, part.self_collide)
         pending.extend((child, name) for child in reversed(children[name]))
 
 
-def _parts_of(model: Model) -> dict[str, _Part]:
-    parts: dict[str, _Part] = {}
+def _parts_of(model: Model) -> dict[str, _PosedLink]:
+    parts: dict[str, _PosedLink] = {}
     fixed = [f"{placed.scope}::" for placed in model.walk() if placed.model.static]
     for placed in model.walk():
         static = any(f"{placed.scope}::".startswith(scope) for scope in fixed)
@@ -131,14 +131,14 @@ def _parts_of(model: Model) -> dict[str, _Part]:
             collide = placed.model.self_collide if link.self_collide is None else link.self_collide
             if placed.model.enable_wind and not link.enable_wind:
                 link = replace(link, enable_wind=True)  # noqa: PLW2901
-            parts[f"{placed.scope}::{link.name}"] = _Part(
+            parts[f"{placed.scope}::{link.name}"] = _PosedLink(
                 link, placed.pose * link.pose, collide, static
             )
     return parts
 
 
 def _sort_joints(
-    model: Model, parts: dict[str, _Part]
+    model: Model, parts: dict[str, _PosedLink]
 ) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
     """The joint that carries each link, and those left over."""
     carrying: dict[str, tuple[str, Joint]] = {}
@@ -204,7 +204,7 @@ def _is_limited(axis: JointAxis) -> bool:
 
 
 def _open_rings(
-    parts: dict[str, _Part], joints: dict[str, tuple[str, Joint]]
+    parts: dict[str, _PosedLink], joints: dict[str, tuple[str, Joint]]
 ) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
     """Cut every ring of joints at its first link whose joint loses nothing by it."""
     held, opened = dict(joints), []
@@ -237,7 +237,7 @@ def _parent_of(joint: Joint) -> str | None:
     return None if joint.parent == "world" else joint.parent
 
 
-def _require(link: str, joint: Joint, role: str, parts: dict[str, _Part]) -> None:
+def _require(link: str, joint: Joint, role: str, parts: dict[str, _PosedLink]) -> None:
     if link not in parts:
         raise EngineError(
             f"joint '{joint.name}' has the {role} link '{link}', which is not there",

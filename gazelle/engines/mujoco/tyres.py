@@ -23,7 +23,7 @@ from mujoco.batch import Batch
 
 from gazelle.array_types import Floats
 from gazelle.description import Inertial
-from gazelle.engines.mujoco.tree import Body
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineError
 
 # MuJoCo's bounds of an impedance.
@@ -53,7 +53,7 @@ def tyre_name(link: str) -> str:
     return f"{link}#tyre"
 
 
-def add_tyre(wheel: Any, body: Body) -> Any:
+def add_tyre(wheel: Any, body: TreeLink) -> Any:
     """Put a tyre on a wheel; returns MuJoCo's body of it, in the same place as the wheel's.
 
     Raises:

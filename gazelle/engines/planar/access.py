@@ -16,7 +16,7 @@ from gazelle.description import Pose
 from gazelle.engines.engine import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.anatomy import Anatomy
-from gazelle.engines.planar.build import Layout
+from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.rays import Caster, RayFan, caster_of, fan_of
@@ -58,7 +58,7 @@ class PlanarAccess(ABC):
     """The part of ``gazelle.engines.engine.Engine`` that reads and writes states."""
 
     _fleet: Fleet
-    _layout: Layout
+    _layout: PlanarLayout
     _angles: Floats
     _rates: Floats
     _targets: Floats

@@ -19,7 +19,7 @@ from gazelle.engines.planar.wheels import driven, rolling
 
 
 @dataclass(frozen=True, slots=True)
-class Recipe:
+class FleetInput:
     """All that a fleet is made of.
 
     Attributes:
@@ -53,7 +53,7 @@ class RollingBase:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class PlanarLayout:
     """Where everything is.
 
     Attributes:
@@ -82,7 +82,7 @@ class Layout:
         return int(self.limits.shape[1])
 
 
-def build(recipe: Recipe, nworld: int, threads: int | None) -> tuple[Fleet, Layout]:
+def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, PlanarLayout]:
     """Make a fleet.
 
     Raises:
@@ -131,7 +131,7 @@ def _heights_of(stage: StageLayout) -> frozenset[float]:
     )
 
 
-def rolling_bases(layout: Layout, motors: Iterable[str]) -> list[RollingBase]:
+def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBase]:
     """The bases with motors on their wheels, which are in the motors' order."""
     order = {name: place for place, name in enumerate(motors)}
     bases = []
@@ -153,7 +153,7 @@ def _layout_of(
     movers: list[str],
     levels: Levels,
     stage: StageLayout,
-) -> Layout:
+) -> PlanarLayout:
     joints: dict[str, tuple[int, int]] = {}
     columns = dict.fromkeys(models, 0)
     limits: list[tuple[float, float]] = []
@@ -164,4 +164,4 @@ def _layout_of(
             limits += [(axis.lower, axis.upper) for axis in hinge.joint.axes]
     bodies = {name: index for index, name in enumerate(movers)}
     bounds = np.array(limits).reshape(-1, 2).T.copy()
-    return Layout(models, bodies, models.owners(), joints, columns, levels, bounds, stage)
+    return PlanarLayout(models, bodies, models.owners(), joints, columns, levels, bounds, stage)

@@ -16,7 +16,7 @@ from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.access import PlanarAccess, rows_of
-from gazelle.engines.planar.build import Layout, Recipe, build, rolling_bases
+from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
 from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.paths import PathFollower
@@ -73,10 +73,10 @@ class PlanarEngine(Refusals, PlanarAccess):
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
         self._threads = threads
-        recipe = Recipe(world, step, {})
+        recipe = FleetInput(world, step, {})
         self._run(recipe, *build(recipe, nworld, threads))
 
-    def _run(self, recipe: Recipe, fleet: Fleet, layout: Layout) -> None:
+    def _run(self, recipe: FleetInput, fleet: Fleet, layout: PlanarLayout) -> None:
         """Go on with a fleet, from its initial state."""
         self._recipe, self._fleet, self._layout = recipe, fleet, layout
         self._revision = getattr(self, "_revision", 0) + 1
@@ -148,7 +148,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         return self._fleet
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> PlanarLayout:
         """Where models, joints and links are among the bodies; to be read."""
         return self._layout
 
@@ -327,7 +327,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         if all(abs(level - height) > LEVEL / 2.0 for level in known):
             self._change(replace(self._recipe, rays=self._recipe.rays | {round(height, 4)}))
 
-    def _change(self, recipe: Recipe) -> None:
+    def _change(self, recipe: FleetInput) -> None:
         """Go on with other models, with all states that both have."""
         fleet, layout = self._fleet, self._layout
         angles, rates, targets = self._angles, self._rates, self._targets

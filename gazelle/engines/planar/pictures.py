@@ -50,7 +50,7 @@ class Lens:
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class CameraMount:
     """Where a camera is on a body, and where it looks.
 
     Attributes:
@@ -90,7 +90,7 @@ class Scenery:
 
 
 @dataclass(frozen=True, slots=True)
-class Pictures:
+class CameraPictures:
     """What some cameras see.
 
     Attributes:
@@ -135,7 +135,9 @@ class Painter:
             np.array(scenery.sky, np.float64),
         )
 
-    def draw(self, lens: Lens, views: Sequence[View], worlds: NDArray[np.intp]) -> Pictures:
+    def draw(
+        self, lens: Lens, views: Sequence[CameraMount], worlds: NDArray[np.intp]
+    ) -> CameraPictures:
         """Pictures of all views in some worlds, shape (worlds, views, height, width, ...).
 
         Args:
@@ -161,9 +163,9 @@ class Painter:
         with np.errstate(divide="ignore"):
             depth = (1.0 / inverse).astype(np.float32)
         lead = (len(worlds), len(views), *shape)
-        return Pictures(color.reshape(*lead, 4), depth.reshape(lead))
+        return CameraPictures(color.reshape(*lead, 4), depth.reshape(lead))
 
-    def _cameras(self, views: Sequence[View], worlds: NDArray[np.intp]) -> Floats:
+    def _cameras(self, views: Sequence[CameraMount], worlds: NDArray[np.intp]) -> Floats:
         bodies = np.array([view.body for view in views], np.int64)
         carriers = (worlds[:, None] * self.fleet.nbody + bodies).ravel()
         where = np.array([[v.x, v.y, v.z, v.yaw, v.pitch, v.unseen] for v in views])

@@ -21,7 +21,7 @@ _MOST_NEAR = 1 << 21  # cells
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class StaticScene:
     """Static primitives, and which of them are in which cell of a grid.
 
     Attributes:
@@ -64,7 +64,7 @@ class Scene:
 
 def scene_of(
     parts: Sequence[Part] | Table, extent: Floats, side: float, *, nbody: int, nworld: int
-) -> Scene:
+) -> StaticScene:
     """Statics with a grid over them and over an extent.
 
     Args:
@@ -85,7 +85,7 @@ def scene_of(
     grid = np.array([*low, side, columns, rows])
     start, items = listed(table.rows, grid, _MARGIN)
     lanes = _lanes_of(table.rows, columns * rows)
-    return Scene(table, grid, start, items, lanes, *_near(table.rows))
+    return StaticScene(table, grid, start, items, lanes, *_near(table.rows))
 
 
 def _near(rows: Floats) -> tuple[Floats, Ints32, Ints32]:

@@ -99,7 +99,7 @@ def joined(first: Table, second: Table) -> Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Pieces:
+class CollisionPieces:
     """Convex pieces that bump, and their corners.
 
     Attributes:
@@ -143,7 +143,7 @@ def primitives_of(parts: Iterable[Part]) -> Table:
     return Table(np.vstack(found.rows), np.concatenate(found.tags).astype(np.int64))
 
 
-def pieces_of(parts: Iterable[Part]) -> Pieces:
+def pieces_of(parts: Iterable[Part]) -> CollisionPieces:
     """The convex pieces of the solid parts; lines that enclose nothing bump with nothing."""
     rows: list[list[float]] = []
     corners: list[Floats] = []
@@ -163,7 +163,7 @@ def pieces_of(parts: Iterable[Part]) -> Pieces:
             slim = slimness(polygon)
             rows.append([*middle, bound, part.low, part.high, first, len(polygon), slim])
             corners.append(polygon)
-    return Pieces(
+    return CollisionPieces(
         np.array(rows).reshape(-1, c.PIECE),
         np.vstack(corners) if corners else np.zeros((0, 2)),
     )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Joint, Link, Model, Pose
-from gazelle.engines.mujoco.tree import Body, tree_of
+from gazelle.engines.mujoco.tree import TreeLink, tree_of
 from gazelle.engines.planar.wheels import Wheel, wheel_of
 from gazelle.rotations import cross, multiply, rotate
 
@@ -40,7 +40,7 @@ class Hinge:
 
 
 @dataclass(frozen=True, slots=True)
-class Bone:
+class PlanarLink:
     """A link in its model.
 
     Attributes:
@@ -72,7 +72,7 @@ class Skeleton:
         width: Number of axes of all hinges.
     """
 
-    bones: Mapping[str, Bone]
+    bones: Mapping[str, PlanarLink]
     hinges: Mapping[str, Hinge]
     wheels: Mapping[str, Wheel]
     held: bool
@@ -146,7 +146,7 @@ def skeleton_of(model: Model, tilt: Pose, *, kinematic: bool = False) -> Skeleto
     Raises:
         EngineError: A joint names a link that is not there.
     """
-    bones: dict[str, Bone] = {}
+    bones: dict[str, PlanarLink] = {}
     hinges: dict[str, Hinge] = {}
     wheels: dict[str, Wheel] = {}
     held, width = False, 0
@@ -158,7 +158,7 @@ def skeleton_of(model: Model, tilt: Pose, *, kinematic: bool = False) -> Skeleto
         rest = pose if above is None else above.rest * pose
         fixed = hinge is None and (above is None or above.fixed)
         held = held or (above is None and body.joint is not None)
-        bones[body.name] = Bone(body.link, body.parent, pose, hinge, rest, fixed)
+        bones[body.name] = PlanarLink(body.link, body.parent, pose, hinge, rest, fixed)
         if hinge is None:
             continue
         hinges[hinge.name] = hinge
@@ -172,7 +172,7 @@ def skeleton_of(model: Model, tilt: Pose, *, kinematic: bool = False) -> Skeleto
     return Skeleton(bones, hinges, wheels, held, width)
 
 
-def _hinge_of(body: Body, column: int) -> Hinge | None:
+def _hinge_of(body: TreeLink, column: int) -> Hinge | None:
     if body.joint is None or body.joint.type not in _MOVING or not body.joint.axes:
         return None
     return Hinge(body.joint_name, body.joint, column)

@@ -15,7 +15,7 @@ from gazelle.envs.goals import GoalTable
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.starts import RandomStarts
 from gazelle.envs.turtlebot3.rules import STAGES, stage_goals
-from gazelle.envs.turtlebot3.scene import Scene
+from gazelle.envs.turtlebot3.scene import TaskScene
 from gazelle.errors import Error, GazelleWarning, TaskError
 from gazelle.sensors import LidarModel
 
@@ -24,7 +24,7 @@ _APART = 0.5  # of a goal from the one before, and of the first one from a fixed
 _UNSEEN = 0.2  # of held-out goals from those seen in training, where these leave the room [m]
 
 
-class Layout:
+class GoalLayout:
     """Goals and starts that the settings ask for.
 
     Places in free space are on a square lattice: those for training on its points, held-out
@@ -89,7 +89,7 @@ class Layout:
             with warnings.catch_warnings():
                 # What there is to tell was told when the task's own scene was made.
                 warnings.simplefilter("ignore", GazelleWarning)
-                scene = Scene(STAGES[self._stage], flat, 1)
+                scene = TaskScene(STAGES[self._stage], flat, 1)
         except Error as error:
             raise TaskError(
                 f"free space is looked for in the plane, where this does not go: {error}",

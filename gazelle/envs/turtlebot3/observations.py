@@ -17,7 +17,7 @@ from gazelle.envs.turtlebot3.rules import Rules
 
 
 @dataclass(frozen=True, slots=True)
-class Sight:
+class RobotViews:
     """What n worlds look like to their robots at one moment.
 
     Attributes:
@@ -46,7 +46,7 @@ def sight(
     range_min: float,
     pose: Floats,
     goal: Floats,
-) -> Sight:
+) -> RobotViews:
     """Work out what the robots see.
 
     Args:
@@ -64,10 +64,10 @@ def sight(
     nearest = shortest.astype(np.float64)
     heading = heading_to(pose, pose[:, 2], goal)
     rounded, distance, heading = round2(np.stack((nearest, distance_to(pose, goal), heading)))
-    return Sight(cleaned, nearest, rounded, ray, distance, heading, pose[:, :2])
+    return RobotViews(cleaned, nearest, rounded, ray, distance, heading, pose[:, :2])
 
 
-def observation(rules: Rules, seen: Sight) -> Floats32:
+def observation(rules: Rules, seen: RobotViews) -> Floats32:
     """The state: ranges, heading, distance and, if the stage has it, the nearest obstacle.
 
     Returns:

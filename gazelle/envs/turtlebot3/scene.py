@@ -14,7 +14,7 @@ ROBOT = "turtlebot3_burger"
 COMMAND = "cmd_vel"
 
 
-class Scene:
+class TaskScene:
     """World and robot, loaded once and run with any seed.
 
     Args:

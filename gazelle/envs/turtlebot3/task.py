@@ -22,11 +22,11 @@ from gazelle.envs.turtlebot3.actions import (
     discrete_command,
     turn_index,
 )
-from gazelle.envs.turtlebot3.layout import Layout
-from gazelle.envs.turtlebot3.observations import Sight, observation, observation_space, sight
+from gazelle.envs.turtlebot3.layout import GoalLayout
+from gazelle.envs.turtlebot3.observations import RobotViews, observation, observation_space, sight
 from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
 from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules
-from gazelle.envs.turtlebot3.scene import COMMAND, Scene
+from gazelle.envs.turtlebot3.scene import COMMAND, TaskScene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.errors import TaskError
 from gazelle.sensors import SensorModel, View, look_at
@@ -60,8 +60,8 @@ class TurtleBot3Task(BatchedTask):
         self.respawn = settings.respawn
         self.continuous = continuous
         self.control_period = self.rules.control_period
-        self.scene = Scene(self.rules, settings, nworld)
-        self.layout = Layout(stage, settings)
+        self.scene = TaskScene(self.rules, settings, nworld)
+        self.layout = GoalLayout(stage, settings)
         self.goals = self.layout.goals()
         self._starts = self.layout.starts(nworld)
         self._keeps_goals = self.respawn and not self.layout.has_free_goals
@@ -195,7 +195,7 @@ class TurtleBot3Task(BatchedTask):
             return continuous_command(actions, self.nworld)
         return discrete_command(actions, self.nworld)
 
-    def _see(self, worlds: Worlds | None) -> Sight:
+    def _see(self, worlds: Worlds | None) -> RobotViews:
         scene = self.scene
         rows = slice(None) if worlds is None else worlds
         return sight(
@@ -218,7 +218,7 @@ class TurtleBot3Task(BatchedTask):
         """One number a goal: goal k of a world depends on the seed, the world and k alone."""
         return self._stream.uniform(1, worlds)[:, 0]
 
-    def _info(self, seen: Sight, worlds: Worlds, *, arrived: Bools, crashed: Bools) -> Info:
+    def _info(self, seen: RobotViews, worlds: Worlds, *, arrived: Bools, crashed: Bools) -> Info:
         return {
             "is_success": arrived.copy(),
             "is_collision": crashed.copy(),

@@ -28,7 +28,7 @@ class Diagnostic:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class LinkPlace:
     """A link with the model it is in.
 
     Attributes:
@@ -44,15 +44,15 @@ class Place:
     link: Link
 
 
-def links_of(world: World) -> Iterator[Place]:
+def links_of(world: World) -> Iterator[LinkPlace]:
     """All links of a world, nested models' too."""
     for top in world.models:
         for placed in top.walk():
             for link in placed.model.links:
-                yield Place(placed.scope, placed.model, top, link)
+                yield LinkPlace(placed.scope, placed.model, top, link)
 
 
-def moving_links_of(world: World) -> Iterator[Place]:
+def moving_links_of(world: World) -> Iterator[LinkPlace]:
     """All links whose mass matters: not those of immovable or scripted models."""
     return (
         place

@@ -11,7 +11,7 @@ from gazelle.description import Parameters
 from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.lint.diagnostic import Diagnostic
-from gazelle.formats.urdf.tree import Tree
+from gazelle.formats.urdf.tree import UrdfTree
 
 _NAMING: Mapping[str, Mapping[str, str]] = {
     "disable_collisions": {"link1": "link", "link2": "link"},
@@ -32,7 +32,7 @@ _NAMING: Mapping[str, Mapping[str, str]] = {
 _SLACK = 1e-6
 
 
-def lint(root: Parameters, robot: str, tree: Tree) -> Iterator[Diagnostic]:
+def lint(root: Parameters, robot: str, tree: UrdfTree) -> Iterator[Diagnostic]:
     """Findings about an SRDF.
 
     Args:
@@ -79,7 +79,7 @@ def _missing(node: Parameters, attribute: str, kind: str, known: set[str]) -> It
         )
 
 
-def _chain(node: Parameters, tree: Tree) -> Iterator[Diagnostic]:
+def _chain(node: Parameters, tree: UrdfTree) -> Iterator[Diagnostic]:
     """A chain goes down the tree, from its base to its tip."""
     base, tip = (node.attributes.get(key, "") for key in ("base_link", "tip_link"))
     if base not in tree.links or tip not in tree.links:
@@ -98,7 +98,7 @@ def _chain(node: Parameters, tree: Tree) -> Iterator[Diagnostic]:
         )
 
 
-def _limits(node: Parameters, tree: Tree) -> Iterator[Diagnostic]:
+def _limits(node: Parameters, tree: UrdfTree) -> Iterator[Diagnostic]:
     joint = tree.joints.get(node.attributes.get("name", ""))
     if joint is None or joint.axis is None:
         return

@@ -10,7 +10,7 @@ from gazelle.description import Collision, Inertial, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.inertial import read_inertial
-from gazelle.formats.solids import WATER, Solid, inertial_of, joined, solid_of
+from gazelle.formats.solids import WATER, UnitSolid, inertial_of, joined, solid_of
 
 
 def is_automatic(node: Parameters) -> bool:
@@ -31,7 +31,7 @@ def automatic_inertial(
     """
     node = link.find("inertial") or link
     usual = _density(node, WATER)
-    parts: list[Solid] = []
+    parts: list[UnitSolid] = []
     for child, collision in zip(link.find_all("collision"), collisions, strict=True):
         solid = solid_of(collision.geometry)
         if solid is not None:

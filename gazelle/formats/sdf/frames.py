@@ -20,7 +20,7 @@ _IDENTITY = Pose()
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class NamedFrame:
     """One named frame of a scope.
 
     Attributes:
@@ -60,12 +60,12 @@ class Scope:
     name: str = ""
     reading: Reading | None = None
     missing: set[str] = field(default_factory=set)
-    entries: dict[str, Entry] = field(default_factory=dict)
+    entries: dict[str, NamedFrame] = field(default_factory=dict)
     _resolved: dict[str, Pose] = field(default_factory=dict)
     _open: dict[str, None] = field(default_factory=dict)
     _links: dict[str, str] = field(default_factory=dict)
 
-    def add(self, name: str, entry: Entry) -> None:
+    def add(self, name: str, entry: NamedFrame) -> None:
         """Add a frame; a link, joint and frame may share a name, which means the first.
 
         Raises:
@@ -90,7 +90,7 @@ class Scope:
             FormatError: Its poses lead in a circle; without a reading also when there is no such
             frame.
         """
-        chain: list[tuple[str, Entry]] = []
+        chain: list[tuple[str, NamedFrame]] = []
         try:
             base = self._climb(name, node, chain)
         finally:
@@ -101,7 +101,7 @@ class Scope:
             self._resolved[step] = base
         return base
 
-    def _climb(self, name: str, node: Parameters, chain: list[tuple[str, Entry]]) -> Pose:
+    def _climb(self, name: str, node: Parameters, chain: list[tuple[str, NamedFrame]]) -> Pose:
         """Follow the frames up to one whose pose is known; the chain takes those between."""
         while True:
             name = self.own(name)

@@ -16,7 +16,7 @@ from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import with_attributes
 from gazelle.formats.sdf.duplicates import MODEL_PARTS, free_name, with_own_names
-from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, Entry, Scope
+from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, NamedFrame, Scope
 from gazelle.formats.sdf.merge import is_merge, with_merges
 from gazelle.formats.sdf.own_joint import with_own_joints
 from gazelle.formats.sdf.pose import frame_of, read_pose
@@ -128,7 +128,9 @@ def missing_names(node: Parameters) -> set[str]:
 
 def add_model(scope: Scope, draft: ModelFrames) -> None:
     """Name a model in the scope around it."""
-    scope.add(draft.name, Entry(draft.node, draft.placed, draft.relative_to, scope=draft.scope))
+    scope.add(
+        draft.name, NamedFrame(draft.node, draft.placed, draft.relative_to, scope=draft.scope)
+    )
 
 
 def draft_part(node: Parameters, scope: Scope) -> None:
@@ -162,7 +164,7 @@ def draft_link(node: Parameters, scope: Scope) -> None:
     """A link's frame."""
     pose = node.find("pose")
     name = values.attribute(node, "name")
-    scope.add(name, Entry(node, read_pose(pose), frame_of(pose)))
+    scope.add(name, NamedFrame(node, read_pose(pose), frame_of(pose)))
 
 
 def draft_joint(node: Parameters, scope: Scope) -> None:
@@ -170,7 +172,7 @@ def draft_joint(node: Parameters, scope: Scope) -> None:
     pose = node.find("pose")
     child = values.word(node, "child")
     name = values.attribute(node, "name")
-    scope.add(name, Entry(node, read_pose(pose), frame_of(pose) or child, child))
+    scope.add(name, NamedFrame(node, read_pose(pose), frame_of(pose) or child, child))
 
 
 def draft_frame(node: Parameters, scope: Scope) -> None:
@@ -178,21 +180,21 @@ def draft_frame(node: Parameters, scope: Scope) -> None:
     pose = node.find("pose")
     attached = node.attributes.get("attached_to", "")
     name = values.attribute(node, "name")
-    scope.add(name, Entry(node, read_pose(pose), frame_of(pose) or attached, attached))
+    scope.add(name, NamedFrame(node, read_pose(pose), frame_of(pose) or attached, attached))
 
 
 def name_frames(scope: Scope, model: Model) -> None:
     """Put the links, frames and joints of a model that is already read into a scope."""
     for link in model.links:
         place = Parameters("link", source=link.source)
-        scope.add(link.name, Entry(place, link.pose))
+        scope.add(link.name, NamedFrame(place, link.pose))
     for frame in model.frames:
         place = Parameters("frame", source=frame.source)
-        entry = Entry(place, frame.pose, frame.attached_to, frame.attached_to)
+        entry = NamedFrame(place, frame.pose, frame.attached_to, frame.attached_to)
         scope.add(frame.name, entry)
     for joint in model.joints:
         place = Parameters("joint", source=joint.source)
-        scope.add(joint.name, Entry(place, joint.pose, joint.child, joint.child))
+        scope.add(joint.name, NamedFrame(place, joint.pose, joint.child, joint.child))
 
 
 _DRAFTERS: dict[str, Callable[[Parameters, Scope], None]] = {

@@ -33,7 +33,7 @@ Corner = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class ModelBody:
     """What a model is made of."""
 
     blocks: tuple[StageBlock, ...] = ()
@@ -42,7 +42,7 @@ class Body:
 
 
 @dataclass(slots=True)
-class Pictures:
+class BitmapCells:
     """Cells of the bitmaps of one file, each read once."""
 
     cells: dict[Path, NDArray[np.bool_]] = field(default_factory=dict)
@@ -75,7 +75,7 @@ def _edges(cells: NDArray[np.bool_]) -> int:
     )
 
 
-def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> Body:
+def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> ModelBody:
     """The blocks, bitmap and boundary of a model, scaled to its size.
 
     Args:
@@ -96,20 +96,20 @@ def read_body(given: Properties, size: StageSize, context: Context, *, solid: bo
         blocks = [UNIT_BLOCK]
     boundary = given.flag("boundary", default=False)
     if not blocks and bitmap is None:
-        return Body()
+        return ModelBody()
     body = _scaled(blocks, bitmap, size)
     if boundary:
-        return Body((*body.blocks, *_walls(size)), body.bitmap)
-    return Body(body.blocks, body.bitmap, is_plain=plain)
+        return ModelBody((*body.blocks, *_walls(size)), body.bitmap)
+    return ModelBody(body.blocks, body.bitmap, is_plain=plain)
 
 
-def gripper_body(device: StageGripper, size: StageSize) -> Body:
+def gripper_body(device: StageGripper, size: StageSize) -> ModelBody:
     """A gripper's base and its two paddles, as they are at the start."""
     length, width, height = device.paddle_size
     inwards = (0.5 - width) if device.paddles == "closed" else 0.0
     bottom = (1.0 - height) if device.lift == "up" else 0.0
     back = 1.0 - length
-    return Body(
+    return ModelBody(
         tuple(
             StageBlock(
                 tuple(
@@ -199,7 +199,7 @@ def _read_bitmap(given: Properties, context: Context) -> StageBitmap | None:
     return StageBitmap(uri, path, cells, (0.0, 0.0), (float(columns), float(rows)), (0.0, 1.0))
 
 
-def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: StageSize) -> Body:
+def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: StageSize) -> ModelBody:
     """All parts, so that the box around them is as large as the model, centred in x and y.
 
     Heights are scaled too, but not moved: what begins above 0 still does.
@@ -221,7 +221,7 @@ def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: Stag
     def lifted(z: tuple[float, float]) -> tuple[float, float]:
         return float(z[0] * scale[2]), float(z[1] * scale[2])
 
-    return Body(
+    return ModelBody(
         tuple(
             StageBlock(tuple(moved(*point) for point in block.points), lifted(block.z), block.color)
             for block in blocks

@@ -279,7 +279,7 @@ def read_light_indicator(_: Properties) -> StageLightIndicator:
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class ModelType:
     """A type of model.
 
     Attributes:
@@ -298,19 +298,19 @@ class Kind:
 _RANGER_SIZE = StageSize(0.15, 0.15, 0.2)
 _BLUE = (0.0, 0.0, 0.5, 1.0)
 
-KINDS: dict[str, Kind] = {
-    "actuator": Kind(read_actuator),
-    "blinkenlight": Kind(
+KINDS: dict[str, ModelType] = {
+    "actuator": ModelType(read_actuator),
+    "blinkenlight": ModelType(
         read_blinkenlight, StageSize(0.02, 0.02, 0.02), color=(0.0, 1.0, 0.0, 1.0)
     ),
-    "blobfinder": Kind(read_blobfinder, solid=False),
-    "bumper": Kind(read_bumper),
-    "camera": Kind(read_camera, StageSize(0.1, 0.07, 0.05), color=(0.0, 0.0, 0.0, 1.0)),
-    "fiducial": Kind(read_fiducial, _NO_LENGTH, solid=False),
-    "gripper": Kind(read_gripper, StageSize(0.2, 0.3, 0.2), color=(0.3, 0.3, 0.3, 1.0)),
-    "laser": Kind(read_laser, _RANGER_SIZE, solid=False, color=_BLUE),
-    "lightindicator": Kind(read_light_indicator),
-    "model": Kind(),
-    "position": Kind(read_position),
-    "ranger": Kind(read_ranger, _RANGER_SIZE, solid=False, color=_BLUE),
+    "blobfinder": ModelType(read_blobfinder, solid=False),
+    "bumper": ModelType(read_bumper),
+    "camera": ModelType(read_camera, StageSize(0.1, 0.07, 0.05), color=(0.0, 0.0, 0.0, 1.0)),
+    "fiducial": ModelType(read_fiducial, _NO_LENGTH, solid=False),
+    "gripper": ModelType(read_gripper, StageSize(0.2, 0.3, 0.2), color=(0.3, 0.3, 0.3, 1.0)),
+    "laser": ModelType(read_laser, _RANGER_SIZE, solid=False, color=_BLUE),
+    "lightindicator": ModelType(read_light_indicator),
+    "model": ModelType(),
+    "position": ModelType(read_position),
+    "ranger": ModelType(read_ranger, _RANGER_SIZE, solid=False, color=_BLUE),
 }

@@ -39,7 +39,7 @@ _ITEM = re.compile(rf"\s+|({_NUMBER})|({_STRING})|(.)", re.ASCII)
 _BREAK = re.compile(r"\r\n|\r|\n")
 
 
-class Kind(IntEnum):
+class TokenKind(IntEnum):
     """What a token is; the numbers are those of the groups of the pattern."""
 
     WORD = 1
@@ -96,14 +96,14 @@ def tokenize(script: Script) -> list[Token]:
     found: list[Token] = []
     for match in _TOKEN.finditer(script.text):
         kind = match.lastindex
-        if kind == Kind.WORD:
+        if kind == TokenKind.WORD:
             # they come again and again, and are looked up in dictionaries
             found.append(Token(kind, intern(match[kind]), match.start()))
-        elif kind == Kind.END:
+        elif kind == TokenKind.END:
             raise _unexpected(script, Token(kind, match[kind], match.start()))
         elif kind:
             found.append(Token(kind, match[kind], match.start()))
-    return [*found, Token(Kind.END, "", len(script.text))]
+    return [*found, Token(TokenKind.END, "", len(script.text))]
 
 
 def _unexpected(script: Script, token: Token) -> FormatError:
@@ -131,9 +131,9 @@ def parse_value(script: Script, token: Token) -> Value:
     Raises:
         FormatError: A tuple holds something else than numbers and strings.
     """
-    if token.kind == Kind.NUMBER:
+    if token.kind == TokenKind.NUMBER:
         return float(token.text)
-    if token.kind == Kind.STRING:
+    if token.kind == TokenKind.STRING:
         return token.text[1:-1]
     items: list[float | str] = []
     for match in _ITEM.finditer(token.text[1:-1]):

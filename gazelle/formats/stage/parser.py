@@ -16,7 +16,7 @@ from gazelle.errors import FormatError, ResolveError
 from gazelle.formats import blanks, xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.stage.entity import Entity, Property
-from gazelle.formats.stage.lexer import Kind, Script, Token, parse_value, tokenize
+from gazelle.formats.stage.lexer import Script, Token, TokenKind, parse_value, tokenize
 
 MAX_DEPTH = 64
 """Entities in each other, macros in macros."""
@@ -24,7 +24,7 @@ MAX_ENTITIES = 1_000_000
 _COMMENT = re.compile("#[^\r\n]*")
 SEARCH_VARIABLE = "STAGEPATH"
 
-_VALUES = {Kind.NUMBER, Kind.STRING, Kind.TUPLE}
+_VALUES = {TokenKind.NUMBER, TokenKind.STRING, TokenKind.TUPLE}
 
 
 def parse(
@@ -75,8 +75,8 @@ class _Parser:
         self._script = script
         self._tokens = tokenize(script)
         self._at = 0
-        while (token := self._next()).kind != Kind.END:
-            if token.kind != Kind.WORD:
+        while (token := self._next()).kind != TokenKind.END:
+            if token.kind != TokenKind.WORD:
                 raise self._fail(f"expected a word, found '{token.text}'", token)
             if token.text == "include":
                 self._include(token)
@@ -92,7 +92,7 @@ class _Parser:
         return token
 
     def _fail(self, message: str, token: Token, hint: str | None = None) -> FormatError:
-        text = "the file ends too early: " + message if token.kind == Kind.END else message
+        text = "the file ends too early: " + message if token.kind == TokenKind.END else message
         return self._script.fail(text, token.offset, hint)
 
     def _item(self, parent: Entity, word: Token, depth: int) -> None:
@@ -100,14 +100,14 @@ class _Parser:
         token = self._next()
         if token.kind in _VALUES:
             parent.own[word.text] = Property(self._script, word.text, token, word.offset)
-        elif token.kind == Kind.OPEN:
+        elif token.kind == TokenKind.OPEN:
             entity = self._entity(word.text, word)
             self._body(entity, depth)
             parent.children.append(entity)
             parent.total += entity.total
             self._check_count(parent, word)
         else:
-            found = "the end" if token.kind == Kind.END else f"'{token.text}'"
+            found = "the end" if token.kind == TokenKind.END else f"'{token.text}'"
             raise self._fail(f"expected a value or '(' after '{word.text}', found {found}", token)
 
     def _entity(self, name: str, word: Token) -> Entity:
@@ -124,12 +124,15 @@ class _Parser:
         """What stands between the parentheses, and the closing one."""
         if depth > MAX_DEPTH:
             raise entity.fail(f"entities stand more than {MAX_DEPTH} deep in each other")
-        while (token := self._next()).kind != Kind.CLOSE:
-            if token.kind == Kind.END:
+        while (token := self._next()).kind != TokenKind.CLOSE:
+            if token.kind == TokenKind.END:
                 raise entity.fail("the ')' that ends this is missing")
-            if token.kind != Kind.WORD:
+            if token.kind != TokenKind.WORD:
                 raise self._fail(f"expected a word or ')', found '{token.text}'", token)
-            if token.text in {"include", "define"} and self._tokens[self._at].kind != Kind.OPEN:
+            if (
+                token.text in {"include", "define"}
+                and self._tokens[self._at].kind != TokenKind.OPEN
+            ):
                 raise self._fail(f"'{token.text}' may only stand outside of '( )'", token)
             self._item(entity, token, depth + 1)
 
@@ -137,9 +140,9 @@ class _Parser:
         """``define NAME BASE ( ... )``; a second of a name is read, and not used."""
         name, base, opening = self._next(), self._next(), self._next()
         for token, wanted, kind in (
-            (name, "a name", Kind.WORD),
-            (base, "a type", Kind.WORD),
-            (opening, "'('", Kind.OPEN),
+            (name, "a name", TokenKind.WORD),
+            (base, "a type", TokenKind.WORD),
+            (opening, "'('", TokenKind.OPEN),
         ):
             if token.kind != kind:
                 found = token.text or "the end"
@@ -167,7 +170,7 @@ class _Parser:
 
     def _include(self, word: Token) -> None:
         token = self._next()
-        if token.kind != Kind.STRING:
+        if token.kind != TokenKind.STRING:
             raise self._fail("expected a file in quotes after 'include'", token)
         uri = str(parse_value(self._script, token))
         path = find_beside(uri, self._script, self._reading, self._folder)

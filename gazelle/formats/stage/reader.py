@@ -11,7 +11,7 @@ from gazelle.formats.stage.properties import Units
 
 if TYPE_CHECKING:
     from gazelle.description.stage import StageModel
-    from gazelle.formats.stage.body import Pictures
+    from gazelle.formats.stage.body import BitmapCells
     from gazelle.formats.stage.entity import Entity
 
 
@@ -30,5 +30,5 @@ class Context:
     reading: Reading
     units: Units
     folder: Path | None
-    pictures: Pictures
+    pictures: BitmapCells
     prototypes: dict[Entity, StageModel] = field(default_factory=dict)

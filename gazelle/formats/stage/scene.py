@@ -77,7 +77,7 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
         stage: What the file says.
         reading: Takes remarks on what is drawn coarser.
     """
-    builder = _Builder(reading, len(stage.robots) > 1, 1.0 / stage.interval_sim)
+    builder = _SceneBuilder(reading, len(stage.robots) > 1, 1.0 / stage.interval_sim)
     models = [builder.model(model) for model in stage.models]
     return World(
         name=stage.name,
@@ -102,7 +102,7 @@ Shared = tuple[object, ...]
 
 
 @dataclass(slots=True)
-class _Builder:
+class _SceneBuilder:
     """Makes models; robots that differ by name and pose only share what is on them.
 
     Attributes:

@@ -8,7 +8,7 @@ from gazelle.description.source import Source
 from gazelle.description.stage import StageWindow, StageWorld
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.body import Pictures
+from gazelle.formats.stage.body import BitmapCells
 from gazelle.formats.stage.devices import KINDS
 from gazelle.formats.stage.entity import Entity
 from gazelle.formats.stage.lexer import Script
@@ -41,7 +41,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
     given = Properties(root, reading, Units())
     given.units.length = LENGTHS[given.choice("unit_length", tuple(LENGTHS), "m")]
     given.units.angle = ANGLES[given.choice("unit_angle", tuple(ANGLES), "degrees")]
-    context = Context(reading, given.units, folder, Pictures())
+    context = Context(reading, given.units, folder, BitmapCells())
     windows = [part for part in root.children if part.type == "window"]
     models = [part for part in root.children if part.type != "window"]
     world = StageWorld(

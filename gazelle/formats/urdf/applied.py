@@ -15,14 +15,14 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.material import read_material
 from gazelle.formats.sdf.surface import read_surface
 from gazelle.formats.urdf.extensions import Extensions, text
-from gazelle.formats.urdf.tree import Body
+from gazelle.formats.urdf.tree import LumpedLink
 
 LUMP = "_fixed_joint_lump__"
 
 _TERMS = {"fdir1", "kd", "kp", "maxVel", "minDepth", "mu1", "mu2"}
 
 
-def applied(body: Body, extensions: Extensions, tag: str, name: str) -> list[Parameters]:
+def applied(body: LumpedLink, extensions: Extensions, tag: str, name: str) -> list[Parameters]:
     """The ``<gazebo>`` elements for one part of a body.
 
     Args:

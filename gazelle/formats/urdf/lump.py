@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from gazelle.description import Inertia, Inertial, Pose
-from gazelle.formats.solids import Solid, joined
-from gazelle.formats.urdf.tree import Body
+from gazelle.formats.solids import UnitSolid, joined
+from gazelle.formats.urdf.tree import LumpedLink
 from gazelle.formats.urdf.upright import upright
 
 NO_MASS = 1e-6
 """A mass up to this [kg] is none, as it is to libsdformat."""
 
 
-def body_inertial(body: Body) -> Inertial | None:
+def body_inertial(body: LumpedLink) -> Inertial | None:
     """The inertial of a body; None when all its links together have no mass.
 
     A body of one link keeps its numbers to the last bit. A link without mass may still add an
@@ -41,7 +41,9 @@ def body_inertial(body: Body) -> Inertial | None:
 def combine(parts: Sequence[tuple[Pose, Inertial]], rotation: Pose) -> Inertial | None:
     """The sum of inertials at poses, in axes turned by ``rotation``; None without mass."""
     whole = joined(
-        Solid(inertial.mass, np.zeros(3), inertial.inertia.matrix()).placed(pose * inertial.pose)
+        UnitSolid(inertial.mass, np.zeros(3), inertial.inertia.matrix()).placed(
+            pose * inertial.pose
+        )
         for pose, inertial in parts
     )
     if whole is None:

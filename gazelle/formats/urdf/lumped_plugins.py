@@ -13,14 +13,14 @@ from types import MappingProxyType
 from gazelle.description import Parameters, Pose
 from gazelle.formats import values
 from gazelle.formats.urdf.extensions import Extensions, text
-from gazelle.formats.urdf.tree import Body
+from gazelle.formats.urdf.tree import LumpedLink
 from gazelle.formats.urdf.upright import upright
 
 _NAMES = ("bodyName", "frameName")
 
 
 @dataclass(frozen=True, slots=True)
-class _Step:
+class _LumpedStep:
     """One link that goes into its parent, at a pose."""
 
     link: str
@@ -28,7 +28,7 @@ class _Step:
     origin: Pose
 
 
-def plugins(found: list[Body], extensions: Extensions) -> tuple[Parameters, ...]:
+def plugins(found: list[LumpedLink], extensions: Extensions) -> tuple[Parameters, ...]:
     """The ``<plugin>`` elements of a robot: those of the model, then those of its links."""
     steps = list(_steps(found))
     references = ["", *(name for name in extensions.by_reference if name)]
@@ -40,15 +40,15 @@ def plugins(found: list[Body], extensions: Extensions) -> tuple[Parameters, ...]
     )
 
 
-def _steps(found: list[Body]) -> Iterator[_Step]:
+def _steps(found: list[LumpedLink]) -> Iterator[_LumpedStep]:
     """The links that are lumped, the outermost first."""
     for body in found:
         for member in reversed(body.members):
             if member.joint is not None:
-                yield _Step(member.link.name, member.joint.parent, member.joint.origin)
+                yield _LumpedStep(member.link.name, member.joint.parent, member.joint.origin)
 
 
-def _moved(plugin: Parameters, reference: str, steps: list[_Step]) -> Parameters:
+def _moved(plugin: Parameters, reference: str, steps: list[_LumpedStep]) -> Parameters:
     reduction = Pose()
     for step in steps:
         if reference == step.link:
@@ -60,7 +60,9 @@ def _moved(plugin: Parameters, reference: str, steps: list[_Step]) -> Parameters
     return plugin
 
 
-def _renamed(plugin: Parameters, name: Parameters, step: _Step, reduction: Pose) -> Parameters:
+def _renamed(
+    plugin: Parameters, name: Parameters, step: _LumpedStep, reduction: Pose
+) -> Parameters:
     place = step.origin * _offset(plugin, reduction)
     changed = {name.tag, "xyzOffset", "rpyOffset"}
     kept = tuple(child for child in plugin.children if child.tag not in changed)

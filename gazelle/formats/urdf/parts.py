@@ -25,12 +25,12 @@ from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.urdf.applied import LUMP, applied, blob, material, real, surface
 from gazelle.formats.urdf.elements import Paint, read_geometry, read_origin, read_paint
 from gazelle.formats.urdf.extensions import Extensions
-from gazelle.formats.urdf.tree import Body, Member
+from gazelle.formats.urdf.tree import LumpedLink, Member
 from gazelle.formats.urdf.upright import upright
 
 
 @dataclass(frozen=True, slots=True)
-class Robot:
+class PartReader:
     """What the parts of a robot are read with.
 
     Attributes:
@@ -46,7 +46,7 @@ class Robot:
     frames: Mapping[str, Pose] = field(default_factory=dict)
 
 
-def part_names(body: Body, tag: str) -> list[tuple[Member, Parameters, str, str]]:
+def part_names(body: LumpedLink, tag: str) -> list[tuple[Member, Parameters, str, str]]:
     """Each ``<collision>`` or ``<visual>`` of a body: member, element, name, name unlumped.
 
     The names are those that libsdformat gives, which contact sensors refer to.
@@ -63,7 +63,7 @@ def part_names(body: Body, tag: str) -> list[tuple[Member, Parameters, str, str]
     return found
 
 
-def read_collisions(body: Body, robot: Robot) -> tuple[Collision, ...]:
+def read_collisions(body: LumpedLink, robot: PartReader) -> tuple[Collision, ...]:
     """All collisions of a body."""
     return tuple(
         _collision(body, member, node, name, robot)
@@ -72,7 +72,7 @@ def read_collisions(body: Body, robot: Robot) -> tuple[Collision, ...]:
     )
 
 
-def _is_nothing(node: Parameters, robot: Robot) -> bool:
+def _is_nothing(node: Parameters, robot: PartReader) -> bool:
     """Whether the shape is a box without size, which Gazebo takes and nothing ever touches."""
     box = node.find("geometry/box")
     if box is None:
@@ -83,7 +83,9 @@ def _is_nothing(node: Parameters, robot: Robot) -> bool:
     return True
 
 
-def _collision(body: Body, member: Member, node: Parameters, name: str, robot: Robot) -> Collision:
+def _collision(
+    body: LumpedLink, member: Member, node: Parameters, name: str, robot: PartReader
+) -> Collision:
     elements = applied(body, robot.extensions, "collision", name)
     more = blob(elements, "collision")
     return Collision(
@@ -97,7 +99,7 @@ def _collision(body: Body, member: Member, node: Parameters, name: str, robot: R
     )
 
 
-def read_visuals(body: Body, robot: Robot) -> tuple[Visual, ...]:
+def read_visuals(body: LumpedLink, robot: PartReader) -> tuple[Visual, ...]:
     """All visuals of a body."""
     return tuple(
         _visual(body, member, node, name, robot)
@@ -106,7 +108,9 @@ def read_visuals(body: Body, robot: Robot) -> tuple[Visual, ...]:
     )
 
 
-def _visual(body: Body, member: Member, node: Parameters, name: str, robot: Robot) -> Visual:
+def _visual(
+    body: LumpedLink, member: Member, node: Parameters, name: str, robot: PartReader
+) -> Visual:
     elements = applied(body, robot.extensions, "visual", name)
     more = blob(elements, "visual")
     return Visual(
@@ -122,7 +126,7 @@ def _visual(body: Body, member: Member, node: Parameters, name: str, robot: Robo
     )
 
 
-def _material(node: Parameters, elements: list[Parameters], robot: Robot) -> Material | None:
+def _material(node: Parameters, elements: list[Parameters], robot: PartReader) -> Material | None:
     """What ``<gazebo>`` says goes before the URDF's own colour, as it does in Gazebo Classic."""
     own = node.find("material")
     paint = Paint()
@@ -138,7 +142,7 @@ def _material(node: Parameters, elements: list[Parameters], robot: Robot) -> Mat
     return with_urdf_color(found, paint.color)
 
 
-def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
+def read_sensors(body: LumpedLink, robot: PartReader) -> tuple[Sensor, ...]:
     """All sensors of a body, moved to its frame; contact sensors name its collisions."""
     renamed = {plain: name for _, __, name, plain in part_names(body, "collision")}
     sensors = []
@@ -150,7 +154,7 @@ def read_sensors(body: Body, robot: Robot) -> tuple[Sensor, ...]:
     return tuple(sensors)
 
 
-def _placer(member: Member, body: Body, robot: Robot) -> Placer:
+def _placer(member: Member, body: LumpedLink, robot: PartReader) -> Placer:
     """A function that gives the pose of a part in the body's frame.
 
     A pose ``relative_to`` a link or joint is one in that frame; any other is in the link's.
@@ -179,7 +183,7 @@ def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:
     return replace(sensor, contact=replace(sensor.contact, collisions=collisions))
 
 
-def read_lights(body: Body, robot: Robot) -> tuple[Light, ...]:
+def read_lights(body: LumpedLink, robot: PartReader) -> tuple[Light, ...]:
     """Lights that ``<gazebo>`` puts on a body."""
     return tuple(
         read_light(node, member.pose * read_pose(node.find("pose")))

@@ -34,7 +34,7 @@ from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, drop_unused, r
 from gazelle.formats.urdf.lump import body_inertial
 from gazelle.formats.urdf.lumped_plugins import plugins
 from gazelle.formats.urdf.parts import (
-    Robot,
+    PartReader,
     read_collisions,
     read_lights,
     read_sensors,
@@ -42,7 +42,7 @@ from gazelle.formats.urdf.parts import (
 )
 from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
-from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, Body, Tree, bodies, read_tree
+from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, LumpedLink, UrdfTree, bodies, read_tree
 from gazelle.formats.urdf.upright import upright
 
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
@@ -64,7 +64,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     extensions = read_extensions(root, reading)
     drop_unused(extensions, set(tree.links), set(tree.joints), reading)
     found = bodies(tree, extensions)
-    robot = Robot(extensions, _paints(root, reading), reading, _poses(found, tree))
+    robot = PartReader(extensions, _paints(root, reading), reading, _poses(found, tree))
     kept = _with_mass(found, root, reading)
     model = Model(
         name=name,
@@ -80,7 +80,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     return _with_model_extensions(model, robot, plugins(found, extensions))
 
 
-def _poses(found: Iterable[Body], tree: Tree) -> dict[str, Pose]:
+def _poses(found: Iterable[LumpedLink], tree: UrdfTree) -> dict[str, Pose]:
     """Poses of links and joints in the model; a joint's frame is that of its child."""
     links = {member.link.name: body.pose * member.pose for body in found for member in body.members}
     joints = {
@@ -106,7 +106,7 @@ def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
     return paints
 
 
-def _with_mass(found: list[Body], root: Parameters, reading: Reading) -> list[Body]:
+def _with_mass(found: list[LumpedLink], root: Parameters, reading: Reading) -> list[LumpedLink]:
     """Bodies that have a mass and hang on one that has; the rest is noted and left out.
 
     A robot with no mass at all is kept whole: it can still be shown and planned for.
@@ -118,7 +118,7 @@ def _with_mass(found: list[Body], root: Parameters, reading: Reading) -> list[Bo
             "add an <inertial> to each link that shall move",
         )
         return found
-    kept: list[Body] = []
+    kept: list[LumpedLink] = []
     gone: set[str] = set()
     for body in found:
         if body.parent in gone:
@@ -136,7 +136,7 @@ def _with_mass(found: list[Body], root: Parameters, reading: Reading) -> list[Bo
     return kept
 
 
-def _link(body: Body, robot: Robot) -> Link:
+def _link(body: LumpedLink, robot: PartReader) -> Link:
     names = [member.link.name for member in body.members]
     extensions = robot.extensions
     sdf = _sdf_children(names, extensions)
@@ -171,7 +171,7 @@ def _link(body: Body, robot: Robot) -> Link:
     )
 
 
-def _extras(body: Body, extensions: Extensions) -> Iterator[Parameters]:
+def _extras(body: LumpedLink, extensions: Extensions) -> Iterator[Parameters]:
     """What is kept as it stands; a projector of a lumped link where that link was."""
     for member in body.members:
         for child in extensions.of(member.link.name):
@@ -185,7 +185,9 @@ def _extras(body: Body, extensions: Extensions) -> Iterator[Parameters]:
                 yield child
 
 
-def _inertial(body: Body, collisions: tuple[Collision, ...], reading: Reading) -> Inertial | None:
+def _inertial(
+    body: LumpedLink, collisions: tuple[Collision, ...], reading: Reading
+) -> Inertial | None:
     inertial = body_inertial(body)
     if inertial is None:
         return None
@@ -199,14 +201,14 @@ def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:
     return Parameters("link", children=tuple(children))
 
 
-def _frames(body: Body) -> list[Frame]:
+def _frames(body: LumpedLink) -> list[Frame]:
     return [
         Frame(member.link.name, body.name, member.pose, member.link.node.source)
         for member in body.members[1:]
     ]
 
 
-def _joint(body: Body, robot: Robot) -> Joint:
+def _joint(body: LumpedLink, robot: PartReader) -> Joint:
     joint = body.joint
     if joint is None:
         raise values.fail(body.link.node, "the root has no joint")
@@ -260,7 +262,7 @@ def _physics(joint: str, extensions: Extensions) -> JointPhysics:
 
 
 def _with_model_extensions(
-    model: Model, robot: Robot, plugin_nodes: tuple[Parameters, ...]
+    model: Model, robot: PartReader, plugin_nodes: tuple[Parameters, ...]
 ) -> Model:
     """Plugins, SDF links and joints, and flags of ``<gazebo>`` elements without a reference.
 

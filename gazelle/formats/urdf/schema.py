@@ -16,7 +16,7 @@ from gazelle.formats.reading import Reading
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class ElementSchema:
     """An element: what may stand in it; whole, if that is somebody else's business.
 
     Attributes:
@@ -26,15 +26,15 @@ class Kind:
     """
 
     attributes: frozenset[str] = frozenset()
-    children: Mapping[str, Kind] = field(default_factory=dict)
+    children: Mapping[str, ElementSchema] = field(default_factory=dict)
     whole: bool = False
 
 
-def _kind(attributes: str = "", **children: Kind) -> Kind:
-    return Kind(frozenset(attributes.split()), children)
+def _kind(attributes: str = "", **children: ElementSchema) -> ElementSchema:
+    return ElementSchema(frozenset(attributes.split()), children)
 
 
-_ANY = Kind(whole=True)
+_ANY = ElementSchema(whole=True)
 _ORIGIN = _kind("xyz rpy quat_xyzw")
 _MATERIAL = _kind("name", color=_kind("rgba"), texture=_kind("filename"))
 _GEOMETRY = _kind(
@@ -94,7 +94,7 @@ def note_unknown(root: Parameters, reading: Reading) -> None:
     _judge(root, _ROBOT, reading)
 
 
-def _judge(node: Parameters, kind: Kind, reading: Reading) -> None:
+def _judge(node: Parameters, kind: ElementSchema, reading: Reading) -> None:
     if kind.whole:
         return
     for name in node.attributes:

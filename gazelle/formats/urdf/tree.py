@@ -44,7 +44,7 @@ class Member:
 
 
 @dataclass(slots=True)
-class Body:
+class LumpedLink:
     """Links that move as one.
 
     Attributes:
@@ -63,7 +63,7 @@ class Body:
     parent: str = ""
     origin: Pose = field(default_factory=Pose)
     members: list[Member] = field(default_factory=list)
-    children: list[Body] = field(default_factory=list)
+    children: list[LumpedLink] = field(default_factory=list)
 
     @property
     def name(self) -> str:
@@ -72,7 +72,7 @@ class Body:
 
 
 @dataclass(slots=True)
-class Tree:
+class UrdfTree:
     """Links, joints and the joints below each link, sorted by name as urdfdom does."""
 
     links: dict[str, UrdfLink]
@@ -81,7 +81,7 @@ class Tree:
     root: str
 
 
-def read_tree(root: Parameters, reading: Reading) -> Tree:
+def read_tree(root: Parameters, reading: Reading) -> UrdfTree:
     """The links and joints of a ``<robot>``.
 
     Raises:
@@ -103,7 +103,7 @@ def read_tree(root: Parameters, reading: Reading) -> Tree:
     below = _below(joints)
     top = _root(root, links, joints)
     _refuse_loops(top, links, joints, below)
-    return Tree(links, joints, below, top)
+    return UrdfTree(links, joints, below, top)
 
 
 def _refuse_twice(node: Parameters, name: str, known: object) -> None:
@@ -183,16 +183,16 @@ def lumps(joint: UrdfJoint, extensions: Extensions) -> bool:
     )
 
 
-def bodies(tree: Tree, extensions: Extensions) -> list[Body]:
+def bodies(tree: UrdfTree, extensions: Extensions) -> list[LumpedLink]:
     """All bodies, parents before children; the world is none."""
-    done: list[Body] = []
+    done: list[LumpedLink] = []
     if tree.root == WORLD:
         waiting = [
-            _hung(tree, joint, Body(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
+            _hung(tree, joint, LumpedLink(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
             for joint in tree.below.get(WORLD, ())
         ]
     else:
-        waiting = [Body(tree.links[tree.root], Pose())]
+        waiting = [LumpedLink(tree.links[tree.root], Pose())]
     while waiting:
         body = waiting.pop(0)
         _gather(tree, body, extensions)
@@ -201,12 +201,12 @@ def bodies(tree: Tree, extensions: Extensions) -> list[Body]:
     return done
 
 
-def _hung(tree: Tree, joint: UrdfJoint, parent: Body, link_pose: Pose) -> Body:
+def _hung(tree: UrdfTree, joint: UrdfJoint, parent: LumpedLink, link_pose: Pose) -> LumpedLink:
     origin = link_pose * joint.origin
-    return Body(tree.links[joint.child], parent.pose * origin, joint, parent.name, origin)
+    return LumpedLink(tree.links[joint.child], parent.pose * origin, joint, parent.name, origin)
 
 
-def _gather(tree: Tree, body: Body, extensions: Extensions) -> None:
+def _gather(tree: UrdfTree, body: LumpedLink, extensions: Extensions) -> None:
     """Find all links of a body, each before those on it, and the bodies that hang on it."""
     waiting = [Member(body.link, Pose())]
     while waiting:

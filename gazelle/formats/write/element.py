@@ -149,7 +149,7 @@ def overlay(base: Parameters, over: Parameters) -> Parameters:
     )
 
 
-class Part(Protocol):
+class NamedElement(Protocol):
     """A piece of a description that has a name."""
 
     @property
@@ -162,7 +162,7 @@ class Part(Protocol):
 
 
 @contextmanager
-def inside(tag: str, part: Part) -> Iterator[None]:
+def inside(tag: str, part: NamedElement) -> Iterator[None]:
     """Errors raised in it say where: in the file that the part came from, or by its name.
 
     Raises:
@@ -181,7 +181,7 @@ def inside(tag: str, part: Part) -> Iterator[None]:
         raise FormatError(error.message, hint=error.hint, source=known) from None
 
 
-def distinct(tag: str, parts: Sequence[Part]) -> None:
+def distinct(tag: str, parts: Sequence[NamedElement]) -> None:
     """Refuse two parts of one name.
 
     Raises:

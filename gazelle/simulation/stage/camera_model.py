@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bytes, Floats32, Worlds
 from gazelle.description import Camera
-from gazelle.engines.planar.pictures import Pictures
+from gazelle.engines.planar.pictures import CameraPictures
 from gazelle.sensors import CameraImage
 
 
@@ -25,7 +25,7 @@ class StageCameraModel:
 
     depth = True
 
-    def __init__(self, camera: Camera, pictures: Callable[[Worlds | None], Pictures]) -> None:
+    def __init__(self, camera: Camera, pictures: Callable[[Worlds | None], CameraPictures]) -> None:
         self.cameras, self._pictures = (camera,), pictures
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Bytes:  # noqa: ARG002  nothing drifts

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Worlds
 from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
-from gazelle.engines.planar.pictures import Lens, Painter, Pictures, View
+from gazelle.engines.planar.pictures import CameraMount, CameraPictures, Lens, Painter
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.scenery import scenery_of
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Camera:
+class MountedCamera:
     """A camera on a robot.
 
     Attributes:
@@ -46,11 +46,11 @@ class Camera:
         return Lens(*self.device.resolution, self.device.fov, *self.device.range)
 
     @property
-    def view(self) -> View:
+    def view(self) -> CameraMount:
         """Where it is on its body: as in Stage a pan is to the right, and a tilt down."""
         pan, tilt = self.device.pantilt
         x, y, z, yaw = self.pose
-        return View(self.body, x, y, z, yaw - pan, tilt, self.owner)
+        return CameraMount(self.body, x, y, z, yaw - pan, tilt, self.owner)
 
 
 class Cameras:
@@ -64,10 +64,10 @@ class Cameras:
     def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
         self._simulation = simulation
         self._painter = Painter(simulation.fleet, scenery_of(simulation.still, models))
-        self._seen: dict[tuple[int, int, int], Pictures] = {}
+        self._seen: dict[tuple[int, int, int], CameraPictures] = {}
         self._changes = -1
 
-    def picture(self, robot: int, which: int, world: int) -> Pictures:
+    def picture(self, robot: int, which: int, world: int) -> CameraPictures:
         """What one camera sees, shape (height, width, ...).
 
         Raises:
@@ -80,10 +80,10 @@ class Cameras:
         key = (robot, which, world)
         if key not in self._seen:
             many = self.pictures([robot], which, np.array([world]))
-            self._seen[key] = Pictures(many.color[0, 0], many.depth[0, 0])
+            self._seen[key] = CameraPictures(many.color[0, 0], many.depth[0, 0])
         return self._seen[key]
 
-    def pictures(self, robots: list[int], which: int, worlds: Worlds) -> Pictures:
+    def pictures(self, robots: list[int], which: int, worlds: Worlds) -> CameraPictures:
         """What the cameras of a number see, shape (worlds, robots, height, width, ...).
 
         Raises:
@@ -99,7 +99,7 @@ class Cameras:
         views = [camera.view for camera in found]
         return self._painter.draw(lenses.pop(), views, worlds)
 
-    def _camera(self, robot: int, which: int) -> Camera:
+    def _camera(self, robot: int, which: int) -> MountedCamera:
         own = self._simulation.robots[robot]
         found = cameras_of(own)
         if not 0 <= which < len(found):
@@ -107,11 +107,11 @@ class Cameras:
         return found[which]
 
 
-def cameras_of(robot: StageRobot) -> tuple[Camera, ...]:
+def cameras_of(robot: StageRobot) -> tuple[MountedCamera, ...]:
     """The cameras on a robot, in file order; those on actuators last."""
     own = robot.model.name.removeprefix("/")
     return tuple(
-        Camera(
+        MountedCamera(
             placed.model.name,
             placed.name.removeprefix(f"{own}."),
             device,

@@ -13,7 +13,7 @@ from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.reckoning import DriveVelocities, PoseMemory, StallMemory
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.native.system import System
-from gazelle.simulation.stage.odometry import Odometry
+from gazelle.simulation.stage.odometry import WheelOdometry
 from gazelle.simulation.stage.steering import Steering
 
 
@@ -34,7 +34,7 @@ class DriveState:
 
     def __init__(self, robots: Sequence[StageRobot], fleet: Fleet, seed: int) -> None:
         self._fleet, self._count = fleet, len(robots)
-        self.odometry = Odometry(robots, fleet.nworld, seed, euler=fleet.euler)
+        self.odometry = WheelOdometry(robots, fleet.nworld, seed, euler=fleet.euler)
         self.steering = Steering(robots)
         self._memory = PoseMemory(fleet.bodies)
         self._poses = np.asarray(self._memory.poses).reshape(fleet.nworld, fleet.nbody, 3)

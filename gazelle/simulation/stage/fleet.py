@@ -23,7 +23,7 @@ from gazelle.simulation.stage.controllers import FleetController, make_controlle
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.drive_state import DriveState
 from gazelle.simulation.stage.rangers import Rangers
-from gazelle.simulation.stage.scans import RangeNoise
+from gazelle.simulation.stage.scans import StageRangeNoise
 from gazelle.simulation.stage.senses import Senses
 
 
@@ -255,7 +255,7 @@ class StageFleet(Senses):
         return self.rangers.mounts
 
     @property
-    def noise(self) -> list[RangeNoise]:
+    def noise(self) -> list[StageRangeNoise]:
         """Of the sensors of each scanner."""
         return self.rangers.noise
 

@@ -16,7 +16,7 @@ _WIDTHS = (0.03, 0.03, 0.05)
 """Between the least and the greatest share of x, y and yaw that Stage 4.3 draws."""
 
 
-class Odometry:
+class WheelOdometry:
     """Adds up what the wheels say, wrong by the constant share ``odom_error``.
 
     As in Stage a robot whose file has no ``odom_error`` draws its share at the start, and wheels

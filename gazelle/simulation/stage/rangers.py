@@ -10,7 +10,7 @@ from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.stage_layout import StageLayout
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
-from gazelle.simulation.stage.scans import RangeNoise, RangerScanner
+from gazelle.simulation.stage.scans import RangerScanner, StageRangeNoise
 from gazelle.streams import Stream
 
 
@@ -31,7 +31,7 @@ class Rangers:
     def __init__(self, fleet: Fleet, layout: StageLayout, seed: int) -> None:
         self.fans, self.mounts = layout.fans, layout.mounts
         self.noise = [
-            RangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
+            StageRangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
             for each in layout.noises
         ]
         self._fleet, self._seed = fleet, seed

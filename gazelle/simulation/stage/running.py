@@ -12,7 +12,7 @@ from gazelle.array_types import Worlds
 from gazelle.native.system import System
 from gazelle.simulation.plugin import WorldPlugin
 from gazelle.simulation.stage.fleet import StageFleet
-from gazelle.states import Part, restore_all, states_of
+from gazelle.states import Restorable, restore_all, states_of
 
 
 class Steps(Protocol):
@@ -126,9 +126,11 @@ class StageRunner(WorldPlugin):
         """Put back what ``state`` gave."""
         restore_all(self._parts(), state)
 
-    def _parts(self) -> dict[str, Part]:
+    def _parts(self) -> dict[str, Restorable]:
         fleet = self._fleet
-        parts: dict[str, Part] = {f"controller{i}": p for i, p in enumerate(fleet.controllers)}
+        parts: dict[str, Restorable] = {
+            f"controller{i}": p for i, p in enumerate(fleet.controllers)
+        }
         return {
             "motion": fleet.motion,
             "rangers": fleet.rangers,

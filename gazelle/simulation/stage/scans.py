@@ -16,7 +16,7 @@ from gazelle.streams import Stream
 
 
 @dataclass(slots=True)
-class RangeNoise:
+class StageRangeNoise:
     """Noise of the sensors of one scanner: that of Stage 4.3, but for the angles.
 
     Attributes:
@@ -48,7 +48,7 @@ class RangerScanner:
         fleet: Fleet,
         fan: Fan,
         mounts: list[Mount],
-        noise: RangeNoise,
+        noise: StageRangeNoise,
         stream: Stream,
         *,
         seed: int,

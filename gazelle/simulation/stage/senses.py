@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.pictures import Pictures
+from gazelle.engines.planar.pictures import CameraPictures
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
@@ -136,7 +136,7 @@ class Senses(ABC):
         """
         return find_bumps(self._around, self.robot(name).index, bumper, world)
 
-    def picture(self, name: str, camera: int = 0, world: int = 0) -> Pictures:
+    def picture(self, name: str, camera: int = 0, world: int = 0) -> CameraPictures:
         """What a camera of a robot sees now, drawn once a step: colours and depths.
 
         Args:
@@ -157,7 +157,7 @@ class Senses(ABC):
         names: Sequence[str] | None = None,
         camera: int = 0,
         worlds: Worlds | None = None,
-    ) -> Pictures:
+    ) -> CameraPictures:
         """What cameras of many robots and worlds see now, drawn by all threads.
 
         Args:

@@ -72,7 +72,7 @@ class PathRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class ServiceOutcome:
     """Whether something could be done.
 
     Attributes:

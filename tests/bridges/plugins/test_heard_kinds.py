@@ -23,9 +23,9 @@ from gazelle.simulation.values import (
     LinkPair,
     MotorPower,
     Number,
-    Outcome,
     PathRequest,
     Push,
+    ServiceOutcome,
     Trigger,
     TurnCommand,
 )
@@ -140,7 +140,7 @@ def test_a_service_is_asked_and_answers_in_its_messages(kinds, seed):
     request = random_message(service._request_class, random.Random(seed))
     question = codec.read(request)
     assert question is None if kinds[0] is None else isinstance(question, kinds[0])
-    answers = {None: None, bool: True, Outcome: Outcome(success=True, text="done")}
+    answers = {None: None, bool: True, ServiceOutcome: ServiceOutcome(success=True, text="done")}
     response = service._response_class(**codec.answer(answers[kinds[1]]))
     response.serialize(io.BytesIO())
     ASKS[kinds](question, request, response)
@@ -175,7 +175,7 @@ def asks_reference(question, request, _response):
 
 ASKS = {
     (None, None): lambda question, _request, _response: None,
-    (PathRequest, Outcome): asks_path,
+    (PathRequest, ServiceOutcome): asks_path,
     (LinkPair, bool): asks_pair,
     (Bias, None): asks_bias,
     (GeoReference, None): asks_reference,

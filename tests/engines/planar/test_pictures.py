@@ -11,7 +11,7 @@ import pytest
 
 from gazelle import EngineError, native
 from gazelle.engines.planar import Body, Fleet, Part
-from gazelle.engines.planar.pictures import Lens, Painter, Scenery, View, prism
+from gazelle.engines.planar.pictures import CameraMount, Lens, Painter, Scenery, prism
 
 LENS = Lens(48, 36, (1.3, 1.0), 0.3, 30.0)
 WORLDS = np.arange(2, dtype=np.intp)
@@ -40,7 +40,7 @@ def painted(seed, threads=1):
     looks = [np.vstack((thing(0, 0.0), thing(1, 1.0))) for _ in range(2)]
     scenery = Scenery(still, [looks[0], looks[1], looks[0]])
     views = [
-        View(body, *random.normal(0.0, 0.2, 2), random.uniform(0.2, 2.0), yaw, pitch, unseen)
+        CameraMount(body, *random.normal(0.0, 0.2, 2), random.uniform(0.2, 2.0), yaw, pitch, unseen)
         for body, yaw, pitch, unseen in ((0, 0.5, 0.0, 0), (2, -2.0, 0.4, -1), (1, 3.0, -0.2, 1))
     ]
     return Painter(fleet, scenery), views, scenery

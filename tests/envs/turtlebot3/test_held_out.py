@@ -12,7 +12,7 @@ import gazelle.envs  # noqa: F401  registers the environments
 from gazelle import formats
 from gazelle.description import Pose
 from gazelle.envs.options import NavigationSettings, held_out_options
-from gazelle.envs.turtlebot3.layout import Layout
+from gazelle.envs.turtlebot3.layout import GoalLayout
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
 from gazelle.errors import TaskError
@@ -39,8 +39,8 @@ def away(points, others):
 
 @pytest.mark.parametrize("stage", [1, 2, 3, 4])
 def test_held_out_goals_are_neither_published_nor_trained_on(stage):
-    held_out = Layout(stage, NavigationSettings(**HELD_OUT)).goals().points
-    trained = Layout(stage, NavigationSettings(goals="training")).goals().points
+    held_out = GoalLayout(stage, NavigationSettings(**HELD_OUT)).goals().points
+    trained = GoalLayout(stage, NavigationSettings(goals="training")).goals().points
     published = (plaza_goals() if stage == 4 else grid_goals()).points
     assert away(held_out, trained).min() > 0.07
     assert away(held_out, published).min() > (0.15 if stage == 4 else 0.07)
@@ -50,7 +50,7 @@ def test_held_out_goals_are_neither_published_nor_trained_on(stage):
 def test_held_out_goals_keep_away_from_those_a_user_trained_on():
     mine = [(1.05, 0.55), (-0.95, -1.25)]
     options = held_out_options({"goals": mine, "lidar_samples": 12})
-    points = Layout(1, NavigationSettings(**options)).goals().points
+    points = GoalLayout(1, NavigationSettings(**options)).goals().points
     assert away(points, np.array(mine)).min() > 0.2
     assert len(points) > 300
 
@@ -191,14 +191,14 @@ def test_a_near_miss_is_named(options, text):
 
 
 def test_a_world_of_ones_own_has_places_too():
-    layout = Layout(1, NavigationSettings(world="furnished_room", **HELD_OUT))
+    layout = GoalLayout(1, NavigationSettings(world="furnished_room", **HELD_OUT))
     assert len(layout.goals().points) > 100
 
 
 def test_a_start_in_an_obstacle_says_what_to_do():
     settings = NavigationSettings(world="turtlebot3_world", **HELD_OUT)
     with pytest.raises(TaskError, match=r"within 0\.2 m of something") as raised:
-        Layout(1, settings).goals()
+        GoalLayout(1, settings).goals()
     assert 'starts="published"' in str(raised.value.hint)
 
 
@@ -218,7 +218,7 @@ def test_a_robot_whose_lidar_leans_has_places_too():
     ]
     tilted = dataclasses.replace(robot, links=tuple(links))
     usual, leaning = (
-        Layout(1, NavigationSettings(robot=each, **HELD_OUT)).goals().points
+        GoalLayout(1, NavigationSettings(robot=each, **HELD_OUT)).goals().points
         for each in (None, tilted)
     )
     np.testing.assert_array_equal(leaning, usual)

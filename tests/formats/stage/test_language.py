@@ -8,11 +8,11 @@ from stage_samples import read, write
 from gazelle import FormatError, ResolveError
 from gazelle.errors import FormatWarning
 from gazelle.formats.stage import load_stage
-from gazelle.formats.stage.lexer import Kind, Script, tokenize
+from gazelle.formats.stage.lexer import Script, TokenKind, tokenize
 
 
 def kinds(text):
-    return [Kind(token.kind).name for token in tokenize(Script("t", text))][:-1]
+    return [TokenKind(token.kind).name for token in tokenize(Script("t", text))][:-1]
 
 
 def refused(folder, text):

@@ -33,7 +33,7 @@ from gazelle.formats.write.urdf.link import (
     surfaces,
     visuals_of,
 )
-from gazelle.formats.write.urdf.tree import WORLD, Tree
+from gazelle.formats.write.urdf.tree import WORLD, WrittenTree
 from gazelle.formats.write.writing import Writing
 
 PartT = TypeVar("PartT", Sensor, Light)
@@ -77,7 +77,7 @@ def gazebo_of_joint(joint: Joint, shift: Pose) -> Parameters | None:
     )
 
 
-def gazebo_of_model(model: Model, tree: Tree, writing: Writing) -> Parameters | None:
+def gazebo_of_model(model: Model, tree: WrittenTree, writing: Writing) -> Parameters | None:
     """Flags, plugins, and joints that close loops, in SDF's words."""
     held = any(joint.parent == WORLD for joint in tree.joints.values())
     loops = (

@@ -22,7 +22,7 @@ from gazelle.formats.write.urdf.link import (
     write_link,
     write_origin,
 )
-from gazelle.formats.write.urdf.tree import WORLD, Tree, tree_of
+from gazelle.formats.write.urdf.tree import WORLD, WrittenTree, tree_of
 from gazelle.formats.write.writing import Writing
 
 _OF_WORLDS = ("extras", "frames", "joints", "lights", "plugins", "states")
@@ -59,7 +59,7 @@ def _only_model(world: World, writing: Writing) -> Model:
     return world.models[0]
 
 
-def _content(model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters | None]:
+def _content(model: Model, tree: WrittenTree, writing: Writing) -> Iterator[Parameters | None]:
     yield write_origin(model.pose)
     joints = list(tree.joints.values())
     if any(joint.parent == WORLD for joint in joints):
@@ -86,7 +86,7 @@ def _content(model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters 
     yield gazebo_of_model(model, tree, writing)
 
 
-def _surfaces(link: Link, tree: Tree, writing: Writing) -> Iterator[Parameters | None]:
+def _surfaces(link: Link, tree: WrittenTree, writing: Writing) -> Iterator[Parameters | None]:
     """Links for the collisions of a link that have other surfaces than its first."""
     for group in range(1, len(surfaces(link))):
         name = surface_link(link, group)
@@ -107,7 +107,7 @@ def _fixed(name: str, parent: str, child: str, pose: Pose) -> Parameters:
     )
 
 
-def _frame(frame: Frame, model: Model, tree: Tree, writing: Writing) -> Iterator[Parameters]:
+def _frame(frame: Frame, model: Model, tree: WrittenTree, writing: Writing) -> Iterator[Parameters]:
     """A frame as a link without mass, fixed where the frame is, which readers lump again."""
     if frame.name in tree.links or frame.name == WORLD:
         writing.note(f"URDF names links only: the frame '{frame.name}' is left out", frame.source)

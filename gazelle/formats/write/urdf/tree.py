@@ -18,7 +18,7 @@ _TYPES = {"continuous", "fixed", "floating", "planar", "prismatic", "revolute"}
 
 
 @dataclass(slots=True)
-class Tree:
+class WrittenTree:
     """What becomes of links and joints.
 
     Attributes:
@@ -42,7 +42,7 @@ class Tree:
         return self.frames[joint.parent].inverse() * self.frames[joint.child]
 
 
-def tree_of(model: Model, writing: Writing) -> Tree:
+def tree_of(model: Model, writing: Writing) -> WrittenTree:
     """The tree of a model.
 
     Raises:
@@ -51,7 +51,7 @@ def tree_of(model: Model, writing: Writing) -> Tree:
     if not model.links:
         raise FormatError("URDF needs a link")
     links = {link.name: link for link in model.links}
-    tree = Tree(links, *_holding(model, links))
+    tree = WrittenTree(links, *_holding(model, links))
     _join_roots(model, tree, writing)
     _refuse_circles(tree)
     _place(tree)
@@ -87,7 +87,7 @@ def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint],
     return held, rest
 
 
-def _join_roots(model: Model, tree: Tree, writing: Writing) -> None:
+def _join_roots(model: Model, tree: WrittenTree, writing: Writing) -> None:
     """Hold all roots of a static model together; of another one only one is allowed."""
     roots = [name for name in tree.links if name not in tree.joints]
     on_world = any(joint.parent == WORLD for joint in tree.joints.values())
@@ -108,7 +108,7 @@ def _join_roots(model: Model, tree: Tree, writing: Writing) -> None:
     )
 
 
-def _refuse_circles(tree: Tree) -> None:
+def _refuse_circles(tree: WrittenTree) -> None:
     for name in tree.links:
         seen = {name}
         joint = tree.joints.get(name)
@@ -121,7 +121,7 @@ def _refuse_circles(tree: Tree) -> None:
             joint = tree.joints.get(joint.parent)
 
 
-def _place(tree: Tree) -> None:
+def _place(tree: WrittenTree) -> None:
     for name, link in tree.links.items():
         joint = tree.joints.get(name)
         if joint is None:
