@@ -2,8 +2,8 @@
 
 Node transforms and the file's unit are applied. The up-axis is not: Gazebo classic and
 RViz do not turn meshes by it either, and many files of robots (Kobuki's, TurtleBot3's)
-say Y_UP by mistake of their exporter, though z is up. Textures, lights, cameras and
-animations play no part.
+say Y_UP by mistake of their exporter, though z is up. Of materials the diffuse colour or picture is
+read; lights, cameras and animations play no part.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from numpy.typing import NDArray
 
 from gazelle.errors import FormatError
 from gazelle.formats import xml
+from gazelle.formats.mesh_looks import PLAIN, MeshLook
 
-Piece = tuple[str, NDArray[np.float64], NDArray[np.int32]]
+Piece = tuple[str, NDArray[np.float64], NDArray[np.int32], MeshLook]
 
 MAX_DEPTH = 64
 
 
 def parse(data: bytes) -> list[Piece]:
-    """Name, vertices (n, 3) and faces (m, 3) of each geometry where the scene puts it.
+    """Name, vertices (n, 3), faces (m, 3) and look of each geometry where the scene puts it.
 
     Raises:
         FormatError: The file is no valid COLLADA, or holds no scene.
@@ -38,22 +39,25 @@ def parse(data: bytes) -> list[Piece]:
     metre = float(document.assetInfo.unitmeter or 1.0)
     pieces: list[Piece] = []
     for node in document.scene.nodes:
-        for name, geometry, matrix in _instances(node, np.eye(4), 0):
-            pieces.extend(_pieces(name, geometry, matrix, metre))
+        for found, matrix in _instances(node, np.eye(4), 0):
+            geometry = _geometry(found)
+            name, looks = geometry.name or geometry.id or "", _looks(found)
+            for primitive in geometry.primitives:
+                look = looks.get(primitive.material, PLAIN)
+                pieces.extend(_piece(name, primitive, look, matrix, metre))
     return pieces
 
 
 def _instances(
     node: Any, outer: NDArray[np.float64], depth: int
-) -> Iterator[tuple[str, Any, NDArray[np.float64]]]:
-    """Each geometry in the scene with the name of its node and its transform."""
+) -> Iterator[tuple[Any, NDArray[np.float64]]]:
+    """Each node of the scene that puts a geometry somewhere, with its transform."""
     if depth > MAX_DEPTH:
         raise FormatError(f"the scene has nodes nested more than {MAX_DEPTH} deep")
     kind = type(node).__name__
     if kind in {"GeometryNode", "ControllerNode"}:
-        geometry = getattr(node, "geometry", None) or getattr(node.controller, "geometry", None)
-        if geometry is not None:
-            yield geometry.name or geometry.id or "", geometry, outer
+        if _geometry(node) is not None:
+            yield node, outer
         return
     matrix = outer
     if kind in {"Node", "NodeNode"}:
@@ -62,18 +66,48 @@ def _instances(
         yield from _instances(child, matrix, depth + 1)
 
 
-def _pieces(name: str, geometry: Any, matrix: NDArray[np.float64], metre: float) -> Iterator[Piece]:
-    for primitive in geometry.primitives:
-        triangles = primitive
-        if hasattr(primitive, "triangleset"):
-            triangles = primitive.triangleset()
-        index = getattr(triangles, "vertex_index", None)
-        if index is None or not len(index) or np.shape(index)[-1] != 3:
-            continue  # lines
-        used, inverse = np.unique(index, return_inverse=True)
-        points = np.asarray(triangles.vertex, np.float64)[used]
-        placed = points @ matrix[:3, :3].T + matrix[:3, 3]
-        faces = inverse.reshape(-1, 3).astype(np.int32)
-        if np.linalg.det(matrix[:3, :3]) < 0.0:
-            faces = faces[:, ::-1]
-        yield name, placed * metre, np.ascontiguousarray(faces)
+def _geometry(node: Any) -> Any:
+    return getattr(node, "geometry", None) or getattr(node.controller, "geometry", None)
+
+
+def _looks(node: Any) -> dict[str, MeshLook]:
+    """The looks that primitives name by symbols."""
+    return {bound.symbol: _look(bound.target) for bound in node.materials}
+
+
+def _look(material: Any) -> MeshLook:
+    diffuse = getattr(getattr(material, "effect", None), "diffuse", None)
+    if isinstance(diffuse, tuple | list) and len(diffuse) >= len("rgb"):
+        red, green, blue = (min(max(float(share), 0.0), 1.0) for share in diffuse[:3])
+        return MeshLook((red, green, blue))
+    image = getattr(getattr(getattr(diffuse, "sampler", None), "surface", None), "image", None)
+    return MeshLook(texture=str(getattr(image, "path", "") or ""))
+
+
+def _piece(
+    name: str, primitive: Any, look: MeshLook, matrix: NDArray[np.float64], metre: float
+) -> Iterator[Piece]:
+    triangles = primitive
+    if hasattr(primitive, "triangleset"):
+        triangles = primitive.triangleset()
+    index = getattr(triangles, "vertex_index", None)
+    if index is None or not len(index) or np.shape(index)[-1] != 3:
+        return  # lines
+    used, inverse = np.unique(index, return_inverse=True)
+    points = np.asarray(triangles.vertex, np.float64)[used]
+    placed = points @ matrix[:3, :3].T + matrix[:3, 3]
+    faces, uv = inverse.reshape(-1, 3).astype(np.int32), _uv(triangles)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        faces, uv = faces[:, ::-1], None if uv is None else uv[:, ::-1]
+    worn = MeshLook(look.color, look.texture, uv if look.texture else None)
+    yield name, placed * metre, np.ascontiguousarray(faces), worn
+
+
+def _uv(triangles: Any) -> NDArray[np.float64] | None:
+    """Where in a picture the corners are, shape (m, 3, 2)."""
+    if not triangles.texcoordset or not len(triangles.texcoordset[0]):
+        return None
+    places = np.asarray(triangles.texcoordset[0], np.float64)[:, :2]
+    index = np.asarray(triangles.texcoord_indexset[0])
+    found: NDArray[np.float64] = places[np.clip(index, 0, len(places) - 1)]
+    return found

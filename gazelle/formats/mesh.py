@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
 from gazelle.formats import collada, stl, wavefront
+from gazelle.formats.mesh_looks import PLAIN, MeshLook
 
 MAX_BYTES = 512 * 2**20
 CACHED = 256
@@ -34,11 +35,13 @@ class MeshPart:
         name: Of the node or object in the file; may be empty.
         vertices: Positions [m], shape (n, 3).
         faces: Corners of each triangle, shape (m, 3).
+        look: What the file says of its colours.
     """
 
     name: str
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
+    look: MeshLook = PLAIN
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +69,29 @@ def load_mesh(mesh: Mesh) -> MeshData:
         FormatError: The file was not found, cannot be read, or holds no triangle or not
             the submesh asked for. It names the place in the description.
     """
+    return _placed(_joined(_parts_of(mesh)), mesh)
+
+
+def load_mesh_parts(mesh: Mesh) -> tuple[MeshPart, ...]:
+    """The pieces of a description's mesh, scaled, with their looks.
+
+    Raises:
+        FormatError: As ``load_mesh``.
+    """
+    parts = _parts_of(mesh)
+    vertices = _placed(_joined(parts), mesh).vertices
+    turned = slice(None, None, -1) if np.prod(mesh.scale) < 0.0 else slice(None)
+    placed, begin = [], 0
+    for part in parts:
+        end = begin + len(part.vertices)
+        uv = None if part.look.uv is None else part.look.uv[:, turned]
+        look = replace(part.look, uv=uv)
+        placed.append(MeshPart(part.name, vertices[begin:end], part.faces[:, turned], look))
+        begin = end
+    return tuple(placed)
+
+
+def _parts_of(mesh: Mesh) -> list[MeshPart]:
     if mesh.path is None:
         raise FormatError(f"the mesh '{mesh.uri}' was not found", source=mesh.source)
     try:
@@ -76,7 +102,10 @@ def load_mesh(mesh: Mesh) -> MeshData:
             source=mesh.source or Source(str(mesh.path)),
             hint=error.hint,
         ) from error
-    data = _joined(_chosen(parts, mesh))
+    return _chosen(parts, mesh)
+
+
+def _placed(data: MeshData, mesh: Mesh) -> MeshData:
     vertices = data.vertices * np.asarray(mesh.scale, dtype=np.float64)
     if mesh.center_submesh:
         vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0

@@ -28,4 +28,10 @@ cdef enum:
     MESH_OF_PART = 0
     LINK_OF_PART = 1
     LABEL_OF_PART = 2
-    PART = 3
+    TEXTURE_OF_PART = 3
+    PART = 4
+
+    FIRST_TEXEL = 0
+    TEXTURE_WIDTH = 1
+    TEXTURE_HEIGHT = 2
+    TEXTURE = 3

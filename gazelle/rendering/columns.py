@@ -33,8 +33,16 @@ LAST_FACE: Final = 3
 TWO_SIDED: Final = 4
 MESH: Final = 5
 
-# Parts: what shape, on which link, and what number it has in pictures of labels.
+# Parts: what shape, on which link, what number it has in pictures of labels, and the number of the
+# texture on it, or -1.
 MESH_OF_PART: Final = 0
 LINK_OF_PART: Final = 1
 LABEL_OF_PART: Final = 2
-PART: Final = 3
+TEXTURE_OF_PART: Final = 3
+PART: Final = 4
+
+# Textures: where their first pixel is among all, columns and rows.
+FIRST_TEXEL: Final = 0
+TEXTURE_WIDTH: Final = 1
+TEXTURE_HEIGHT: Final = 2
+TEXTURE: Final = 3

@@ -3,10 +3,12 @@ cimport cython
 
 @cython.final
 cdef class DrawnShapes:
-    cdef readonly double[:, ::1] vertices, normals, spheres, local
+    cdef readonly double[:, ::1] vertices, normals, spheres, local, uv
     cdef readonly int[:, ::1] faces
     cdef readonly long long[:, ::1] meshes, parts
     cdef readonly float[:, ::1] color, glow
+    cdef readonly long long[:, ::1] textures
+    cdef readonly unsigned char[:, ::1] texels
 
 
 @cython.final

@@ -23,7 +23,7 @@ from cython.cimports.gazelle.rendering.columns import (
 )  # fmt: skip
 from cython.cimports.libc.math import ceil, sqrt
 
-from gazelle.array_types import Floats, Floats32, Ints32, Ints64
+from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64
 
 
 class DrawnShapes:
@@ -40,6 +40,9 @@ class DrawnShapes:
         local: Of each part in its link, rotation by rows and place [m], shape (p, 12).
         color: Red, green and blue of each part, 0 to 1, shape (p, 3).
         glow: What it shines itself, likewise.
+        uv: Of the vertices, to the right and up in a picture, shape (n, 2).
+        textures: As ``columns.FIRST_TEXEL`` and what follows say, shape (t, TEXTURE).
+        texels: Red, green and blue of the pixels of all textures, bottom row first, shape (x, 3).
     """
 
     def __init__(
@@ -53,10 +56,14 @@ class DrawnShapes:
         local: Floats,
         color: Floats32,
         glow: Floats32,
+        uv: Floats,
+        textures: Ints64,
+        texels: Bytes,
     ) -> None:
         self.vertices, self.normals, self.faces = vertices, normals, faces
         self.meshes, self.spheres = meshes, spheres
         self.parts, self.local, self.color, self.glow = parts, local, color, glow
+        self.uv, self.textures, self.texels = uv, textures, texels
 
 
 class Rasterizer:

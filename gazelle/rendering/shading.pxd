@@ -15,7 +15,7 @@ cdef class Shader:
     cdef float[:, ::1] planes
     cdef unsigned char[:, ::1] flat
     cdef double[:, ::1] corners, bends, shares
-    cdef double[::1] light, normal
+    cdef double[::1] light, normal, base
     cdef Py_ssize_t slots
 
     cdef void draw_one(self, Py_ssize_t n) noexcept nogil
@@ -27,13 +27,23 @@ cdef class Shader:
     @cython.locals(z=cython.float, value=cython.float, x=int)
     cdef void shade_smoothly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s) noexcept nogil
-    @cython.locals(x=double, y=double, z=double, size=double, p=Py_ssize_t, a=double, b=double)
+    @cython.locals(z=double, value=double)
+    cdef void shade_picture(
+        self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t p) noexcept nogil
+    @cython.locals(k=int, j=int, x=double, y=double, u=double, v=double, wide=Py_ssize_t,
+                   high=Py_ssize_t, first=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, at=Py_ssize_t,
+                   d=Py_ssize_t, e=Py_ssize_t)
+    cdef void find_base(
+        self, Py_ssize_t s, Py_ssize_t p, Py_ssize_t r, Py_ssize_t c, double z) noexcept nogil
+    @cython.locals(x=double, y=double, z=double, size=double, p=Py_ssize_t, b=double)
     cdef void shade_exactly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t t) noexcept nogil
     @cython.locals(x=double, y=double, up=double)
     cdef void put_backdrop(self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c) noexcept nogil
-    @cython.locals(s=Py_ssize_t, p=Py_ssize_t, flat=cython.bint, i=int, k=int)
+    @cython.locals(s=Py_ssize_t, k=int, j=int)
     cdef Py_ssize_t prepare(self, Py_ssize_t t) noexcept nogil
+    @cython.locals(flat=cython.bint, worn=cython.bint, i=int, k=int)
+    cdef bint light_corners(self, Py_ssize_t p) noexcept nogil
     @cython.locals(v=Py_ssize_t, first=Py_ssize_t, x=double, y=double, z=double, i=int, k=int,
                    facing=double)
     cdef void find_corners(self, Py_ssize_t t) noexcept nogil

@@ -6,11 +6,15 @@ from __future__ import annotations
 import cython
 import numpy as np
 from cython.cimports.gazelle.rendering.columns import (
+    FIRST_TEXEL,
     FIRST_VERTEX,
     LABEL_OF_PART,
     MESH_OF_PART,
+    TEXTURE_HEIGHT,
+    TEXTURE_OF_PART,
+    TEXTURE_WIDTH,
 )  # fmt: skip
-from cython.cimports.libc.math import sqrt
+from cython.cimports.libc.math import floor, sqrt
 
 from gazelle.array_types import Bytes, Floats32, Ints32
 from gazelle.rendering.lighting import Lighting
@@ -52,11 +56,12 @@ class Shader:
         size = seen.width * seen.height if self.colored else 0
         # Of each triangle that a pixel shows: what is interpolated, divided by the depth, as
         # factors of column and row, and a constant; or its one colour.
-        self.planes = np.empty((size + 1, 9), np.float32)
+        self.planes = np.empty((size + 1, 15), np.float32)
         self.flat = np.empty((size + 1, 4), np.uint8)
-        self.corners, self.bends = np.empty((3, 3)), np.empty((3, 3))
+        # Corners for the camera; normals at them, or how they look, and their places in a picture.
+        self.corners, self.bends = np.empty((3, 3)), np.zeros((3, 5))
         self.shares = np.empty((3, 3))
-        self.light, self.normal = np.empty(3), np.empty(3)
+        self.light, self.normal, self.base = np.empty(3), np.empty(3), np.empty(3)
 
     def draw(self, first: int, last: int) -> None:
         """Draw the pictures of cameras first to last, without the interpreter's lock."""
@@ -101,6 +106,8 @@ class Shader:
                     color[n, r, c, 0], color[n, r, c, 1], color[n, r, c, 2] = red, green, blue
                 elif self.lighting.local:
                     self.shade_exactly(n, r, c, s, t)
+                elif self.seen.shapes.parts[self.seen.part_of[t], TEXTURE_OF_PART] >= 0:
+                    self.shade_picture(n, r, c, s, self.seen.part_of[t])
                 else:
                     self.shade_smoothly(n, r, c, s)
 
@@ -114,6 +121,49 @@ class Shader:
                 + self.planes[s, 3 * k + 2]
             )
             self.color[n, r, c, k] = self.lighting.tone(value)
+
+    def shade_picture(self, n: int, r: int, c: int, s: int, p: int) -> None:
+        """Colour a pixel by what lies between the corners of its triangle, and a texture."""
+        z = 1.0 / self.seen.inverse[r, c]
+        self.find_base(s, p, r, c, z)
+        for k in range(3):
+            value = z * (
+                self.planes[s, 3 * k] * c
+                + self.planes[s, 3 * k + 1] * r
+                + self.planes[s, 3 * k + 2]
+            )
+            value = self.base[k] * value + self.seen.shapes.glow[p, k]
+            self.color[n, r, c, k] = self.lighting.tone(value)
+
+    def find_base(self, s: int, p: int, r: int, c: int, z: float) -> None:
+        """Find the colour of a surface in white light: its own, or of the four nearest texels."""
+        t = self.seen.shapes.parts[p, TEXTURE_OF_PART]
+        if t < 0:
+            for k in range(3):
+                self.base[k] = self.seen.shapes.color[p, k]
+            return
+        first = self.seen.shapes.textures[t, FIRST_TEXEL]
+        wide = self.seen.shapes.textures[t, TEXTURE_WIDTH]
+        high = self.seen.shapes.textures[t, TEXTURE_HEIGHT]
+        u = z * (self.planes[s, 9] * c + self.planes[s, 10] * r + self.planes[s, 11])
+        v = z * (self.planes[s, 12] * c + self.planes[s, 13] * r + self.planes[s, 14])
+        u, v = u - floor(u), v - floor(v)
+        u = u if 0.0 <= u <= 1.0 else 0.0  # what is no number would be no place in the picture
+        v = v if 0.0 <= v <= 1.0 else 0.0
+        x, y = u * wide - 0.5, v * high - 0.5
+        a = cython.cast(cython.Py_ssize_t, floor(x))
+        b = cython.cast(cython.Py_ssize_t, floor(y))
+        x, y = x - a, y - b
+        for k in range(3):
+            self.base[k] = 0.0
+        for j in range(4):
+            d, e = a + (j & 1), b + (j >> 1)
+            d = d + wide if d < 0 else (d - wide if d >= wide else d)  # pictures repeat
+            e = e + high if e < 0 else (e - high if e >= high else e)
+            at = first + e * wide + d
+            u = (x if j & 1 else 1.0 - x) * (y if j >> 1 else 1.0 - y) / 255.0
+            for k in range(3):
+                self.base[k] += u * self.seen.shapes.texels[at, k]
 
     def shade_exactly(self, n: int, r: int, c: int, s: int, t: int) -> None:
         """Colour a pixel by the light that falls on it."""
@@ -135,9 +185,10 @@ class Shader:
         y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
         self.lighting.light_up(x, y, z, self.normal, self.light)
         p = self.seen.part_of[t]
+        self.find_base(s, p, r, c, z)
         for k in range(3):
-            a, b = self.seen.shapes.color[p, k], self.seen.shapes.glow[p, k]
-            self.color[n, r, c, k] = self.lighting.tone(a * self.light[k] + b)
+            b = self.seen.shapes.glow[p, k]
+            self.color[n, r, c, k] = self.lighting.tone(self.base[k] * self.light[k] + b)
 
     def put_backdrop(self, n: int, r: int, c: int) -> None:
         """Colour a pixel that shows nothing."""
@@ -162,20 +213,12 @@ class Shader:
         self.seen.slot_of[t] = s
         self.find_corners(t)
         self.find_shares()
-        p, flat = self.seen.part_of[t], not self.lighting.local
-        for i in range(3):
-            if not self.lighting.local:
-                for k in range(3):
-                    self.normal[k] = self.bends[i, k]
-                self.lighting.light_up(0.0, 0.0, 0.0, self.normal, self.light)
-                for k in range(3):
-                    self.bends[i, k] = (
-                        self.light[k] * self.seen.shapes.color[p, k] + self.seen.shapes.glow[p, k]
-                    )
-                    flat = flat and self.bends[i, k] == self.bends[0, k]
-        self.flat[s, 3] = 1 if flat else 0
+        self.flat[s, 3] = 0
+        if not self.lighting.local:
+            self.flat[s, 3] = self.light_corners(self.seen.part_of[t])
         for k in range(3):
             self.flat[s, k] = self.lighting.tone(self.bends[0, k])
+        for k in range(5):
             for j in range(3):
                 self.planes[s, 3 * k + j] = (
                     self.shares[0, j] * self.bends[0, k]
@@ -184,12 +227,33 @@ class Shader:
                 )
         return s
 
+    def light_corners(self, p: int) -> bool:
+        """Put what a triangle's corners look like in place of normals; whether all are alike.
+
+        Those of a surface with a texture are as if it were white.
+        """
+        worn = self.seen.shapes.parts[p, TEXTURE_OF_PART] >= 0
+        flat = not worn
+        for i in range(3):
+            for k in range(3):
+                self.normal[k] = self.bends[i, k]
+            self.lighting.light_up(0.0, 0.0, 0.0, self.normal, self.light)
+            for k in range(3):
+                if not worn:
+                    self.light[k] *= self.seen.shapes.color[p, k]
+                    self.light[k] += self.seen.shapes.glow[p, k]
+                self.bends[i, k] = self.light[k]
+                flat = flat and self.bends[i, k] == self.bends[0, k]
+        return flat
+
     def find_corners(self, t: int) -> None:
-        """Find corners of a triangle and normals at them, towards the camera, in its frame."""
+        """Find corners of a triangle in the camera's frame, with normals and places in a picture."""
         p, f = self.seen.part_of[t], self.seen.face_of[t]
         first = self.seen.shapes.meshes[self.seen.shapes.parts[p, MESH_OF_PART], FIRST_VERTEX]
         for i in range(3):
             v = first + self.seen.shapes.faces[f, i]
+            self.bends[i, 3] = self.seen.shapes.uv[v, 0]
+            self.bends[i, 4] = self.seen.shapes.uv[v, 1]
             x, y, z = (
                 self.seen.shapes.vertices[v, 0],
                 self.seen.shapes.vertices[v, 1],

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from gazelle.description import (
     Box,
@@ -25,6 +29,41 @@ from gazelle.rendering import tessellation as t
 _ELEVATION_FILES = frozenset([".dem", ".asc", ".hgt"])
 
 
+@dataclass(frozen=True, slots=True)
+class ShapePiece:
+    """Triangles that look alike.
+
+    Attributes:
+        mesh: The triangles.
+        color: Red, green and blue as the mesh file says; None if it does not.
+        texture: The picture on it; None for none.
+    """
+
+    mesh: t.TriangleMesh
+    color: tuple[float, float, float] | None = None
+    texture: Path | None = None
+
+
+def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
+    """A shape by looks; one piece unless it is a mesh whose file has several.
+
+    Raises:
+        FormatError: Its file cannot be read.
+    """
+    if not isinstance(shape, Mesh) or shape.path is None:
+        return (ShapePiece(triangles_of(shape)),)
+    from gazelle.formats.mesh import load_mesh_parts
+    from gazelle.formats.mesh_looks import texture_file
+
+    pieces = []
+    for part in load_mesh_parts(shape):
+        look = part.look
+        texture = texture_file(shape.path, look.texture) if look.texture else None
+        mesh = t.creased(part.vertices, np.ascontiguousarray(part.faces), look.uv)
+        pieces.append(ShapePiece(mesh, look.color, texture))
+    return tuple(pieces)
+
+
 def triangles_of(shape: Geometry) -> t.TriangleMesh:
     """Triangles with normals; none of a shape whose file is missing.
 
@@ -35,12 +74,7 @@ def triangles_of(shape: Geometry) -> t.TriangleMesh:
 
 
 def _mesh(shape: Mesh) -> t.TriangleMesh:
-    if shape.path is None:
-        return _nothing(shape)
-    from gazelle.formats.mesh import load_mesh
-
-    data = load_mesh(shape)
-    return t.creased(data.vertices, data.faces)
+    return t.joined([piece.mesh for piece in pieces_of(shape)]) if shape.path else _nothing(shape)
 
 
 def _heightmap(shape: Heightmap) -> t.TriangleMesh:

@@ -25,6 +25,9 @@ SIDES = 32
 RINGS = 16
 """Of spheres, from pole to pole."""
 
+_WHOLE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+"""A whole picture, on four corners."""
+
 CREASE = math.cos(math.radians(40.0))
 """Faces of a mesh that meet at less than this angle look as one bent face."""
 
@@ -38,12 +41,14 @@ class TriangleMesh:
         normals: Of the surface at the vertices, of unit length, shape (n, 3).
         faces: Corners of each triangle, counter-clockwise from outside, shape (m, 3).
         two_sided: Whether triangles are seen from behind too.
+        uv: Where in a picture the vertices are, to the right and up, shape (n, 2); None for nowhere.
     """
 
     vertices: Floats
     normals: Floats
     faces: Ints32
     two_sided: bool = False
+    uv: Floats | None = None
 
 
 def box(shape: Box) -> TriangleMesh:
@@ -60,7 +65,10 @@ def box(shape: Box) -> TriangleMesh:
             vertices.append(face)
             normals.append(np.tile(np.eye(3)[axis] * side, (4, 1)))
     return TriangleMesh(
-        np.vstack(vertices) * np.asarray(shape.size) / 2.0, np.vstack(normals), _quads(6)
+        np.vstack(vertices) * np.asarray(shape.size) / 2.0,
+        np.vstack(normals),
+        _quads(6),
+        uv=np.tile(_WHOLE, (6, 1)),
     )
 
 
@@ -103,7 +111,7 @@ def plane(shape: Plane) -> TriangleMesh:
     turn = _turn_to(normal)
     x, y = (length / 2.0 for length in shape.size)
     flat = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
-    return TriangleMesh(flat @ turn.T, np.tile(normal, (4, 1)), _quads(1))
+    return TriangleMesh(flat @ turn.T, np.tile(normal, (4, 1)), _quads(1), uv=_WHOLE)
 
 
 def polyline(shape: Polyline) -> TriangleMesh:
@@ -133,7 +141,9 @@ def terrain(heights: Floats, size: tuple[float, float]) -> TriangleMesh:
     return TriangleMesh(grid.reshape(-1, 3), normals, faces)
 
 
-def creased(vertices: Floats, faces: Ints32, *, crease: float = CREASE) -> TriangleMesh:
+def creased(
+    vertices: Floats, faces: Ints32, uv: Floats | None = None, *, crease: float = CREASE
+) -> TriangleMesh:
     """A mesh with normals: the mean of the faces about a vertex that are nearly level.
 
     Each corner of a triangle takes the mean over the triangles at its vertex whose normals are
@@ -142,6 +152,7 @@ def creased(vertices: Floats, faces: Ints32, *, crease: float = CREASE) -> Trian
     Args:
         vertices: [m], shape (n, 3).
         faces: Shape (m, 3).
+        uv: Of the corners of each triangle, shape (m, 3, 2), if they are anywhere in a picture.
         crease: Cosine of the greatest angle between faces that look as one.
     """
     weighted = np.cross(
@@ -160,19 +171,23 @@ def creased(vertices: Floats, faces: Ints32, *, crease: float = CREASE) -> Trian
         near = (flat[owner[has]] * flat[other]).sum(axis=1) > crease
         normals[has[near]] += weighted[other[near]]
     normals = _unit(np.where((normals == 0.0).all(axis=1, keepdims=True), flat[owner], normals))
-    keys = np.column_stack((corner, np.round(normals * 1e4)))
+    places = np.zeros((len(corner), 0)) if uv is None else uv.reshape(-1, 2)
+    keys = np.column_stack((corner, np.round(normals * 1e4), places))
     _, kept, renumbered = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     return TriangleMesh(
         np.ascontiguousarray(vertices[corner[kept]]),
         np.ascontiguousarray(normals[kept]),
         renumbered.reshape(-1, 3).astype(np.int32),
         two_sided=not _is_closed(vertices, faces),
+        uv=None if uv is None else np.ascontiguousarray(places[kept]),
     )
 
 
 def joined(pieces: list[TriangleMesh]) -> TriangleMesh:
     """Several meshes as one."""
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
+    places = [p.uv if p.uv is not None else np.zeros((len(p.vertices), 2)) for p in pieces]
+    nowhere = all(piece.uv is None for piece in pieces)
     return TriangleMesh(
         np.vstack([np.zeros((0, 3)), *(piece.vertices for piece in pieces)]),
         np.vstack([np.zeros((0, 3)), *(piece.normals for piece in pieces)]),
@@ -183,6 +198,7 @@ def joined(pieces: list[TriangleMesh]) -> TriangleMesh:
             ]
         ),
         two_sided=any(piece.two_sided for piece in pieces),
+        uv=None if nowhere else np.vstack(places),
     )
 
 

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Floats, Floats32, Ints64
+from gazelle.array_types import Floats, Ints64
 from gazelle.description import Geometry, Pose, Visual, World
 from gazelle.rendering import columns as c
 from gazelle.rendering.rasterizer import DrawnShapes
-from gazelle.rendering.shape_meshes import triangles_of
+from gazelle.rendering.shape_meshes import ShapePiece, pieces_of
 from gazelle.rendering.tessellation import TriangleMesh, joined
+from gazelle.rendering.textures import Rgb, TextureTable
 
 GREY = (0.7, 0.7, 0.7)
 
@@ -59,18 +60,12 @@ def visible_world(world: World) -> VisibleWorld:
         poses[name] = pose
         parts.append(VisiblePart(name, visual))
     links = tuple(poses)
-    meshes: dict[Geometry, int] = {}
-    shapes: list[TriangleMesh] = []
-    rows = np.zeros((len(parts), c.PART), np.int64)
-    for number, part in enumerate(parts):
-        shape = part.visual.geometry
-        if shape not in meshes:
-            meshes[shape] = len(shapes)
-            shapes.append(triangles_of(shape))
-        rows[number] = (meshes[shape], links.index(part.link), number)
-    drawn = _drawn(shapes, rows, [part.visual for part in parts])
+    numbers = {name: number for number, name in enumerate(links)}
+    gathered = _Gathered()
+    for label, part in enumerate(parts):
+        gathered.add(part.visual, numbers[part.link], label)
     rest = np.array([_row(pose) for pose in poses.values()]).reshape(-1, 12)
-    return VisibleWorld(links, tuple(parts), drawn, rest)
+    return VisibleWorld(links, tuple(parts), gathered.drawn(), rest)
 
 
 def rows_of(positions: Floats, quaternions: Floats) -> Floats:
@@ -100,8 +95,68 @@ def _visuals(world: World) -> Iterator[tuple[str, Pose, Visual]]:
                         yield f"{placed.scope}::{link.name}", placed.pose * link.pose, visual
 
 
-def _drawn(meshes: list[TriangleMesh], parts: Ints64, visuals: list[Visual]) -> DrawnShapes:
-    together = joined(meshes)
+class _Gathered:
+    """Shapes and parts as they come, each shape and each texture once."""
+
+    def __init__(self) -> None:
+        self._meshes: list[TriangleMesh] = []
+        self._known: dict[Geometry, tuple[tuple[int, ShapePiece], ...]] = {}
+        self._textures = TextureTable()
+        self._parts: list[tuple[int, int, int, int]] = []
+        self._visuals: list[Visual] = []
+        self._colors: list[Rgb] = []
+
+    def add(self, visual: Visual, link: int, label: int) -> None:
+        """Add a visual: as many parts as its shape has looks."""
+        for mesh, piece in self._pieces(visual.geometry):
+            color, texture = self._look(visual, piece)
+            self._parts.append((mesh, link, label, -1 if texture is None else texture))
+            self._visuals.append(visual)
+            self._colors.append(color)
+
+    def drawn(self) -> DrawnShapes:
+        """All as arrays."""
+        meshes, visuals = self._meshes, self._visuals
+        together = joined(meshes)
+        count = len(together.vertices)
+        return DrawnShapes(
+            np.ascontiguousarray(together.vertices),
+            np.ascontiguousarray(together.normals),
+            np.vstack([np.zeros((0, 3), np.int32), *(mesh.faces for mesh in meshes)]),
+            _table(meshes),
+            np.array([_ball(mesh) for mesh in meshes]).reshape(-1, 4),
+            np.array(self._parts, np.int64).reshape(-1, c.PART),
+            np.array([_row(visual.pose) for visual in visuals]).reshape(-1, 12),
+            np.array(self._colors, np.float32).reshape(-1, 3),
+            np.array([_glow(visual) for visual in visuals], np.float32).reshape(-1, 3),
+            np.zeros((count, 2)) if together.uv is None else np.ascontiguousarray(together.uv),
+            self._textures.rows(),
+            self._textures.texels(),
+        )
+
+    def _pieces(self, shape: Geometry) -> tuple[tuple[int, ShapePiece], ...]:
+        if shape not in self._known:
+            pieces = pieces_of(shape)
+            first = len(self._meshes)
+            self._meshes += [piece.mesh for piece in pieces]
+            self._known[shape] = tuple(enumerate(pieces, first))
+        return self._known[shape]
+
+    def _look(self, visual: Visual, piece: ShapePiece) -> tuple[Rgb, int | None]:
+        """Colour and texture: the visual's material goes before what is in the mesh file."""
+        material = visual.material
+        if material is None:
+            color, path = piece.color or GREY, piece.texture
+        else:
+            chosen, path = material.diffuse or material.ambient, material.texture
+            color = GREY if chosen is None else chosen[:3]
+        number = None if path is None else self._textures.number(path)
+        if number is not None and piece.mesh.uv is None:
+            return self._textures.mean(number), None  # it is nowhere in the picture
+        return color, number
+
+
+def _table(meshes: list[TriangleMesh]) -> Ints64:
     vertices = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = np.cumsum([0, *(len(mesh.faces) for mesh in meshes)])
     table = np.zeros((len(meshes), c.MESH), np.int64)
@@ -113,17 +168,7 @@ def _drawn(meshes: list[TriangleMesh], parts: Ints64, visuals: list[Visual]) -> 
             faces[number + 1],
             mesh.two_sided,
         )
-    return DrawnShapes(
-        np.ascontiguousarray(together.vertices),
-        np.ascontiguousarray(together.normals),
-        np.vstack([np.zeros((0, 3), np.int32), *(mesh.faces for mesh in meshes)]),
-        table,
-        np.array([_ball(mesh) for mesh in meshes]).reshape(-1, 4),
-        parts,
-        np.array([_row(visual.pose) for visual in visuals]).reshape(-1, 12),
-        _colors(visuals),
-        np.array([_glow(visual) for visual in visuals], np.float32).reshape(-1, 3),
-    )
+    return table
 
 
 def _row(pose: Pose) -> Floats:
@@ -137,16 +182,6 @@ def _ball(mesh: TriangleMesh) -> tuple[float, float, float, float]:
     radius = float(np.linalg.norm(mesh.vertices - middle, axis=1).max())
     x, y, z = middle.tolist()
     return (x, y, z, radius)
-
-
-def _colors(visuals: list[Visual]) -> Floats32:
-    return np.array([_color(visual) for visual in visuals], np.float32).reshape(-1, 3)
-
-
-def _color(visual: Visual) -> tuple[float, float, float]:
-    material = visual.material
-    chosen = None if material is None else (material.diffuse or material.ambient)
-    return GREY if chosen is None else chosen[:3]
 
 
 def _glow(visual: Visual) -> tuple[float, float, float]:
