@@ -31,7 +31,7 @@ from gazelle.builders.laws import (
 from gazelle.builders.nature import bush, log, plant, rock, tree
 from gazelle.builders.obstacles import random_obstacles, random_plants
 from gazelle.builders.paint import PALETTE, Paint, material
-from gazelle.builders.placing import Disc, FreePlace, Rectangle, Zone, along, footprints, scatter
+from gazelle.builders.placing import Disc, Place, Rectangle, Zone, along, footprints, scatter
 from gazelle.builders.plan import plan_places, plan_size, plan_walls
 from gazelle.builders.presets import office, outdoor
 from gazelle.builders.robots import (
@@ -63,10 +63,10 @@ __all__ = [
     "PRESETS",
     "BuildError",
     "Disc",
-    "FreePlace",
     "Opening",
     "Paint",
     "Part",
+    "Place",
     "Planet",
     "Rectangle",
     "Terrain",

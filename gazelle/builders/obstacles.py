@@ -9,7 +9,7 @@ from typing import Literal, get_args
 from gazelle.builders.errors import BuildError
 from gazelle.builders.nature import bush, rock, tree
 from gazelle.builders.paint import Paint
-from gazelle.builders.placing import FreePlace, Rectangle, Zone, scatter
+from gazelle.builders.placing import Place, Rectangle, Zone, scatter
 from gazelle.builders.solids import box, cylinder, sphere
 from gazelle.description import Model, Pose
 from gazelle.errors import did_you_mean
@@ -115,7 +115,7 @@ def random_plants(
 
 
 def _box(
-    name: str, place: FreePlace, height: float, shape: float, paint: Paint, density: float | None
+    name: str, place: Place, height: float, shape: float, paint: Paint, density: float | None
 ) -> Model:
     # Any rectangle whose corners lie on the circle.
     angle = math.radians(25.0 + 40.0 * shape)
@@ -125,24 +125,24 @@ def _box(
 
 
 def _cylinder(
-    name: str, place: FreePlace, height: float, _: float, paint: Paint, density: float | None
+    name: str, place: Place, height: float, _: float, paint: Paint, density: float | None
 ) -> Model:
     mass = density * math.pi * place.radius**2 * height if density else None
     return cylinder(name, place.radius, height, pose=_pose(place), mass=mass, color=paint)
 
 
 def _sphere(
-    name: str, place: FreePlace, _: float, __: float, paint: Paint, density: float | None
+    name: str, place: Place, _: float, __: float, paint: Paint, density: float | None
 ) -> Model:
     mass = density * 4.0 / 3.0 * math.pi * place.radius**3 if density else None
     return sphere(name, place.radius, pose=_pose(place), mass=mass, color=paint)
 
 
-def _pose(place: FreePlace) -> Pose:
+def _pose(place: Place) -> Pose:
     return Pose(place.x, place.y, yaw=place.yaw)
 
 
-_SOLIDS: dict[str, Callable[[str, FreePlace, float, float, Paint, float | None], Model]] = {
+_SOLIDS: dict[str, Callable[[str, Place, float, float, Paint, float | None], Model]] = {
     "box": _box,
     "cylinder": _cylinder,
     "sphere": _sphere,

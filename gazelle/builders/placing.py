@@ -70,7 +70,7 @@ Zone = Disc | Rectangle
 
 
 @dataclass(frozen=True, slots=True)
-class FreePlace:
+class Place:
     """A free place: position [m], turn [rad], and the radius [m] that is free around it."""
 
     x: float
@@ -86,7 +86,7 @@ def scatter(
     *,
     keep_clear: Iterable[Zone] = (),
     gap: float = 0.0,
-) -> list[FreePlace]:
+) -> list[Place]:
     """Random places for discs of these radii that overlap neither one another nor a zone.
 
     The largest are placed first; the places come back in the order of the radii.
@@ -102,7 +102,7 @@ def scatter(
         BuildError: There is no room for all of them.
     """
     zones = tuple(keep_clear)
-    found: dict[int, FreePlace] = {}
+    found: dict[int, Place] = {}
     for index in sorted(range(len(radii)), key=lambda i: -radii[i]):
         radius = positive(radii[index], "the radius of a place")
         taken = tuple(Disc(place.x, place.y, place.radius) for place in found.values())
@@ -119,7 +119,7 @@ def scatter(
 
 def _free(
     radius: float, area: Rectangle, stream: Stream, zones: Sequence[Zone], gap: float
-) -> FreePlace | None:
+) -> Place | None:
     inner = Rectangle(
         area.x, area.y, area.length - 2.0 * radius, area.width - 2.0 * radius, area.yaw
     )
@@ -128,7 +128,7 @@ def _free(
     for u, v, turn in stream.uniform(3 * _TRIES)[0].reshape(-1, 3).tolist():
         x, y = inner.point(u, v)
         if all(zone.distance(x, y) >= radius + gap for zone in zones):
-            return FreePlace(x, y, turn * 2.0 * math.pi, radius)
+            return Place(x, y, turn * 2.0 * math.pi, radius)
     return None
 
 
