@@ -14,6 +14,14 @@ a row as ``width`` says, for the velocities that ``columns`` lists where it is s
 
 from __future__ import annotations
 
+from typing import Any
+
 from gazelle.native.interpreted import structure
 
-Touch = structure()
+
+def __getattr__(name: str) -> Any:
+    """Make ``Touch`` when sources that Python runs ask for it: it takes Cython, which users lack."""
+    if name != "Touch":
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    globals()[name] = structure()
+    return globals()[name]
