@@ -70,6 +70,9 @@ class PublishedCamera:
         settings: Names and lens.
         look: The camera's picture now.
         may_tell: Whether a measurement is told.
+
+    Attributes:
+        encoding: Of the pictures.
     """
 
     def __init__(
@@ -81,7 +84,7 @@ class PublishedCamera:
         may_tell: Callable[[], bool] | None = None,
     ) -> None:
         self.sensor, self.camera, self.settings, self.look = sensor, camera, settings, look
-        self._encoding = encoding_of(camera.format, sensor.name)
+        self.encoding = encoding_of(camera.format, sensor.name)
         self._may_tell = may_tell
         self._last_info_ns: int | None = None
 
@@ -90,7 +93,7 @@ class PublishedCamera:
         image = self.settings.image_topic
         self.add(image, ImageValue, self._image)
         self.add(f"{image}/compressed", CompressedImageValue, self._compressed)
-        self.add(self.settings.info_topic, CameraInfoValue, self._info, self._info_is_due)
+        self.add(self.settings.info_topic, CameraInfoValue, self.info, self._info_is_due)
 
     def add(
         self,
@@ -107,14 +110,15 @@ class PublishedCamera:
 
     def _image(self) -> ImageValue:
         seen = self.look()
-        return ImageValue(seen.stamp, pixels_of(seen.color, self._encoding), self._encoding)
+        return ImageValue(seen.stamp, pixels_of(seen.color, self.encoding), self.encoding)
 
     def _compressed(self) -> CompressedImageValue:
         seen = self.look()
-        grey = self._encoding.startswith("mono")
+        grey = self.encoding.startswith("mono")
         return CompressedImageValue(seen.stamp, pixels_of(seen.color, "mono8" if grey else "rgb8"))
 
-    def _info(self) -> CameraInfoValue:
+    def info(self) -> CameraInfoValue:
+        """What the lens is like, at the moment of the picture."""
         return self.settings.info(self.camera, self.look().stamp)
 
     def _info_is_due(self) -> bool:

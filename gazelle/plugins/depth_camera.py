@@ -13,7 +13,7 @@ from gazelle.description import Camera, Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.camera import CameraPlugin, PublishedCamera
 from gazelle.plugins.camera_settings import CameraSettings
-from gazelle.plugins.pixel_formats import encoding_of, pixels_of
+from gazelle.plugins.pixel_formats import pixels_of
 from gazelle.plugins.sensor_kinds import model_of
 from gazelle.sensors import CameraModel
 from gazelle.simulation import SensorUnit
@@ -51,12 +51,12 @@ class DepthCameraPlugin(CameraPlugin):
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
         self._camera, self._settings = camera, settings
-        self._encoding = encoding_of(camera.format, self._sensor.name)
         topics = PublishedCamera(self._sensor, camera, settings, self.look)
+        self._encoding = topics.encoding
         topics.open()
         depth, info, points = self._topics
         topics.add(depth, ImageValue, self._depths)
-        topics.add(info, CameraInfoValue, self._depth_info)
+        topics.add(info, CameraInfoValue, topics.info)
         topics.add(points, PixelPoints, self._points)
 
     def _depths(self) -> ImageValue:
@@ -68,9 +68,6 @@ class DepthCameraPlugin(CameraPlugin):
         most = np.iinfo(np.uint16).max
         whole = np.where(told, np.minimum(depth * 1000.0, most), 0.0)
         return ImageValue(seen.stamp, whole.astype(np.uint16), "16UC1")
-
-    def _depth_info(self) -> CameraInfoValue:
-        return self._settings.info(self._camera, self.look().stamp)
 
     def _points(self) -> PixelPoints:
         """Along the rays through the middles of pixels, about the middle of the picture."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import cache
 
 import numpy as np
 
@@ -45,6 +46,7 @@ def table_of(lights: Iterable[Light]) -> Floats:
     return np.array(rows, np.float64).reshape(-1, c.LAMP)
 
 
+@cache
 def tones(gamma: float) -> Bytes:
     """Bytes for brightnesses from 0 to 1, evenly spaced."""
     share = np.linspace(0.0, 1.0, _TONES) ** (1.0 / gamma)

@@ -21,6 +21,7 @@ class LiveScene:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._models: tuple[Model, ...] = ()
+        self._links: tuple[str, ...] = ()
         self._renderer: Renderer | None = None
 
     @property
@@ -30,6 +31,8 @@ class LiveScene:
         if self._renderer is None or self._models is not world.models:
             self._models = world.models
             self._renderer = Renderer(world, nworld=self._engine.nworld)
+            known = set(self._engine.link_names)
+            self._links = tuple(link for link in self._renderer.links if link in known)
         return self._renderer
 
     def render(
@@ -43,10 +46,8 @@ class LiveScene:
     ) -> Frames:
         """Draw what one camera in each of some worlds sees now; see ``Renderer.render``."""
         renderer = self.renderer
-        known = set(self._engine.link_names)
-        for link in renderer.links:
-            if link in known:
-                place = self._engine.link_placement(link, worlds)
-                renderer.place(link, place.position, place.quaternion, worlds)
+        for link in self._links:
+            place = self._engine.link_placement(link, worlds)
+            renderer.place(link, place.position, place.quaternion, worlds)
         chosen = np.arange(self._engine.nworld) if worlds is None else worlds
         return renderer.render(lens, positions, quaternions, chosen, want=want)

@@ -63,6 +63,7 @@ class Renderer:
         seen = visible_world(world)
         self.links: tuple[str, ...] = seen.links
         self.parts: tuple[VisiblePart, ...] = seen.parts
+        self._numbers = {link: number for number, link in enumerate(seen.links)}
         self._world, self._gamma = world, gamma
         self._shapes = seen.shapes
         self._placed = np.repeat(seen.rest[None], nworld, axis=0)
@@ -79,9 +80,10 @@ class Renderer:
             quaternions: x, y, z, w, shape (nworlds, 4).
             worlds: Where; all if None.
         """
-        if link in self.links:
+        number = self._numbers.get(link)
+        if number is not None:
             chosen = slice(None) if worlds is None else worlds
-            self._placed[chosen, self.links.index(link)] = rows_of(positions, quaternions)
+            self._placed[chosen, number] = rows_of(positions, quaternions)
 
     def render(
         self,

@@ -15,11 +15,9 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.description import Light, Plane, Pose, Visual, World
 from gazelle.engines.tracer import RayHits, Tracer
+from gazelle.rendering.lamps import SKY_HORIZON, SKY_TOP, SUN
+from gazelle.rendering.visible import GREY
 
-_GREY = (0.7, 0.7, 0.7)
-_SKY_TOP = np.array([0.45, 0.62, 0.86])
-_SKY_HORIZON = np.array([0.86, 0.91, 0.96])
-_SUN = Light("sun", "directional", direction=(-0.5, 0.1, -0.9), diffuse=(0.8, 0.8, 0.8, 1.0))
 _LINE = 0.012  # half width of the lines of the ground grid [m]
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
 _OFFSET = 1e-4  # where shadow rays start above a surface [m]
@@ -94,7 +92,7 @@ def directions_of_view(view: View, samples: int) -> Floats:
 def _background(world: World, directions: Floats) -> Floats:
     if world.scene.sky:
         height = np.clip(directions[:, 2:], 0.0, 1.0) ** 0.6
-        blend: Floats = (1.0 - height) * _SKY_HORIZON + height * _SKY_TOP
+        blend: Floats = (1.0 - height) * np.array(SKY_HORIZON) + height * np.array(SKY_TOP)
         return blend
     return np.tile(np.asarray(world.scene.background[:3]), (len(directions), 1))
 
@@ -106,7 +104,7 @@ def _shade(tracer: Tracer, world: World, met: RayHits, points: Floats, along: Fl
     sky = 0.75 + 0.25 * normal[:, 2:]
     light = np.asarray(world.scene.ambient[:3]) * sky
     start = points + _OFFSET * normal
-    for lamp in world.lights or (_SUN,):
+    for lamp in world.lights or (SUN,):
         light = light + _lamp(tracer, lamp, start, normal, shadows=world.scene.shadows)
     return np.asarray(surface * light, np.float64)
 
@@ -162,4 +160,4 @@ def _surface_colours(
 def _colour(visual: Visual) -> tuple[float, float, float]:
     material = visual.material
     chosen = None if material is None else (material.diffuse or material.ambient)
-    return _GREY if chosen is None else chosen[:3]
+    return GREY if chosen is None else chosen[:3]
