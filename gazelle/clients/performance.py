@@ -138,7 +138,7 @@ class PerformanceWatch(Closeable):
             from matplotlib.backends.backend_agg import FigureCanvasAgg
             from matplotlib.figure import Figure
         except ImportError:
-            raise MissingExtraError("matplotlib", "viewer") from None
+            raise MissingExtraError("matplotlib", "plots") from None
         figure: Any = Figure(figsize=(8.0, 7.0), layout="constrained")
         FigureCanvasAgg(figure)
         wall = [sample.wall for sample in self.samples]
