@@ -43,6 +43,7 @@ COMMANDS = {
         Command("run", "simulate a file", "simulate", "run"),
         Command("check", "check files: every problem, with file and line", "simulate", "check"),
         Command("convert", "files from one format to another", "simulate", "convert"),
+        Command("map", "the true map of a world, for map_server", "simulate", "map"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),

@@ -12,6 +12,7 @@ from gazelle.formats.check import Problem, check
 from gazelle.formats.loader import load, load_model, load_model_string, load_string
 from gazelle.formats.mesh import MeshData, load_mesh
 from gazelle.formats.occupancy import load_map
+from gazelle.formats.occupancy_writing import save_map
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.srdf import load_srdf, load_srdf_string
 from gazelle.formats.write import save, to_string, write_text
@@ -30,6 +31,7 @@ __all__ = [
     "load_srdf_string",
     "load_string",
     "save",
+    "save_map",
     "to_string",
     "write_text",
 ]

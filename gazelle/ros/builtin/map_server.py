@@ -2,136 +2,138 @@
 
 from __future__ import annotations
 
-import math
+import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from gazelle.errors import MissingExtraError, RosError, did_you_mean
+from gazelle.description import Pose
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.errors import Error, FormatError, ResolveError, RosError
+from gazelle.formats.occupancy import MapSettings, cells, load_map
+from gazelle.formats.picture import read_picture
 from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.launch.values import load_yaml
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
-_REQUIRED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
-_MODES = ("trinary", "scale", "raw")
-_OCCUPIED, _FREE, _UNKNOWN = 100, 0, -1
-
-
-@dataclass(frozen=True, slots=True)
-class GridMap:
-    """A map of occupancy."""
-
-    cells: Any
-    """0 free to 100 occupied, -1 unknown; shape (height, width), int8, the lowest row first."""
-    resolution: float
-    """Side of a cell [m]."""
-    origin: tuple[float, float, float]
-    """x, y [m] and yaw [rad] of the lower left corner."""
+_USAGE = "map_server MAP.yaml"
+_LIMITS = 0.65, 0.196
+"""Of what is occupied and free, in the deprecated form of the command line."""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Serve the map of a YAML file; returns the exit code."""
-    found = parse_arguments(arguments, "map_server")
-    if len(found.plain) != 1:
-        raise RosError("give one map", hint="map_server MAP.yaml")
-    grid = read_map(found.plain[0])
+    found = parse_arguments(arguments, "map_server", anonymous=True)
+    if len(found.plain) not in {1, 2}:
+        raise RosError("give one map", hint=_USAGE)
+    grid = read_map(found.plain[0]) if len(found.plain) == 1 else _picture_alone(*found.plain)
     with found.start() as node:
-        _serve(node, grid)
+        MapService(node, grid)
         return spin(node)
 
 
-def read_map(path: str) -> GridMap:
+def read_map(path: str) -> OccupancyMap:
     """The map of a YAML file.
 
     Raises:
         RosError: The file or its picture cannot be read, or it lacks a key.
     """
-    file = Path(path)
     try:
-        settings = load_yaml(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RosError(f"the map cannot be read: {error.strerror}", file=path) from None
-    if not isinstance(settings, dict):
-        raise RosError("a map's file is a YAML mapping", file=path)
-    for key in _REQUIRED:
-        if key not in settings:
-            close = did_you_mean(key, [str(each) for each in settings])
-            hint = close if close.startswith("did you mean") else None
-            raise RosError(f"the key '{key}' is missing", file=path, hint=hint)
+        return load_map(path)
+    except Error as error:
+        raise RosError(error.message, file=error.file, line=error.line, hint=error.hint) from error
+
+
+def _picture_alone(image: str, resolution: str) -> OccupancyMap:
+    """The map of the deprecated command line: a picture and the side of a pixel [m]."""
     try:
-        return _grid(file, settings)
-    except (TypeError, ValueError) as error:
-        raise RosError(f"a value is wrong: {error}", file=path) from None
+        side = float(resolution)
+        settings = MapSettings(image, side, (0.0, 0.0, 0.0), False, *_LIMITS)
+        return OccupancyMap(cells(read_picture(Path(image)), settings), side)
+    except (ValueError, OSError, FormatError) as error:
+        raise RosError(f"the map cannot be read: {error}", file=image, hint=_USAGE) from None
 
 
-def _grid(file: Path, settings: dict[str, Any]) -> GridMap:
-    mode = str(settings.get("mode", "trinary"))
-    if mode not in _MODES:
-        raise RosError(f"the mode '{mode}' is unknown", file=str(file), hint=f"modes: {_MODES}")
-    x, y, yaw = (float(each) for each in settings["origin"])
-    levels, opaque = _picture(file.parent / str(settings["image"]), alpha=mode != "trinary")
-    dark = levels / 255.0 if bool(int(settings["negate"])) else (255.0 - levels) / 255.0
-    occupied, free = float(settings["occupied_thresh"]), float(settings["free_thresh"])
-    if mode == "raw":
-        whole = levels.astype(np.int16)
-        cells = np.where(whole <= _OCCUPIED, whole, _UNKNOWN)
-    else:
-        between = np.full(dark.shape, float(_UNKNOWN))
-        if mode == "scale":
-            between = np.where(opaque, 1.0 + 98.0 * (dark - free) / (occupied - free), _UNKNOWN)
-        cells = np.where(dark > occupied, _OCCUPIED, np.where(dark < free, _FREE, between))
-    flipped = np.ascontiguousarray(np.trunc(cells[::-1]).astype(np.int8))
-    return GridMap(flipped, float(settings["resolution"]), (x, y, yaw))
+class MapService:
+    """A map, latched on ``map`` and ``map_metadata``, and its services.
+
+    Args:
+        node: On the graph; ``~frame_id`` is the map's frame (``map``).
+        grid: The first map.
+    """
+
+    def __init__(self, node: Node, grid: OccupancyMap) -> None:
+        self._node = node
+        self._lock = threading.Lock()
+        self._frame = str(node.get_param("~frame_id", "map"))
+        kind, info = load_message("nav_msgs/OccupancyGrid"), load_message("nav_msgs/MapMetaData")
+        self._maps = node.advertise("map", kind, queue_size=1, latch=True)
+        self._infos = node.advertise("map_metadata", info, queue_size=1, latch=True)
+        self._message = self._show(grid)
+        load = load_service("nav_msgs/LoadMap")
+        self._results = load._response_class
+        node.serve("static_map", load_service("nav_msgs/GetMap"), lambda _: [self._message])
+        node.serve("change_map", load, self._change)
+
+    def _show(self, grid: OccupancyMap) -> Any:
+        message = grid_message(grid, self._frame, self._node.clock.now())
+        self._maps.publish(message)
+        self._infos.publish(message.info)
+        return message
+
+    def _change(self, request: Any) -> Any:
+        """Take another map; what cannot be read changes nothing."""
+        answer = self._results()
+        try:
+            grid = load_map(request.map_url)
+        except ResolveError as error:
+            known = error.element is None
+            answer.result = (
+                answer.RESULT_MAP_DOES_NOT_EXIST if known else answer.RESULT_INVALID_MAP_DATA
+            )
+        except FormatError as error:
+            bad = error.element == "image"
+            answer.result = (
+                answer.RESULT_INVALID_MAP_DATA if bad else answer.RESULT_INVALID_MAP_METADATA
+            )
+        else:
+            with self._lock:
+                self._message = self._show(grid)
+                answer.map, answer.result = self._message, answer.RESULT_SUCCESS
+        return answer
 
 
-def _picture(path: Path, *, alpha: bool) -> tuple[Any, Any]:
-    """Brightness 0 to 255 as the mean of the channels, and which pixels are opaque."""
-    try:
-        from PIL import Image
-    except ImportError:
-        raise MissingExtraError("pillow", "ros") from None
-    try:
-        with Image.open(path) as image:
-            has_alpha = image.mode in {"LA", "RGBA", "PA"} or "transparency" in image.info
-            single = image.mode in {"L", "1", "I", "I;16"}
-            kind = "L" if single else "RGBA" if has_alpha else "RGB"
-            pixels = np.asarray(image.convert(kind), dtype=np.float64)
-    except OSError as error:
-        raise RosError(f"the picture cannot be read: {error}", file=str(path)) from None
-    if pixels.ndim == 2:
-        return pixels, np.ones(pixels.shape, bool)
-    opaque = pixels[..., 3] > 0 if pixels.shape[2] == 4 else np.ones(pixels.shape[:2], bool)
-    # In trinary mode map_server takes transparency for one more channel.
-    channels = pixels[..., :3] if alpha else pixels
-    return channels.mean(axis=2), opaque
-
-
-def _serve(node: Node, grid: GridMap) -> None:
-    """Publish the map, latched, and answer ``static_map``."""
-    frame = str(node.get_param("~frame_id", "map"))
-    message = grid_message(grid, frame, node.clock.now())
-    node.advertise("map", type(message), queue_size=1, latch=True).publish(message)
-    info = message.info
-    node.advertise("map_metadata", type(info), queue_size=1, latch=True).publish(info)
-    node.serve("static_map", load_service("nav_msgs/GetMap"), lambda _request: [message])
-
-
-def grid_message(grid: GridMap, frame: str, now: int) -> Any:
+def grid_message(grid: OccupancyMap, frame: str, now: int) -> Any:
     """A ``nav_msgs/OccupancyGrid`` of a map at a time [ns]."""
     message: Any = load_message("nav_msgs/OccupancyGrid")()
     stamp = Time(nsecs=now)
     message.header.stamp, message.header.frame_id = stamp, frame
     info = message.info
     info.map_load_time, info.resolution = stamp, grid.resolution
-    info.height, info.width = grid.cells.shape
-    x, y, yaw = grid.origin
-    info.origin.position.x, info.origin.position.y = x, y
-    info.origin.orientation.z = math.sin(yaw / 2)
-    info.origin.orientation.w = math.cos(yaw / 2)
-    message.data = grid.cells.ravel().tolist()
+    info.height, info.width = grid.data.shape
+    place, turn = info.origin.position, info.origin.orientation
+    place.x, place.y = grid.origin.x, grid.origin.y
+    turn.x, turn.y, turn.z, turn.w = grid.origin.quaternion
+    message.data = grid.data.ravel().tolist()
     return message
+
+
+def grid_of_message(message: Any) -> OccupancyMap:
+    """The map of a ``nav_msgs/OccupancyGrid``.
+
+    Raises:
+        RosError: There are not as many cells as its size says.
+    """
+    info = message.info
+    data = np.array(message.data, dtype=np.int8)
+    if data.size != info.width * info.height:
+        raise RosError(
+            f"a map of {info.width} x {info.height} cells came with {data.size}",
+            hint="whoever publishes it should send width * height cells",
+        )
+    place, turn = info.origin.position, info.origin.orientation
+    origin = Pose.from_quaternion((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    return OccupancyMap(data.reshape(info.height, info.width), float(info.resolution), origin)

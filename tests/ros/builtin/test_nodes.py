@@ -17,10 +17,10 @@ from hypothesis import strategies as st
 from ros.graph import until
 
 from gazelle.errors import RosError
+from gazelle.formats import save_map
 from gazelle.ros import RawMessage, load_message, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.builtin.map_saver import write_map
-from gazelle.ros.builtin.map_server import grid_message, read_map
+from gazelle.ros.builtin.map_server import grid_message, grid_of_message, read_map
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.static_transform import from_angles
 from gazelle.ros.tools.graph import GraphInspector
@@ -290,15 +290,16 @@ LEVELS = [[0, 254, 205], [254, 254, 100]]
 
 def test_maps_are_read_from_the_lowest_row(write_yaml):
     grid = read_map(write_yaml(LEVELS))
-    assert grid.cells.tolist() == [[0, 0, -1], [100, 0, -1]]
-    assert (grid.resolution, grid.origin) == (0.05, (-1.0, -2.0, 0.5))
+    assert grid.data.tolist() == [[0, 0, -1], [100, 0, -1]]
+    assert (grid.resolution, grid.origin.x, grid.origin.y) == (0.05, -1.0, -2.0)
+    assert grid.origin.yaw == pytest.approx(0.5)
 
 
 def test_maps_have_modes(write_yaml):
-    assert read_map(write_yaml(LEVELS, negate=1)).cells.tolist() == [[100, 100, -1], [0, 100, 100]]
-    scaled = read_map(write_yaml(LEVELS, mode="scale")).cells.tolist()
+    assert read_map(write_yaml(LEVELS, negate=1)).data.tolist() == [[100, 100, -1], [0, 100, 100]]
+    scaled = read_map(write_yaml(LEVELS, mode="scale")).data.tolist()
     assert scaled[0] == [0, 0, int(1 + 98 * ((155 / 255 - 0.196) / (0.65 - 0.196)))]
-    assert read_map(write_yaml(LEVELS, mode="raw")).cells.tolist() == [[-1, -1, 100], [0, -1, -1]]
+    assert read_map(write_yaml(LEVELS, mode="raw")).data.tolist() == [[-2, -2, 100], [0, -2, -51]]
 
 
 @pytest.mark.parametrize(
@@ -335,11 +336,48 @@ def test_maps_are_served(start, make_node, listen, write_yaml):
 
 def test_maps_that_are_saved_read_the_same(write_yaml, tmp_path):
     grid = read_map(write_yaml(LEVELS))
-    write_map(grid_message(grid, "map", 0), str(tmp_path / "saved"), occupied=65, free=25)
+    save_map(grid_of_message(grid_message(grid, "map", 0)), tmp_path / "saved")
     again = read_map(str(tmp_path / "saved.yaml"))
-    assert again.cells.tolist() == grid.cells.tolist()
-    assert again.origin == pytest.approx(grid.origin)
+    assert again.data.tolist() == grid.data.tolist()
+    assert again.origin.yaw == pytest.approx(grid.origin.yaw)
     assert (tmp_path / "saved.pgm").read_bytes().startswith(b"P5\n# CREATOR")
+
+
+def test_another_map_can_be_loaded(start, make_node, write_yaml, listen, tmp_path):
+    start("map_server", "map_server", write_yaml(LEVELS))
+    got = listen("/map", load_message("nav_msgs/OccupancyGrid"))
+    node, service = make_node("caller"), load_service("nav_msgs/LoadMap")
+    node.wait_for_service("/change_map", 60)
+    save_map(read_map(write_yaml([[0, 0], [254, 205]])), tmp_path / "other")
+    client = node.client("/change_map", service)
+    answer = client.call(service._request_class(map_url=str(tmp_path / "other.yaml")))
+    assert answer.result == answer.RESULT_SUCCESS
+    assert list(answer.map.data) == [0, -1, 100, 100]
+    until(lambda: got and list(got[-1].data) == [0, -1, 100, 100])
+    (tmp_path / "bad.yaml").write_text("image: none.pgm\n")
+    (tmp_path / "lost.yaml").write_text(
+        "image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\n"
+        "occupied_thresh: 0.6\nfree_thresh: 0.2\n"
+    )
+    results = [
+        client.call(service._request_class(map_url=str(tmp_path / name))).result
+        for name in ("none.yaml", "bad.yaml", "lost.yaml")
+    ]
+    assert results == [
+        answer.RESULT_MAP_DOES_NOT_EXIST,
+        answer.RESULT_INVALID_MAP_METADATA,
+        answer.RESULT_INVALID_MAP_DATA,
+    ]
+
+
+def test_a_picture_and_a_resolution_are_a_map_as_of_old(start, listen, write_yaml, tmp_path):
+    write_yaml(LEVELS)
+    picture = next(path for path in tmp_path.iterdir() if path.suffix in {".pgm", ".png"})
+    start("map_server", "map_server", str(picture), "0.5")
+    got = listen("/map", load_message("nav_msgs/OccupancyGrid"))
+    until(lambda: got)
+    assert list(got[0].data) == [0, 0, -1, 100, 0, -1]
+    assert got[0].info.resolution == 0.5
 
 
 def test_maps_are_saved_from_a_topic(start, make_node, write_yaml, tmp_path):

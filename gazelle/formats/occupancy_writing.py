@@ -1,0 +1,72 @@
+"""Occupancy maps to the files of ROS's ``map_server``, as ``map_saver`` writes them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from gazelle.array_types import Bytes
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.errors import FormatError
+
+PathLike = str | os.PathLike[str]
+
+_OCCUPIED, _FREE, _UNKNOWN = 0, 254, 205
+"""Grey levels of cells."""
+_DARK, _BRIGHT = 0.65, 0.196
+"""Limits for reading: they tell the three levels apart, whatever the limits of the cells were."""
+
+
+def grey_levels(grid: OccupancyMap, *, occupied: float = 65.0, free: float = 25.0) -> Bytes:
+    """The picture of a map, top row first, shape (height, width): black, white and grey.
+
+    Args:
+        grid: The map.
+        occupied: Cells from this value on are black.
+        free: Cells from 0 up to this value are white; others are grey.
+
+    Raises:
+        FormatError: The limits are not in order.
+    """
+    if not 0.0 <= free < occupied <= 100.0:
+        raise FormatError("the limit of what is free is below that of what is occupied, 0 to 100")
+    cells = grid.data[::-1]
+    levels = np.full(cells.shape, _UNKNOWN, np.uint8)
+    levels[(cells >= 0) & (cells <= free)] = _FREE
+    levels[cells >= occupied] = _OCCUPIED
+    return levels
+
+
+def save_map(
+    grid: OccupancyMap, name: PathLike, *, occupied: float = 65.0, free: float = 25.0
+) -> tuple[Path, Path]:
+    """Write ``NAME.yaml`` and ``NAME.pgm``; returns both paths.
+
+    Args:
+        grid: The map.
+        name: Path without suffix; a suffix ``.yaml`` is dropped.
+        occupied: Cells from this value on are black.
+        free: Cells up to this value are white; others are grey.
+
+    Raises:
+        FormatError: The limits are not in order, or a file cannot be written.
+    """
+    stem = os.fspath(name).removesuffix(".yaml")
+    levels = grey_levels(grid, occupied=occupied, free=free)
+    picture, settings = Path(f"{stem}.pgm"), Path(f"{stem}.yaml")
+    comment = f"# CREATOR: map_saver {grid.resolution:.3f} m/pix"
+    head = f"P5\n{comment}\n{grid.width} {grid.height}\n255\n"
+    origin = grid.origin
+    text = (
+        f"image: {picture.name}\nresolution: {grid.resolution:f}\n"
+        f"origin: [{origin.x:f}, {origin.y:f}, {origin.yaw:f}]\nnegate: 0\n"
+        f"occupied_thresh: {_DARK}\nfree_thresh: {_BRIGHT}\n"
+    )
+    try:
+        picture.write_bytes(head.encode() + levels.tobytes())
+        settings.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FormatError(f"the map cannot be written: {error.strerror}", file=stem) from None
+    return settings, picture
