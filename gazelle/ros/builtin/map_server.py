@@ -86,7 +86,7 @@ class MapService:
 
     def _change(self, request: Any) -> Any:
         """Take another map; what cannot be read changes nothing."""
-        answer = self._results()
+        answer: Any = self._results()
         try:
             grid = load_map(request.map_url)
         except ResolveError as error:
