@@ -15,6 +15,7 @@ environment wraps one with many worlds, a single environment one with one world.
 """
 
 from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
+from gazelle.envs.contract import ActionRule, ObservationPart, PolicyContract, ScanRule
 from gazelle.envs.errors import ClosedEnvError, ResetNeededError
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
@@ -23,11 +24,15 @@ from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
 __all__ = [
+    "ActionRule",
     "BatchedTask",
     "ClosedEnvError",
     "FloorPlan",
     "GoalTable",
+    "ObservationPart",
+    "PolicyContract",
     "ResetNeededError",
+    "ScanRule",
     "TaskEnv",
     "TaskVectorEnv",
     "Transition",

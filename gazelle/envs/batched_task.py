@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import with_idle
+from gazelle.envs.contract import PolicyContract, generic_contract
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 
@@ -128,6 +129,11 @@ class BatchedTask(ABC):
         self.nworld = nworld
         self.max_episode_steps = max_episode_steps
         self.elapsed = np.zeros(nworld, dtype=np.int64)
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What a policy sees and does; a task that says more than its spaces overrides this."""
+        return generic_contract(self.observation_space, self.action_space, self.control_period)
 
     def seed(self, seed: int) -> None:
         """Start all random numbers over, as in a task just made with this seed."""

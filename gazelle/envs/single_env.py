@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats32
 from gazelle.envs.batched_task import BatchedTask, Info
+from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import check_open
 from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.envs.vector_env import TaskVectorEnv
@@ -82,6 +83,11 @@ class TaskEnv(gym.Env[Any, Any]):
             bool(result.truncated[0]),
             _of_world_0(result.info),
         )
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What a policy of this task sees and does, see `BatchedTask.contract`."""
+        return self.task.contract
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture, shape (height, width, 3); None without render mode.

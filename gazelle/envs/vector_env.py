@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import autoreset_mode as mode_of
 from gazelle.envs.batched_task import BatchedTask, BatchStep, Finals, Info
+from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import RENDER_MODES, check_name
@@ -172,6 +173,11 @@ class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
     def floor_plan(self) -> FloorPlan | None:
         """What stands in the world, seen from above; None if the task cannot tell."""
         return self.task.floor_plan
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What a policy of this task sees and does, see `BatchedTask.contract`."""
+        return self.task.contract
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of every world, each of shape (height, width, 3); None without render mode."""

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from gazelle.training.evaluation import Evaluation, evaluate
     from gazelle.training.goal_reward import GoalReward
     from gazelle.training.learners import ALGORITHMS
+    from gazelle.training.policy_files import PolicyFiles, export_policy, load_policy
     from gazelle.training.progress import Progress, choose_progress
     from gazelle.training.recipes import (
         RECIPES,
@@ -47,6 +48,7 @@ _HOMES = {
     "GoalReward": "goal_reward",
     "OffPolicySettings": "recipes",
     "PPOSettings": "recipes",
+    "PolicyFiles": "policy_files",
     "Progress": "progress",
     "RECIPES": "recipes",
     "SuccessRate": "statistics",
@@ -59,9 +61,11 @@ _HOMES = {
     "Verified": "verified",
     "choose_progress": "progress",
     "evaluate": "evaluation",
+    "export_policy": "policy_files",
     "find_task": "tasks",
     "list_tasks": "tasks",
     "load_actor": "actor",
+    "load_policy": "policy_files",
     "make_task": "tasks",
     "recipe_for": "recipes",
     "resume": "session",
@@ -79,6 +83,7 @@ __all__ = [
     "GoalReward",
     "OffPolicySettings",
     "PPOSettings",
+    "PolicyFiles",
     "Progress",
     "Recipe",
     "Run",
@@ -89,9 +94,11 @@ __all__ = [
     "Verified",
     "choose_progress",
     "evaluate",
+    "export_policy",
     "find_task",
     "list_tasks",
     "load_actor",
+    "load_policy",
     "make_task",
     "recipe_for",
     "resume",

@@ -66,6 +66,15 @@ class Actor:
         """Whether actions are numbers of choices."""
         return self.head in {"categorical", "greedy"}
 
+    @property
+    def bounds(self) -> tuple[Floats32, Floats32]:
+        """Least and greatest actions (continuous heads), each of shape (actions,).
+
+        Raises:
+            FormatError: The policy lacks them.
+        """
+        return _present(self.low), _present(self.high)
+
     def outputs(self, obs: Floats32) -> Floats32:
         """The last layer's outputs.
 
@@ -154,7 +163,7 @@ class Actor:
         """Raw actions as the environment takes them: numbered, cut or stretched to the bounds."""
         if self.discrete:
             return actions + self.first_action
-        low, high = _present(self.low), _present(self.high)
+        low, high = self.bounds
         if self.head == "squashed":
             share: Floats32 = np.float32(0.5) * (np.tanh(actions) + np.float32(1))
             return low + share * (high - low)

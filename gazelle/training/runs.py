@@ -8,6 +8,7 @@
         tensorboard/         the curves for TensorBoard
         checkpoints/000000500000/   state to resume from, named by control steps
         policy.npz           the newest policy, for evaluation without torch
+        contract.json        what the policy sees and does, see `PolicyContract`
 """
 
 from __future__ import annotations
@@ -192,7 +193,7 @@ def _config_to_dict(config: RunConfig) -> dict[str, Any]:
         "checkpoint_every": config.checkpoint_every,
         "imports": modules_to_list(config.imports),
         "recipe": recipe_to_dict(config.recipe),
-        "versions": {"python": platform.python_version()} | _versions(),
+        "versions": versions(),
         "machine": platform.machine(),
     }
 
@@ -210,8 +211,9 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
     )
 
 
-def _versions() -> dict[str, str]:
-    found = {}
+def versions() -> dict[str, str]:
+    """Of Python and of the packages that shape a run."""
+    found = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:
             found[package] = metadata.version(package)

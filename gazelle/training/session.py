@@ -14,6 +14,7 @@ import torch
 from gazelle.errors import TaskError
 from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
+from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.importing import load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress
@@ -114,7 +115,9 @@ def train(
     limit_threads(threads)
     session = _Session(config, progress or NoProgress())
     try:
-        return session.go(Run.create(config, Path(out)))
+        run = Run.create(config, Path(out))
+        save_contract(contract_of(session.env.env, config), run.folder)
+        return session.go(run)
     finally:
         session.close()
 

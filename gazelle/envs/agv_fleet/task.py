@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.engines.planar.columns import X0, X1, Y0, Y1
 from gazelle.envs.agv_fleet import hall
+from gazelle.envs.agv_fleet.contract import fleet_contract
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.contract import PolicyContract
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_whole
 from gazelle.envs.polar import heading_to
@@ -112,6 +114,7 @@ class AGVFleetTask(BatchedTask):
             world, settings.engine, nworld=self.halls, threads=settings.threads
         )
         self.agvs = cast("StageFleet", self.simulation.stage)
+        self._samples = settings.lidar_samples
         self._places = settings.free_places()
         self._start = np.zeros((nworld, 3))
         self._goal = np.zeros(nworld, np.intp)
@@ -119,6 +122,21 @@ class AGVFleetTask(BatchedTask):
         self._reached = np.zeros(nworld, np.int64)
         self._frozen = np.zeros(nworld, np.bool_)
         self._seed(settings.seed or 0)
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What a policy sees and does."""
+        return fleet_contract(
+            self.action_space,
+            samples=self._samples,
+            reach=REACH,
+            farthest=_FARTHEST,
+            speed=SPEED,
+            turn=TURN,
+            control_period=PERIOD,
+            goal_distance=ARRIVED,
+            max_episode_steps=self.max_episode_steps,
+        )
 
     @property
     def poses(self) -> Floats:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats32, Worlds
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.contract import PolicyContract
 from gazelle.envs.decimals import round2
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
@@ -22,6 +23,7 @@ from gazelle.envs.turtlebot3.actions import (
     discrete_command,
     turn_index,
 )
+from gazelle.envs.turtlebot3.contract import turtlebot3_contract
 from gazelle.envs.turtlebot3.layout import GoalLayout
 from gazelle.envs.turtlebot3.observations import RobotViews, observation, observation_space, sight
 from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
@@ -111,6 +113,17 @@ class TurtleBot3Task(BatchedTask):
         if self._starts is not None:
             goals = self.goals.points[self._goal[worlds]]
             self._starts.begin(worlds, goals, lambda some: self._see(some).nearest)
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What a policy sees and does."""
+        return turtlebot3_contract(
+            self.rules,
+            self.scene.lidar.lidar,
+            self.observation_space,
+            self.action_space,
+            self.max_episode_steps,
+        )
 
     @property
     def scenario_names(self) -> tuple[str, ...]:  # type: ignore[override]  # not fixed here

@@ -1,0 +1,46 @@
+"""Write the policy of a run for use elsewhere, and beside it as JSON what it sees
+and does: the layout of observations with units, rates, limits, frames.
+
+  gazelle export runs/TurtleBot3Stage1-ppo-20261105-140302
+  gazelle export RUN --format numpy --out robot/policy.npz
+
+onnx:  for ONNX Runtime, TensorRT ...; takes 'observation', gives 'action'.
+numpy: arrays alone; gazelle.training.load_actor(FILE).act(observations) acts
+       without torch.
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from gazelle.cli import showing
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("run", metavar="RUN", type=Path, help="folder of a run")
+    parser.add_argument(
+        "--format",
+        metavar="NAME",
+        choices=("onnx", "numpy"),
+        default="onnx",
+        help="onnx (default) or numpy",
+    )
+    parser.add_argument(
+        "--out", metavar="PATH", type=Path, help="file or folder (default RUN/export)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.training import export_policy
+
+    files = export_policy(args.run, args.format, args.out)
+    sys.stdout.write(
+        f"policy:   {files.policy}\n"
+        f"contract: {files.contract}\n"
+        f"next:     {showing.program()} deploy {files.policy}\n"
+    )
+    return 0

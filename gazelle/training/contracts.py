@@ -1,0 +1,85 @@
+"""The contract of a run's policy: made from its environment, kept in its folder."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+from gymnasium.vector import VectorEnv
+
+from gazelle.envs.contract import PolicyContract, generic_contract
+from gazelle.errors import FormatError, TaskError
+from gazelle.training.importing import load_all
+from gazelle.training.runs import Run, RunConfig, versions
+from gazelle.training.tasks import control_period, make_task, told_by
+
+CONTRACT = "contract.json"
+
+
+def contract_of(env: VectorEnv[Any, Any, Any], config: RunConfig) -> PolicyContract:
+    """What a policy that is trained like this sees and does.
+
+    A task says so by an attribute ``contract`` of its environment, a `PolicyContract`; of one
+    without it, the spaces are told.
+
+    Args:
+        env: The environment.
+        config: Of the run.
+    """
+    told = told_by(env, "contract")
+    if not isinstance(told, PolicyContract):
+        spaces = env.single_observation_space, env.single_action_space
+        told = generic_contract(*spaces, control_period(env))
+    return dataclasses.replace(
+        told,
+        task=config.task,
+        versions=versions(),
+        training={
+            "algorithm": config.recipe.algo,
+            "steps": config.recipe.steps,
+            "seed": config.seed,
+            "options": config.options,
+        },
+    )
+
+
+def save_contract(contract: PolicyContract, folder: Path) -> Path:
+    """Write a contract into a folder; returns its file."""
+    file = folder / CONTRACT
+    file.write_text(json.dumps(contract.to_dict(), indent=2) + "\n", encoding="utf-8")
+    return file
+
+
+def load_contract(file: Path) -> PolicyContract:
+    """Read a contract.
+
+    Raises:
+        FormatError: There is none, or it is damaged.
+    """
+    try:
+        return PolicyContract.from_dict(json.loads(file.read_text(encoding="utf-8")))
+    except FileNotFoundError as error:
+        hint = "'gazelle export RUN' writes it beside the policy"
+        raise FormatError("the policy has no contract", file=str(file), hint=hint) from error
+    except (ValueError, TypeError, AttributeError, TaskError) as error:
+        raise FormatError(f"not a policy's contract: {error}", file=str(file)) from error
+
+
+def run_contract(run: Run) -> PolicyContract:
+    """The contract of a run; of one that kept none, its environment is made once to ask it.
+
+    Raises:
+        FormatError: It is damaged.
+        TaskError: The task of the run is not there.
+    """
+    file = run.folder / CONTRACT
+    if file.is_file():
+        return load_contract(file)
+    load_all(run.config.imports)
+    env = make_task(run.config.task, 1, **run.config.options)
+    try:
+        return contract_of(env, run.config)
+    finally:
+        env.close()

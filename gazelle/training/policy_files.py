@@ -1,0 +1,112 @@
+"""A run's policy as files that go elsewhere: ONNX or numpy arrays, and the contract beside them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.envs.contract import PolicyContract
+from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.actor import Actor, load_actor
+from gazelle.training.contracts import CONTRACT, load_contract, run_contract
+from gazelle.training.recipes import task_name
+from gazelle.training.runs import Run
+
+FORMATS = {"onnx": ".onnx", "numpy": ".npz"}
+"""The formats by name, with the ends of their files' names."""
+
+
+@dataclass(frozen=True, slots=True)
+class PolicyFiles:
+    """What an export wrote."""
+
+    policy: Path
+    """The policy."""
+    contract: Path
+    """What it sees and does, as JSON; see `PolicyContract`."""
+
+
+def export_policy(
+    run: str | Path,
+    format: str = "onnx",  # noqa: A002  # the word of the command line
+    out: str | Path | None = None,
+) -> PolicyFiles:
+    """Write a run's policy for use elsewhere, and its contract beside it.
+
+    Both formats act as Stable-Baselines3's ``predict(observation, deterministic=True)`` does, on
+    observations as the task gives them: scaling, features and the bounds of actions are inside.
+    `load_actor` reads the numpy file, which needs neither torch nor pickle.
+
+    Args:
+        run: The run's folder.
+        format: ``onnx`` or ``numpy``.
+        out: The policy's file, or a folder for it; by default the folder ``export`` of the run.
+            Its name is then the task's. The contract's is the same, ending in ``.json``.
+
+    Raises:
+        TaskError: There is no such format, or the files cannot be written.
+        FormatError: The run is damaged or has no policy yet.
+        MissingExtraError: The package ``onnx`` is not installed.
+    """
+    if format not in FORMATS:
+        hint = did_you_mean(format, FORMATS)
+        raise TaskError(f"there is no format '{format}' for policies", hint=hint)
+    found = Run.open(Path(run))
+    actor = load_actor(found.policy_file())
+    contract = run_contract(found)
+    if actor.inputs != contract.size:
+        raise TaskError(
+            f"the policy takes {actor.inputs} numbers, the contract tells {contract.size}",
+            hint="the run's contract.json is of another task; remove it to have it made again",
+        )
+    policy = _place(found, FORMATS[format], None if out is None else Path(out))
+    beside = policy.with_suffix(".json")
+    try:
+        policy.parent.mkdir(parents=True, exist_ok=True)
+        _write(actor, contract, policy)
+        beside.write_text(json.dumps(contract.to_dict(), indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        hint = "give another file with --out"
+        raise TaskError(f"cannot write the policy: {error}", hint=hint) from error
+    return PolicyFiles(policy, beside)
+
+
+def load_policy(source: str | Path) -> tuple[Path, PolicyContract]:
+    """The file of a policy and its contract.
+
+    Args:
+        source: Folder of a run, or a file that `export_policy` wrote.
+
+    Raises:
+        FormatError: There is none, or the contract is missing or damaged.
+    """
+    path = Path(source)
+    if path.is_dir():
+        run = Run.open(path)
+        return run.policy_file(), run_contract(run)
+    if path.name == "policy.npz" and (path.parent / CONTRACT).is_file():
+        return path, load_contract(path.parent / CONTRACT)
+    return path, load_contract(path.with_suffix(".json"))
+
+
+def _place(run: Run, suffix: str, out: Path | None) -> Path:
+    name = task_name(run.config.task) + suffix
+    if out is None:
+        return run.folder / "export" / name
+    if out.suffix == suffix:
+        return out
+    if out.suffix in FORMATS.values():
+        raise TaskError(f"the file should end in {suffix}, not in {out.suffix}")
+    return out / name
+
+
+def _write(actor: Actor, contract: PolicyContract, file: Path) -> None:
+    if file.suffix == ".npz":
+        actor.save(file)
+        return
+    from gazelle.training.onnx_graph import onnx_model
+
+    text = json.dumps(contract.to_dict())
+    model = onnx_model(actor, metadata={"gazelle_contract": text})
+    file.write_bytes(model.SerializeToString())
