@@ -14,6 +14,7 @@ from gazelle.clients.descriptions import load_parameters, load_urdf, read_urdf
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.hosting import SimulatorProcess
+from gazelle.clients.joint_commands import JointCommander
 from gazelle.clients.motion import Driver
 from gazelle.clients.performance import PerformanceWatch, Sample
 from gazelle.clients.physics import PhysicsSettings
@@ -21,6 +22,13 @@ from gazelle.clients.poses import ModelState
 from gazelle.clients.processes import Processes
 from gazelle.clients.spawning import spawn_robot
 from gazelle.clients.states import LiveStates
+from gazelle.clients.trajectories import (
+    JointWaypoint,
+    TrajectoryClient,
+    TrajectoryOutcome,
+    TrajectoryProgress,
+    TrajectoryRun,
+)
 
 __all__ = [
     "AGV",
@@ -29,6 +37,8 @@ __all__ = [
     "Controllers",
     "Driver",
     "Gazebo",
+    "JointCommander",
+    "JointWaypoint",
     "LiveStates",
     "ModelState",
     "PerformanceWatch",
@@ -36,6 +46,10 @@ __all__ = [
     "Processes",
     "Sample",
     "SimulatorProcess",
+    "TrajectoryClient",
+    "TrajectoryOutcome",
+    "TrajectoryProgress",
+    "TrajectoryRun",
     "load_parameters",
     "load_urdf",
     "read_urdf",

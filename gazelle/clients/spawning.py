@@ -43,8 +43,7 @@ def spawn_robot(
         where: As for ``Gazebo.spawn_sdf``.
 
     Raises:
-        ClientError: A file is missing, or the robot cannot be spawned.
-        RosError: A controller cannot be started.
+        ClientError: A file is missing, or the robot cannot be spawned, or a controller not started.
     """
     space = "/" + namespace.strip("/")
     prefix = space.rstrip("/")
@@ -66,6 +65,5 @@ def spawn_robot(
     if controller_file is not None:
         load_parameters(gazebo.node, controller_file, package=package, namespace=prefix)
     if controllers:
-        manager = Controllers(gazebo.node, prefix)
-        manager.spawn(controllers)
-        manager.close()
+        with Controllers(gazebo.node, prefix) as manager:
+            manager.spawn(controllers)

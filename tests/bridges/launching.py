@@ -150,3 +150,23 @@ def environment(uri, corpus, folder):
         "TURTLEBOT3_MODEL": "burger",
         "PYTHONUNBUFFERED": "1",
     }
+
+
+def stub_packages(folder, files):
+    """A folder with packages of empty xacro files, by name.
+
+    Args:
+        folder: A new folder is made in it.
+        files: Names of files without ``.urdf.xacro``, by package.
+    """
+    packages = folder / "packages"
+    packages.mkdir()
+    for name, stems in files.items():
+        urdf = packages / name / "urdf"
+        urdf.mkdir(parents=True)
+        manifest = f"<package format='2'><name>{name}</name><version>0.0.0</version></package>"
+        urdf.with_name("package.xml").write_text(manifest, encoding="utf-8")
+        for stem in stems:
+            empty = "<robot xmlns:xacro='http://ros.org/wiki/xacro'/>"
+            (urdf / f"{stem}.urdf.xacro").write_text(empty, encoding="utf-8")
+    return packages

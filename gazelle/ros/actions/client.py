@@ -196,6 +196,16 @@ class ActionClient:
             node.subscribe(f"{name}/feedback", self.types.action_feedback, self._take_feedback),
         )
 
+    @property
+    def connected(self) -> bool:
+        """Whether all five topics lead to the server that lists goals."""
+        return bool(
+            self._status_from
+            and self._goal.num_connections
+            and self._cancel.num_connections
+            and all(subscriber.num_connections for subscriber in self._subscribers)
+        )
+
     def send_goal(
         self,
         goal: Any,
@@ -239,7 +249,7 @@ class ActionClient:
         Returns:
             Whether it is there.
         """
-        return wait(self.node, self._heard, self._connected, timeout)
+        return wait(self.node, self._heard, lambda: self.connected, timeout)
 
     wait_for_action_server_to_start = wait_for_server
 
@@ -247,15 +257,6 @@ class ActionClient:
         """Close the topics."""
         for each in (*self._subscribers, self._goal, self._cancel):
             each.close()
-
-    def _connected(self) -> bool:
-        """Whether all five topics lead to the server that lists goals."""
-        return bool(
-            self._status_from
-            and self._goal.num_connections
-            and self._cancel.num_connections
-            and all(subscriber.num_connections for subscriber in self._subscribers)
-        )
 
     # What comes in -----------------------------------------------------------------------------
 

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import contextlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import pytest
-from launching import Launched
+from launch_table import HUSKY_INCLUDES
+from launching import Launched, stub_packages
 from ros.graph import until
 
 from gazelle.errors import RosError
-from gazelle.ros import Master, load_message, load_service
+from gazelle.ros import Master, Node, load_message, load_service
+from gazelle.ros.messages.yaml import fill_message_args
 
-pytestmark = [pytest.mark.corpus, pytest.mark.slow]
+DATA = Path(__file__).parents[2] / "data"
 PATIENCE_S = 120.0
 
 
@@ -26,8 +31,11 @@ class Controlled:
         joint: That it moves.
         by: How far at least [rad or m].
         kind: Of the command.
-        fields: Of its message; nested by ``.``.
+        fields: Of its message.
         space: Namespace of the manager.
+        description: File whose text is the parameter ``robot_description`` beforehand, where the
+            launch files leave it to their user.
+        stubs: Packages that the files name and do not use, with their files; the corpus has none.
     """
 
     files: tuple[str, ...]
@@ -36,13 +44,63 @@ class Controlled:
     joint: str
     by: float
     kind: str = "std_msgs/Float64"
-    fields: tuple[tuple[str, object], ...] = (("data", 0.5),)
+    fields: Mapping[str, object] = field(default_factory=lambda: {"data": 0.5})
     space: str = ""
+    description: str = ""
+    stubs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        """What the test is called."""
+        return self.description.rpartition("/")[2] or self.files[-1]
 
 
 TWIST = "geometry_msgs/Twist"
-AHEAD = (("linear.x", 0.2),)
+AHEAD = {"linear": {"x": 0.2}}
 R2D2 = "r2d2_joint_state_controller r2d2_head_controller"
+TRAJECTORY = "trajectory_msgs/JointTrajectory"
+
+
+def _there(**targets):
+    """A trajectory of one point, two seconds away."""
+    point = {"positions": [*targets.values()], "time_from_start": {"secs": 2}}
+    return {"joint_names": [*targets], "points": [point]}
+
+
+def _arm(name):
+    """An arm of Universal Robots with its own launch file and controllers."""
+    wrists = {f"wrist_{number}_joint": 0.0 for number in (1, 2, 3)}
+    return Controlled(
+        (f"ur_gazebo {name}_bringup.launch gui:=false",),
+        "joint_state_controller eff_joint_traj_controller",
+        "eff_joint_traj_controller/command",
+        "shoulder_pan_joint",
+        0.4,
+        TRAJECTORY,
+        _there(shoulder_pan_joint=0.5, shoulder_lift_joint=-0.5, elbow_joint=0.0, **wrists),
+    )
+
+
+def _legs(file, name=""):
+    """A walking robot, whose description its user puts on the parameter server."""
+    joints = [
+        f"{leg}_{part}_joint"
+        for leg in ("lf", "rf", "lh", "rh")
+        for part in ("hip", "upper_leg", "lower_leg")
+    ]
+    options = f"gazebo_world:=worlds/empty.world robot_name:=/{name}"
+    return Controlled(
+        (f"champ_gazebo gazebo.launch gui:=false {options}",),
+        "joint_states_controller joint_group_position_controller",
+        "joint_group_position_controller/command",
+        "lf_lower_leg_joint",
+        0.3,
+        TRAJECTORY,
+        _there(**{name: (0.0, 0.5, -1.0)[index % 3] for index, name in enumerate(joints)}),
+        space=f"/{name}".rstrip("/"),
+        description=f"chvmp__champ/champ_description/urdf/{file}",
+    )
+
+
 TABLE = [
     Controlled(
         ("rrbot_gazebo rrbot_world.launch gui:=false", "rrbot_control rrbot_control.launch"),
@@ -66,7 +124,7 @@ TABLE = [
         "left_gripper_joint",
         0.4,
         "std_msgs/Float64MultiArray",
-        (("data", [-0.1, 0.5, 0.5]),),
+        {"data": [-0.1, 0.5, 0.5]},
     ),
     Controlled(
         ("urdf_sim_tutorial 13-diffdrive.launch gui:=false",),
@@ -77,17 +135,51 @@ TABLE = [
         TWIST,
         AHEAD,
     ),
+    Controlled(
+        ("husky_gazebo empty_world.launch gui:=false",),
+        "husky_joint_publisher husky_velocity_controller",
+        "husky_velocity_controller/cmd_vel",
+        "front_left_wheel",
+        1.0,
+        TWIST,
+        AHEAD,
+        stubs=HUSKY_INCLUDES,
+    ),
+    *(
+        _arm(name)
+        for name in ("ur3", "ur3e", "ur5", "ur5e", "ur10", "ur10e", "ur16e", "ur20", "ur30")
+    ),
+    _legs("champ.urdf"),
+    _legs("champ_velodyne.urdf"),
+    _legs("champ_arm.urdf", "champ"),
 ]
 
 
-def fill(message, fields):
-    for path, value in fields:
-        *parents, last = path.split(".")
-        part = message
-        for each in parents:
-            part = getattr(part, each)
-        setattr(part, last, value)
-    return message
+LIFT = ("lifting_arm lifting_arm.launch",)
+ALL = "joints lifter turner spinner"
+OWN = [
+    Controlled(
+        LIFT, ALL, "lifter/command", "lift", 0.15, TRAJECTORY, _there(lift=0.2), space="/lift"
+    ),
+    Controlled(
+        ("lifting_arm lifting_arm.launch space:=/other/place",),
+        ALL,
+        "turner/command",
+        "turn",
+        0.4,
+        space="/other/place",
+    ),
+    Controlled(
+        LIFT,
+        ALL,
+        "spinner/command",
+        "spin",
+        1.0,
+        "std_msgs/Float64MultiArray",
+        {"data": [5.0]},
+        "/lift",
+    ),
+]
 
 
 class Watched:
@@ -112,34 +204,62 @@ class Watched:
         return {each.name for each in found if each.state == "running"}
 
 
-@pytest.mark.parametrize("case", TABLE, ids=lambda case: case.files[-1])
+@pytest.mark.corpus
+@pytest.mark.slow
+@pytest.mark.parametrize("case", TABLE, ids=str)
 def test_controllers_of_a_launch_file_move_its_robot(case, corpus, tmp_path):
-    first, *rest = case.files
-    with Master(port=0) as master, Launched(master.uri, corpus, tmp_path, first) as launched:
-        folders = [tmp_path / str(number) for number in range(len(rest))]
-        for folder in folders:
-            folder.mkdir()
-        others = [
-            Launched(master.uri, corpus, folder, file, f"/watcher_{folder.name}")
-            for folder, file in zip(folders, rest, strict=True)
-        ]
+    bring_up(case, corpus, tmp_path)
+
+
+def test_those_of_a_small_package_do_too(tmp_path):
+    bring_up(OWN[0], DATA, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", OWN[1:], ids=lambda case: case.joint)
+def test_its_other_joints_are_moved(case, tmp_path):
+    bring_up(case, DATA, tmp_path)
+
+
+def bring_up(case, folder, scratch):
+    """Start the launch files among the packages of a folder, and look at what they do."""
+    with Master(port=0) as master, contextlib.ExitStack() as stack:
+        if case.description:
+            text = (folder / case.description).read_text(encoding="utf-8")
+            stack.enter_context(Node("user", master_uri=master.uri)).set_param(
+                f"{case.space}/robot_description", text
+            )
+        packages = f"{stub_packages(scratch, case.stubs)}:{folder}"
+        launched = []
+        for number, file in enumerate(case.files):
+            home = scratch / str(number)
+            home.mkdir()
+            name = f"/watcher_{number}"
+            launched.append(stack.enter_context(Launched(master.uri, packages, home, file, name)))
         try:
-            watched = Watched(launched.node, case)
-            until(lambda: set(case.running.split()) <= watched.running(), PATIENCE_S)
-            until(lambda: case.joint in watched.positions, PATIENCE_S)
-            start = watched.positions[case.joint]
-            kind = load_message(case.kind)
-            publisher = launched.node.advertise(f"{case.space}/{case.topic}", kind)
-
-            def moved():
-                publisher.publish(fill(kind(), case.fields))
-                return abs(watched.positions[case.joint] - start) > case.by
-
-            until(moved, PATIENCE_S)
-            assert "Traceback" not in launched.said
+            check(case, launched[0])
         except BaseException:
-            print(launched.said, *(each.said for each in others), sep="\n----\n")
+            print(*(each.said for each in launched), sep="\n----\n")
             raise
-        finally:
-            for each in others:
-                each.close()
+
+
+def check(case, launched):
+    """The controllers run, joint states come, and a command moves the joint."""
+    watched = Watched(launched.node, case)
+    until(lambda: set(case.running.split()) <= watched.running(), PATIENCE_S)
+    until(lambda: case.joint in watched.positions, PATIENCE_S)
+    start = watched.positions[case.joint]
+    kind = load_message(case.kind)
+    message = kind()
+    fill_message_args(message, [case.fields])
+    publisher = launched.node.advertise(f"{case.space}/{case.topic}", kind)
+    until(lambda: publisher.num_connections, PATIENCE_S)
+    publisher.publish(message)
+
+    def moved():
+        if case.kind == TWIST:  # those of bases are soon too old
+            publisher.publish(message)
+        return abs(watched.positions[case.joint] - start) > case.by
+
+    until(moved, PATIENCE_S)
+    assert "Traceback" not in launched.said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from launch_table import HUSKY, HUSKY_INCLUDES, QUICK, REFUSED, SLOW
-from launching import Launched
+from launching import Launched, stub_packages
 from ros.graph import until
 
 from gazelle.ros import Master
@@ -43,15 +43,8 @@ def test_this_one_too(expected, corpus, tmp_path):
 
 @pytest.mark.slow
 def test_the_husky_comes_up_where_the_packages_it_includes_are(corpus, tmp_path):
-    for name, files in HUSKY_INCLUDES.items():
-        folder = tmp_path / "packages" / name / "urdf"
-        folder.mkdir(parents=True)
-        manifest = f"<package format='2'><name>{name}</name><version>0.0.0</version></package>"
-        folder.with_name("package.xml").write_text(manifest, encoding="utf-8")
-        for file in files:
-            empty = "<robot xmlns:xacro='http://ros.org/wiki/xacro'/>"
-            (folder / f"{file}.urdf.xacro").write_text(empty, encoding="utf-8")
-    check(HUSKY, f"{tmp_path / 'packages'}:{corpus}", tmp_path)
+    packages = stub_packages(tmp_path, HUSKY_INCLUDES)
+    check(HUSKY, f"{packages}:{corpus}", tmp_path)
 
 
 @pytest.mark.slow
