@@ -71,6 +71,44 @@ def test_a_cart_on_wheels_of_any_width_turns_in_place_as_kinematics_say(width, m
     assert abs(turned) == pytest.approx(rate * seconds, rel=0.01)
 
 
+def contacts_of(engine, part):
+    """Places and depths of the contacts of shapes with a word in their names."""
+    model, data = engine._batch.model, engine._batch.get_data(0)
+    mujoco.mj_forward(model, data)
+    names = [model.geom(geom).name for geom in range(model.ngeom)]
+    touching = [c for c in data.contact if any(part in names[geom] for geom in c.geom)]
+    return [c.pos.copy() for c in touching], [c.dist for c in touching]
+
+
+@pytest.mark.parametrize("friction", MODELS)
+@pytest.mark.parametrize("width", [0.02, 0.1, 0.2])
+@pytest.mark.parametrize("roll", [-math.pi / 2.0, -1.57, 1.5715])
+def test_a_level_wheel_has_one_contact(width, roll, friction):
+    """Both edges say the same from the middle, and the solver would pay for it."""
+    world = scenes.world(scenes.ground(), scenes.cart(width, roll=roll))
+    ode = replace(world.profile.ode, friction_model=friction)
+    engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
+    engine.step(200)
+    for side, y in (("left", TRACK / 2.0), ("right", -TRACK / 2.0)):
+        ((place,), (depth,)) = contacts_of(engine, side)
+        higher = width / 2.0 * abs(math.cos(roll))  # an edge is, than the middle
+        assert place[1] == pytest.approx(y, abs=1e-6 + 1.1 * width / 2.0 * higher / 1e-3)
+        assert -1e-4 < depth < 1e-4
+
+
+def test_what_is_no_wheel_or_leans_keeps_all_of_its_contacts():
+    drum = scenes.solid("drum", Cylinder(0.1, 0.1), pose=Pose(z=0.1, roll=math.pi / 2.0))
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), drum))
+    engine.step(100)
+    assert len(contacts_of(engine, "drum")[0]) == 2  # both ends of what lies loose
+    steep = scenes.cart(0.1, roll=-math.pi / 2.0 + 0.05)
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), steep))
+    engine.step(1)
+    for side, y in (("left", TRACK / 2.0), ("right", -TRACK / 2.0)):
+        places, _ = contacts_of(engine, side)
+        assert all(abs(place[1] - y) > 0.04 for place in places)  # on an edge
+
+
 def test_a_roller_alone_stands_and_what_leans_stands_on_its_edge():
     """The middle bears as long as the edges are level; then the lower one does."""
     for lean, falls in ((0.0, False), (0.05, False), (0.6, True)):

@@ -15,7 +15,7 @@ the contact about an axis w they change by w x shift.
 # mypy: disallow-untyped-decorators=False
 
 import cython
-from cython.cimports.gazelle.engines.mujoco.laws.numbers import GEOM_NUMBERS, MIDDLE, TREAD
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import GEOM_NUMBERS, MARK, MIDDLE, TREAD
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
 from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.gazelle.native.memory import floats, integers, word
@@ -59,6 +59,29 @@ def stand_in_the_middle(touch: cython.pointer[Touch]) -> cython.void:
                 place[axis] += shift[axis]
             _move(touch, shift)
             return
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def is_level_tread(
+    model: cython.size_t, geom: cython.int, lean: cython.double, half: cython.double
+) -> cython.bint:
+    """Whether a cylinder is the tread of a wheel that stands on its middle rather than an edge.
+
+    Args:
+        model: Address of the ``mjModel``.
+        geom: The cylinder.
+        lean: Sine of the angle between its axis and the ground.
+        half: Half its length [m].
+    """
+    if word(model + AT.model_nnumeric) == 0:
+        return False
+    head = floats(word(model + AT.model_numeric))
+    if head[0] != MARK or head[5] == 0.0:
+        return False
+    own = floats(word(model + AT.model_geom_user) + 8 * GEOM_NUMBERS * geom)
+    return own[TREAD] > 0.0 and abs(lean) < _STEEP and abs(lean) * half < _GIVES
 
 
 @cython.cfunc

@@ -5,12 +5,17 @@ across the axis. For a cylinder that stands upright that part is rounding, of an
 the normal it has no contact, or one as deep as its radius, and a disc that spins where it
 stands falls through the ground or is shot into the air. This does the same sums, but tells
 upright from leaning by a hundred-millionth of a radian.
+
+A wheel that is level touches with both edges of its tread. It stands on the middle of it (``treads``),
+and two contacts in one place say everything twice, which costs the solver half as much again.
+So such a wheel has the contact of its lower edge only.
 """
 
 # mypy: disallow-untyped-decorators=False
 
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
+from cython.cimports.gazelle.engines.mujoco.laws.treads import is_level_tread
 from cython.cimports.gazelle.native.memory import floats, word
 from cython.cimports.libc.math import sqrt
 
@@ -74,6 +79,8 @@ def plane_cylinder(
         return 0
     count = 1
     _write(found, 0, near + low, centre, down, 1.0, rim, 1.0, side, normal)
+    if is_level_tread(model, cylinder, lean, size[1]):
+        return 1
     if far + low <= margin:
         _write(found, 1, far + low, centre, down, -1.0, rim, 1.0, side, normal)
         count = 2
