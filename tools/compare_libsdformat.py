@@ -1,8 +1,8 @@
 """Count how many description files `gazelle convert` and libsdformat make the same of.
 
-Every SDF, URDF and xacro file of some folders is written as SDF by both, and what they write is compared
-value by value, as tests/formats/test_oracle.py does it. Needs `ign sdf` (Debian: libsdformat-dev
-ignition-tools). A share of many files is `--part 1/10`.
+Every SDF, URDF and xacro file of some folders is written as SDF by both, and what they write is
+compared value by value, as tests/formats/test_oracle.py does it. Needs `ign sdf` (Debian:
+libsdformat-dev ignition-tools). A share of many files is `--part 1/10`.
 
     python tools/compare_libsdformat.py ../shared/corpus
 """
@@ -22,7 +22,9 @@ from xml.etree.ElementTree import ParseError
 ROOT = Path(__file__).parent.parent
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "formats")]
 
-MOST_SHOWN = 3
+EQUAL = "equal"
+DIFFERENT = ("different joint types", "different")
+FAULTY = "different, of a file that `ign sdf -k` finds wrong"
 
 
 @dataclass
@@ -35,93 +37,106 @@ class Outcome:
 
 def main() -> None:
     """Print what became of how many files, and what differs."""
-    args = _arguments()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", type=lambda text: Path(text).absolute())
+    parser.add_argument("--part", default="1/1", metavar="K/N", help="only the Kth of N shares")
+    parser.add_argument("--most", type=int, default=3, help="differences shown of a file")
+    args = parser.parse_args()
     part, parts = map(int, args.part.split("/"))
     counted: collections.Counter[str] = collections.Counter()
     for folder in args.folders:
         roots = sorted({str(config.parent.parent) for config in folder.rglob("model.config")})
-        for path in _files(folder)[part - 1 :: parts]:
-            outcome = _judged(path, folder, roots)
+        for path in files(folder)[part - 1 :: parts]:
+            outcome = judged(path, folder, roots)
             counted[outcome.said] += 1
-            if outcome.found or args.verbose:
-                print(f"{outcome.said}: {path.relative_to(folder)}")
-            for line in outcome.found[: args.most]:
-                print(f"    {line}")
-    _print_shares(counted)
+            for line in [f"{outcome.said}: {path}", *outcome.found][: args.most + 1]:
+                if outcome.found:
+                    print(line if line.startswith(outcome.said) else f"    {line}", flush=True)
+    show(counted)
 
 
-def _arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="+", type=lambda text: Path(text).absolute())
-    parser.add_argument("--part", default="1/1", metavar="K/N", help="only the Kth of N shares")
-    parser.add_argument("--most", type=int, default=MOST_SHOWN, help="lines shown of a file")
-    parser.add_argument("--verbose", action="store_true", help="name every file")
-    return parser.parse_args()
-
-
-def _files(folder: Path) -> list[Path]:
+def files(folder: Path) -> list[Path]:
+    """The description files below a folder."""
     import corpus_table
 
     return corpus_table.files(folder, "sdf", "world", "urdf", "xacro")
 
 
-def _judged(path: Path, folder: Path, roots: list[str]) -> Outcome:
-    with tempfile.TemporaryDirectory() as scratch, warnings.catch_warnings(record=True) as notes:
-        warnings.simplefilter("always")
-        try:
-            return _compared(path, folder, roots, Path(scratch), notes)
-        except (ParseError, KeyError, RecursionError) as error:
-            # libsdformat printed what is no XML, or a frame that is not there
-            return Outcome("unreadable from libsdformat", [f"{type(error).__name__}: {error}"[:200]])
+def judged(path: Path, folder: Path, roots: list[str]) -> Outcome:
+    """What the two make of a file; xacro is expanded by Gazelle for both."""
+    import test_oracle
+
+    from gazelle import Error
+
+    with tempfile.TemporaryDirectory() as scratch:
+        file = path
+        if path.suffix == ".xacro":
+            file = Path(scratch) / "robot.urdf"
+            try:
+                text = test_oracle.expanded(path, folder)
+            except Error:
+                return Outcome("no xacro that can be expanded alone")
+            if not re.search(r"<robot[^>]* name=", text) or "<link" not in text:
+                return Outcome("xacro without a robot")
+            file.write_text(text, encoding="utf-8")
+        if file.suffix == ".urdf":
+            return compared(file, [folder], test_oracle.oracle(file, roots), robot=True)
+        return compared(file, roots, test_oracle.oracle(file, roots), robot=False)
 
 
-def _compared(path, folder, roots, scratch, notes) -> Outcome:
-    from test_oracle import compared, complaints, expanded, oracle, unexpected
+def compared(
+    file: Path, paths: list[Path] | list[str], theirs: str | None, *, robot: bool
+) -> Outcome:
+    """Whether Gazelle writes the same as libsdformat."""
+    import test_oracle
 
-    from gazelle import Error, formats
-
-    robot = path.suffix in {".urdf", ".xacro"}
-    file = path
-    if path.suffix == ".xacro":
-        try:
-            text = expanded(path, folder)
-        except Error as error:
-            return Outcome("xacro that cannot be expanded alone")
-        if not re.search(r"<robot[^>]* name=", text) or "<link" not in text:
-            return Outcome("xacro without a robot")
-        file = scratch / "robot.urdf"
-        file.write_text(text)
-    theirs = oracle(file, roots)
-    if theirs is not None and not re.search("<(link|model|world|actor|light)", theirs):
-        theirs = None
-    try:
-        world = formats.load(file, paths=[folder] if robot else roots)
-        is_world = theirs is not None and "<world" in theirs
-        content = world if is_world else world.models[0]
-        ours = formats.to_string(content, "sdf", folder=file.parent)
-    except (Error, IndexError) as error:
-        if theirs is None:
-            return Outcome("refused by both")
-        return Outcome("refused by Gazelle alone", [str(error)])
+    if theirs is None or ("<link" if robot else "<") not in theirs:
+        theirs = None  # robots of which libsdformat drops everything, as they weigh nothing
+    ours = written(file, paths, is_world="<world" in (theirs or ""))
+    if isinstance(ours, Outcome):
+        return Outcome("refused by both") if theirs is None and ours.found else ours
     if theirs is None:
         return Outcome("refused by libsdformat alone")
-    if not robot and any("not found" in str(each.message) for each in notes):
+    try:
+        found = test_oracle.compared(ours, theirs)
+    except (ParseError, KeyError, RecursionError) as error:
+        said = f"{type(error).__name__}: {error}"[:100]
+        return Outcome("unreadable from libsdformat", [said])  # no XML, or frames that are not
+    found = found if robot else test_oracle.unexpected(found)
+    if not found:
+        return Outcome(EQUAL)
+    if not robot and test_oracle.complaints(file):
+        return Outcome(FAULTY, found)
+    types = any(re.search(r"/joint\[[^/]*\]@type", line) for line in found)
+    return Outcome(DIFFERENT[0] if types else DIFFERENT[1], found)
+
+
+def written(file: Path, paths: list[Path] | list[str], *, is_world: bool) -> str | Outcome:
+    """The file as Gazelle writes it."""
+    from gazelle import Error, formats
+
+    with warnings.catch_warnings(record=True) as notes:
+        warnings.simplefilter("always")
+        try:
+            world = formats.load(file, paths=paths)
+            if not (is_world or world.models):
+                return Outcome("without a model")
+            content = world if is_world else world.models[0]
+            text = formats.to_string(content, "sdf", folder=file.parent)
+        except Error as error:
+            return Outcome("refused by Gazelle alone", [str(error)])
+    if file.suffix != ".urdf" and any("not found" in str(each.message) for each in notes):
         return Outcome("includes what is not there")
-    found = compared(ours, theirs)
-    found = found if robot else unexpected(found)
-    if found and not robot and complaints(file):
-        return Outcome("different, with an error of `ign sdf -k`", found)
-    if any(re.search(r"/joint\[[^/]*\]@type", line) for line in found):
-        return Outcome("different joint types", found)
-    return Outcome("different" if found else "equal", found)
+    return text
 
 
-def _print_shares(counted: collections.Counter[str]) -> None:
+def show(counted: collections.Counter[str]) -> None:
+    """Print the counts, and the share that is equal."""
     for said, count in counted.most_common():
         print(f"{count:6d} {said}")
-    compared = sum(counted[said] for said in ("equal", "different", "different joint types"))
-    if compared:
-        print(f"equal: {counted['equal']} of {compared}, {100.0 * counted['equal'] / compared:.1f} %")
+    total = sum(counted[said] for said in (EQUAL, *DIFFERENT))
+    if total:
+        print(f"equal: {counted[EQUAL]} of {total}, {100.0 * counted[EQUAL] / total:.1f} %")
 
 
 if __name__ == "__main__":
