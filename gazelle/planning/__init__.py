@@ -1,0 +1,28 @@
+"""Arms: groups of joints, kinematics, planning scenes, plans and trajectories, without ROS.
+
+``Group`` plans for a robot in a running simulation; all below it works on descriptions alone.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
+from gazelle.planning.inverse import IkSolutions, InverseKinematics
+from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.robot_model import RobotModel
+from gazelle.planning.tree_builder import LinkFrame
+from gazelle.planning.variables import JointBounds, Variable
+
+__all__ = [
+    "IkSolutions",
+    "InverseKinematics",
+    "JointBounds",
+    "JointModelGroup",
+    "LinkFrame",
+    "RobotModel",
+    "Variable",
+]

@@ -1,0 +1,158 @@
+"""Inverse kinematics: positions of a group's joints that bring a link to a pose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Bools, Floats, Ints64
+from gazelle.description import Pose
+from gazelle.errors import PlanningError
+from gazelle.planning.chain_solver import ChainSolver
+from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.robot_model import RobotModel
+from gazelle.planning.tree_builder import flat
+
+Aim = Literal["pose", "position", "orientation"]
+
+_WEIGHTS: dict[str, tuple[float, ...]] = {
+    "pose": (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+    "position": (1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+    "orientation": (0.0, 0.0, 0.0, 1.0, 1.0, 1.0),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class IkSolutions:
+    """What inverse kinematics found for several poses.
+
+    Attributes:
+        positions: Of the group's joints [m or rad], NaN where none was found, shape (n, joints).
+        found: Where one was, shape (n,).
+        attempts: How many starts it took, shape (n,).
+    """
+
+    positions: Floats
+    found: Bools
+    attempts: Ints64
+
+
+class InverseKinematics:
+    """Brings one link of a group to poses.
+
+    It begins at the seed, then at positions drawn between the limits: the same ones for every pose,
+    so that a pose has the same solution whatever others are asked for with it.
+
+    Args:
+        robot: The robot.
+        group: Whose joints move.
+        link: That shall be there; the group's tip if None.
+        aim: ``pose``, or only its ``position`` or ``orientation``.
+        tolerance: Of the distance [m] and the angle [rad].
+        attempts: How often it begins, at most.
+        seed: Of the positions drawn.
+
+    Raises:
+        PlanningError: There is no such link, no joint of the group moves it, or an argument is wrong.
+    """
+
+    def __init__(
+        self,
+        robot: RobotModel,
+        group: JointModelGroup,
+        link: str | None = None,
+        *,
+        aim: Aim = "pose",
+        tolerance: tuple[float, float] = (1e-5, 1e-5),
+        attempts: int = 100,
+        seed: int = 0,
+    ) -> None:
+        if aim not in _WEIGHTS:
+            raise PlanningError(f"the aim is one of {', '.join(_WEIGHTS)}, not {aim!r}")
+        if attempts < 1 or min(tolerance) <= 0.0:
+            raise PlanningError("inverse kinematics needs an attempt, and tolerances above zero")
+        self.robot, self.group = robot, group
+        self.link = group.tip if link is None else link
+        self._weights, self._tolerance = np.array(_WEIGHTS[aim]), tolerance
+        frame = robot.link(self.link)
+        if self.link not in robot.moving(group.columns):
+            raise PlanningError(f"no joint of the group '{group.name}' moves '{self.link}'")
+        self._solver = ChainSolver(
+            robot.tree,
+            frame.joint,
+            np.array(flat(frame.offset)),
+            group.columns,
+            group.lower,
+            group.upper,
+        )
+        self._starts = group.sample(np.random.default_rng(seed), attempts)
+
+    def solve(
+        self,
+        pose: Pose,
+        state: ArrayLike | None = None,
+        *,
+        valid: Callable[[Floats], bool] | None = None,
+    ) -> Floats | None:
+        """Positions of the group's joints for one pose.
+
+        Args:
+            pose: In the robot's frame.
+            state: Of all variables: where it begins, and where other joints are; the zero state if
+                None. Shape (variables,).
+            valid: Asked of each solution, shape (joints,); what it refuses is looked for further.
+
+        Returns:
+            Shape (joints,); None if there is none.
+        """
+        full = self.robot.zero() if state is None else np.array(state, np.float64)
+        return self._solve_one(np.array(flat(pose)), full, valid)[0]
+
+    def solve_many(self, poses: ArrayLike, states: ArrayLike | None = None) -> IkSolutions:
+        """Positions for many poses, each by itself.
+
+        Args:
+            poses: Homogeneous transforms in the robot's frame, shape (n, 4, 4).
+            states: Shape (variables,) or (n, variables); see ``solve``.
+
+        Raises:
+            PlanningError: A shape is wrong.
+        """
+        wanted = np.asarray(poses, np.float64)
+        if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
+            raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
+        count = len(wanted)
+        given = self.robot.zero() if states is None else np.asarray(states, np.float64)
+        given = np.broadcast_to(given, (count, len(self.robot.variables)))
+        targets = np.concatenate((wanted[:, :3, :3].reshape(count, 9), wanted[:, :3, 3]), axis=1)
+        positions = np.full((count, len(self.group.variables)), np.nan)
+        attempts = np.zeros(count, np.int64)
+        for number in range(count):
+            made, attempts[number] = self._solve_one(targets[number], given[number].copy(), None)
+            if made is not None:
+                positions[number] = made
+        return IkSolutions(positions, np.isfinite(positions).all(axis=1), attempts)
+
+    def _solve_one(
+        self, target: Floats, state: Floats, valid: Callable[[Floats], bool] | None
+    ) -> tuple[Floats | None, int]:
+        """Positions and how often it began; ``state`` is written into."""
+        columns = self.group.columns
+        seed = np.clip(state[columns], self.group.lower, self.group.upper)
+        starts = np.concatenate((seed[None], self._starts[1:]))
+        tried = 0
+        while tried < len(starts):
+            index = self._solver.solve(
+                target, starts[tried:], state, self._weights, self._tolerance
+            )
+            if index < 0:
+                return None, len(starts)
+            tried += index + 1
+            found = seed + self.group.difference(seed, state[columns])
+            if valid is None or valid(found):
+                return found, tried
+        return None, len(starts)

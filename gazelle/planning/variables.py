@@ -1,0 +1,130 @@
+"""Variables of a robot: one position each, with the limits that plans and trajectories keep."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from gazelle.description import Joint
+from gazelle.errors import PlanningError, did_you_mean
+
+_PARAMETERS = (
+    "has_position_limits",
+    "min_position",
+    "max_position",
+    "has_velocity_limits",
+    "max_velocity",
+    "has_acceleration_limits",
+    "max_acceleration",
+    "has_jerk_limits",
+    "max_jerk",
+    "has_effort_limits",
+    "max_effort",
+    "angle_wraparound",
+    "has_soft_limits",
+    "k_position",
+    "k_velocity",
+    "soft_lower_limit",
+    "soft_upper_limit",
+    "max_deceleration",
+    "has_deceleration_limits",
+)
+"""Of a joint in ``joint_limits.yaml``; soft, effort and jerk limits have no part in planning."""
+
+
+@dataclass(frozen=True, slots=True)
+class JointBounds:
+    """Limits of one variable.
+
+    Attributes:
+        lower: [m or rad].
+        upper: [m or rad].
+        velocity: Largest speed [m/s or rad/s]; infinite where nobody says.
+        acceleration: Largest acceleration [m/s² or rad/s²]; infinite where nobody says.
+    """
+
+    lower: float = -math.inf
+    upper: float = math.inf
+    velocity: float = math.inf
+    acceleration: float = math.inf
+
+    def with_parameters(self, given: Mapping[str, Any], joint: str = "") -> JointBounds:
+        """These limits as an entry of MoveIt's ``joint_limits.yaml`` changes them.
+
+        Args:
+            given: Such as ``{"has_velocity_limits": True, "max_velocity": 1.0}``; a limit whose
+                ``has_...`` is False is none.
+            joint: For messages.
+
+        Raises:
+            PlanningError: A value is no number, or a name is unknown.
+        """
+        for name in given:
+            if name not in _PARAMETERS:
+                raise PlanningError(
+                    f"'{name}' of joint '{joint}' is no limit", hint=did_you_mean(name, _PARAMETERS)
+                )
+        made = self
+        position = given.get("has_position_limits", "min_position" in given)
+        if position:
+            made = replace(
+                made,
+                lower=_number(given, "min_position", made.lower, joint),
+                upper=_number(given, "max_position", made.upper, joint),
+            )
+        elif "has_position_limits" in given:
+            made = replace(made, lower=-math.inf, upper=math.inf)
+        for kind in ("velocity", "acceleration"):
+            name = f"max_{kind}"
+            if given.get(f"has_{kind}_limits", name in given):
+                made = replace(made, **{kind: _number(given, name, getattr(made, kind), joint)})
+            elif f"has_{kind}_limits" in given:
+                made = replace(made, **{kind: math.inf})
+        return made
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """One position of a robot.
+
+    Attributes:
+        name: Of the joint, or ``JOINT/x`` where a joint has several.
+        joint: Its joint.
+        kind: ``revolute``, ``continuous`` or ``prismatic``.
+        bounds: Its limits.
+        mimics: Whether it follows another one.
+    """
+
+    name: str
+    joint: str
+    kind: str
+    bounds: JointBounds
+    mimics: bool = False
+
+    @property
+    def endless(self) -> bool:
+        """Whether it turns without limits, so that a full turn changes nothing."""
+        unlimited = self.bounds.lower == -math.inf and self.bounds.upper == math.inf
+        return self.kind != "prismatic" and unlimited
+
+
+def bounds_of(joint: Joint) -> JointBounds:
+    """The limits that a description gives; the soft ones where it has them."""
+    axis = joint.axes[0]
+    lower, upper = axis.lower, axis.upper
+    safety = joint.safety
+    if safety is not None and (safety.soft_lower_limit, safety.soft_upper_limit) != (0.0, 0.0):
+        lower, upper = max(lower, safety.soft_lower_limit), min(upper, safety.soft_upper_limit)
+    if joint.type == "continuous":
+        lower, upper = -math.inf, math.inf
+    velocity = axis.velocity if axis.velocity > 0.0 else math.inf
+    return JointBounds(lower, upper, velocity)
+
+
+def _number(given: Mapping[str, Any], name: str, default: float, joint: str) -> float:
+    value = given.get(name, default)
+    if isinstance(value, bool) or not isinstance(value, int | float) or math.isnan(value):
+        raise PlanningError(f"'{name}' of joint '{joint}' is a number, not {value!r}")
+    return float(value)
