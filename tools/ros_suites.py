@@ -5,7 +5,9 @@
 
 Needs the real ROS 1 of Debian 12 (.ci/packages.txt) and the suites' sources: those of Debian's
 source packages (--fetch), or checkouts of ros/ros_comm at 1.15.15, ros/actionlib, ros/geometry and
-ros/geometry2 below one folder. Nothing of them is kept. The stacks are: real, the installed ROS
+ros/geometry2 below one folder. Debian packages neither ros_control nor ros_controllers, so theirs are run
+from checkouts of ros-controls/ros_control, ros_controllers and realtime_tools only, whose C++ clients are
+compiled with libroscpp-dev, libtf-dev, libactionlib-dev, libgtest-dev and python3-gencpp. Nothing of them is kept. The stacks are: real, the installed ROS
 alone; master, Gazelle's master under real clients; clients, Gazelle's modules and tools on the real
 master; both; alone, nothing real. Exits with 1 if a stack passes fewer tests than the real one is known to.
 """
@@ -20,9 +22,12 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from rossuites import generating, sources, stacks  # noqa: E402  # the path must come first
+from rossuites import compiling, generating, sources, stacks  # noqa: E402  # the path must come first
 from rossuites.catalogue import SUITES, Suite  # noqa: E402
+from rossuites.control import CONTROL  # noqa: E402
 from rossuites.running import Outcome, run  # noqa: E402
+
+ALL = (*SUITES, *CONTROL)
 
 
 def main() -> int:
@@ -40,6 +45,7 @@ def _parse() -> argparse.Namespace:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--sources", type=Path, help="folder with the suites' sources")
+    parser.add_argument("--build", type=Path, help="folder that keeps compiled clients")
     parser.add_argument("--fetch", action="store_true", help="fetch them from Debian")
     parser.add_argument("--stack", nargs="+", choices=stacks.STACKS, help="default: all but real")
     parser.add_argument("--only", nargs="+", metavar="SUITE", help="suites by name")
@@ -65,8 +71,8 @@ def _run(options: argparse.Namespace, scratch: Path) -> int:
         environment = _prepare(stack, found, scratch / name)
         for suite in _chosen(options, stack):
             if suite.package in found:
-                for program in suite.programs:
-                    sources.build(scratch / name / "packages" / suite.package / program)
+                build = options.build or scratch / "build"
+                _compile(suite, found, scratch / name / "packages" / suite.package, build)
                 # Their waits of a second or two do not fit a busy machine: a second try is shown, too.
                 good &= any(
                     _suite(suite, stack, environment, scratch / name, options.log)
@@ -78,9 +84,23 @@ def _run(options: argparse.Namespace, scratch: Path) -> int:
     return 0 if good else 1
 
 
+def _compile(suite: Suite, found: dict[str, Path], package: Path, folder: Path) -> None:
+    """Build the programs of a suite, and put the stand-ins of its robots beside them."""
+    for program in suite.programs:
+        sources.build(package / program)
+    stacks.put_robots(suite.robots, package)
+    clients = [
+        *suite.clients,
+        *(compiling.clients_of(package, suite.files) if suite.compiled else ()),
+    ]
+    wanted = [client for client in clients if client.name not in suite.robots]
+    for name, words in compiling.build(package, wanted, found, folder).items() if clients else ():
+        print(f"{name} cannot be compiled: {words[:500]}")
+
+
 def _prepare(stack: stacks.Stack, found: dict[str, Path], folder: Path) -> dict[str, str]:
     environment = stacks.lay_out(stack, folder)
-    names = {suite.package for suite in SUITES} | {"test_rosmaster"}
+    names = {suite.package for suite in ALL} | {"test_rosmaster"}
     sources.overlay(found, names, folder / "packages", folder / "bin" / "python")
     if not stack.launcher:  # real programs have no use of ours
         generating.generate(folder / "packages", folder / "generated")
@@ -90,10 +110,11 @@ def _prepare(stack: stacks.Stack, found: dict[str, Path], folder: Path) -> dict[
 def _chosen(options: argparse.Namespace, stack: stacks.Stack) -> list[Suite]:
     return [
         suite
-        for suite in SUITES
+        for suite in ALL
         if (options.only is None or suite.name in options.only)
         and (stack.name in suite.quick or not options.quick)
         and (not stack.replaces or suite.uses & stack.replaces)
+        and (not suite.only or stack.name in suite.only)
     ]
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+
+from rossuites.compiling import Client
 
 
 @dataclass(frozen=True)
@@ -18,6 +21,11 @@ class Suite:
         uses: Which parts it exercises; a stack that replaces none of them does not run it.
         programs: C++ sources in the package that its tests start as nodes.
         less: For a stack, how many fewer pass there, and the reason.
+        only: The stacks that run it; all if empty.
+        robots: Nodes of the package that a stand-in takes the place of: its file in ``robots`` and
+            arguments.
+        compiled: Whether the clients that its ``CMakeLists.txt`` declares are compiled.
+        clients: Further ones that it does not declare.
     """
 
     name: str
@@ -27,6 +35,10 @@ class Suite:
     uses: frozenset[str] = frozenset({"master", "clients"})
     programs: tuple[str, ...] = ()
     less: dict[str, tuple[int, str]] = field(default_factory=dict)
+    only: frozenset[str] = frozenset()
+    robots: Mapping[str, str] = field(default_factory=dict)
+    compiled: bool = False
+    clients: tuple[Client, ...] = ()
 
     @property
     def reference(self) -> int:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import stat
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 USED = "run-by-gazelle"
 """The file that lists the scripts which Gazelle ran."""
 
+_ROBOTS = Path(__file__).parent / "robots"
 GAZELLE = Path(sys.executable).parent / "gazelle"
 _TOOLS = {
     "rosbag": "bag",
@@ -100,6 +102,12 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
         "ROS_PYTHON_VERSION": "3",
         "MASTER_COMMAND": f"{GAZELLE} master --no-rosout --port {{port}}",
     }
+
+
+def put_robots(robots: Mapping[str, str], package: Path) -> None:
+    """Put programs in a package that start stand-ins of its robots, with Gazelle's Python."""
+    for name, command in robots.items():
+        _script(package / name, f'exec "{sys.executable}" "{_ROBOTS}/"{command} "$@"')
 
 
 # rostest and roslaunch name the port; what else they ask for only the real one knows.

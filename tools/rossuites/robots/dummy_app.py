@@ -6,6 +6,7 @@ The loop of the original takes a second; this one's period is a tenth of it.
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 
 from gazelle.bridges.control import HardwareLoop
 from gazelle.control import (
@@ -83,7 +84,7 @@ class DerivedController(ExtensibleController):
     claims = ((VELOCITY, "velocity_joint", None), (EFFORT, "effort_joint", None))
 
 
-def main() -> int:
+def main(joints: Sequence[str] = JOINTS) -> int:
     """Run until the node is asked to end."""
     for kind in (
         EffortTestController,
@@ -96,7 +97,7 @@ def main() -> int:
     ):
         register(f"{PACKAGE}/{kind.__name__}", kind)
     robot = RobotHardware()
-    robot.register_joints(JOINTS, {EFFORT: JOINTS, VELOCITY: JOINTS})
+    robot.register_joints(joints, {EFFORT: joints, VELOCITY: joints})
     node = parse_arguments(sys.argv[1:], "DummyApp").start()
     with node, HardwareLoop(node, ControllerManager(robot), RATE_HZ) as loop:
         loop.start()
