@@ -26,12 +26,12 @@ class Client:
 
     Attributes:
         name: Of the program.
-        source: Its first source, below the package: what else is linked are the originals' classes.
+        sources: Below the package.
         defines: What it is compiled with.
     """
 
     name: str
-    source: str
+    sources: tuple[str, ...]
     defines: tuple[str, ...] = ()
 
 
@@ -49,7 +49,7 @@ def clients_of(package: Path, files: Container[str]) -> Iterator[Client]:
             continue
         # Robots are programs in src or test; cm_test alone is a client that is declared as one.
         if sources and (kind == "add_rostest_gtest" or sources[0] == f"test/{name}.cpp"):
-            yield Client(name, sources[0], defines.get(body[0], ()))
+            yield Client(name, tuple(sources), defines.get(body[0], ()))
 
 
 def write_headers(folder: Path) -> Path:
@@ -99,7 +99,8 @@ def build(
         program.parent.mkdir(parents=True, exist_ok=True)
         if not program.exists():
             defines = [f"-D{each}" for each in client.defines]
-            command = ["g++", *defines, str(package / client.source), "-o", str(program), *flags]
+            files = [str(package / source) for source in client.sources]
+            command = ["g++", *defines, *files, "-o", str(program), *flags]
             done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=600)
             if done.returncode != 0:
                 refused[client.name] = done.stderr

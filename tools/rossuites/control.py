@@ -103,7 +103,7 @@ CONTROL = (
         only=_ALONE,
         robots=_ARM,
         compiled=True,
-        clients=(Client(_PARTIAL, f"test/{_PARTIAL}.cpp"),),
+        clients=(Client(_PARTIAL, (f"test/{_PARTIAL}.cpp",)),),
     ),
     Suite(
         "diff_drive_controller",
