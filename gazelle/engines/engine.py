@@ -175,6 +175,9 @@ class Engine(Protocol):
     def link_placement(self, link: str, worlds: Worlds | None = None) -> Placement:
         """Where a link is."""
 
+    def link_placements(self, links: Sequence[str], worlds: Worlds | None = None) -> Placement:
+        """Where many links are at once: shapes (n, links, 3) and (n, links, 4)."""
+
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""
 

@@ -46,8 +46,7 @@ class LiveScene:
     ) -> Frames:
         """Draw what one camera in each of some worlds sees now; see ``Renderer.render``."""
         renderer = self.renderer
-        for link in self._links:
-            place = self._engine.link_placement(link, worlds)
-            renderer.place(link, place.position, place.quaternion, worlds)
+        place = self._engine.link_placements(self._links, worlds)
+        renderer.place_all(self._links, place.position, place.quaternion, worlds)
         chosen = np.arange(self._engine.nworld) if worlds is None else worlds
         return renderer.render(lens, positions, quaternions, chosen, want=want)

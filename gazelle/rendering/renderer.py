@@ -85,6 +85,28 @@ class Renderer:
             chosen = slice(None) if worlds is None else worlds
             self._placed[chosen, number] = rows_of(positions, quaternions)
 
+    def place_all(
+        self,
+        links: tuple[str, ...],
+        positions: Floats,
+        quaternions: Floats,
+        worlds: Worlds | None = None,
+    ) -> None:
+        """Put many links somewhere at once.
+
+        Args:
+            links: Scoped names of links with visuals.
+            positions: [m] in the world, shape (nworlds, links, 3).
+            quaternions: x, y, z, w, shape (nworlds, links, 4).
+            worlds: Where; all if None.
+        """
+        numbers = [self._numbers[link] for link in links]
+        rows = rows_of(positions, quaternions)
+        if worlds is None:
+            self._placed[:, numbers] = rows
+        else:
+            self._placed[np.asarray(worlds)[:, None], numbers] = rows
+
     def render(
         self,
         lens: PinholeLens,

@@ -35,12 +35,14 @@ class SceneRenderer:
         engine = simulation.engine
         if self._tracer is None or self._models is not engine.world.models:
             self._models, self._tracer = engine.world.models, make_tracer(engine.world)
-        chosen = np.array([world])
-        places = {name: engine.link_placement(name, chosen) for name in engine.link_names}
+        names = engine.link_names
+        found = engine.link_placements(names, np.array([world]))
         self._tracer.place(
             {
-                name: Pose.from_quaternion(tuple(p.position[0]), tuple(p.quaternion[0]))
-                for name, p in places.items()
+                name: Pose.from_quaternion(tuple(place), tuple(turned))
+                for name, place, turned in zip(
+                    names, found.position[0].tolist(), found.quaternion[0].tolist(), strict=True
+                )
             }
         )
         return self._tracer

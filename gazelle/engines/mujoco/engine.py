@@ -90,6 +90,7 @@ class MujocoEngine(ForcedSteps):
         self._overlaps.begin(batch)
         self._placed, self._dropped = False, {}
         self._state = StateViews.of(batch)
+        self._tables = {}
         self._stale = True
 
     # -- what runs ---------------------------------------------------------------------

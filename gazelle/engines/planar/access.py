@@ -19,6 +19,7 @@ from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.link_table import PlanarLinkTable
 from gazelle.engines.planar.rays import Caster, RayFan, caster_of, fan_of
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.system_engine import CastRanges
@@ -64,6 +65,7 @@ class PlanarAccess(ABC):
     _targets: Floats
     _casters: dict[tuple[str, bytes, bytes, float], _Kept]
     _recent: dict[tuple[str, int, int, float], _Kept]
+    _tables: dict[tuple[str, ...], PlanarLinkTable]
 
     @abstractmethod
     def make_kinematic(self, model: str) -> None:
@@ -162,6 +164,14 @@ class PlanarAccess(ABC):
         return Placement(
             base.position + rotate(base.quaternion, position), multiply(base.quaternion, turned)
         )
+
+    def link_placements(self, links: Sequence[str], worlds: Worlds | None = None) -> Placement:
+        """Where many links are at once: shapes (n, links, 3) and (n, links, 4)."""
+        key = tuple(links)
+        table = self._tables.get(key)
+        if table is None or table.layout is not self._layout:
+            table = self._tables[key] = PlanarLinkTable(self._layout, key)
+        return table.placement(self._fleet, self._angles, worlds)
 
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""

@@ -85,7 +85,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._targets = np.full(shape, math.nan)
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
-        self._casters, self._recent = {}, {}
+        self._casters, self._recent, self._tables = {}, {}, {}
         self._loops: tuple[Sequence[System], SystemLoop] | None = None
         self._before: tuple[System, ...] = ()
         self._after: tuple[System, ...] = ()
