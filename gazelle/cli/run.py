@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 from gazelle.argument_types import positive_float
 from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
+from gazelle.errors import SimulationError
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -142,10 +143,12 @@ def _listed(sim: Simulation) -> str:
 def _go(sim: Simulation, args: argparse.Namespace) -> int:
     """Run until the end of the time, or Ctrl-C."""
     status = _Status(sim)
+    sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     try:
         if args.paused:
-            _hold(sim)
-        _advance(sim, args.seconds, args.rate, status)
+            sim.pause()
+            sys.stderr.write("paused; Ctrl-C ends it\n")
+        _advance(sim, args.seconds, status)
     except KeyboardInterrupt:
         status.show(final=True)
         return 130
@@ -176,16 +179,23 @@ class _Status:
         sys.stderr.flush()
 
 
-def _advance(sim: Simulation, seconds: float | None, rate: float | None, status: _Status) -> None:
-    """Step in slices of wall time, so that the status and Ctrl-C are prompt."""
-    least = sim.clock.step_ns / 1e9
-    piece = max(_SLICE * (rate or 1.0), least)
+def _advance(sim: Simulation, seconds: float | None, status: _Status) -> None:
+    """Step in slices of wall time, so that the status, a change of pace and Ctrl-C are prompt."""
     end = float("inf") if seconds is None else seconds
-    left = end
-    while left > 0.5 * least:
-        began = time.monotonic()
-        sim.run(max(min(piece, left), least), rate=rate)
-        left = end - sim.time
+    piece = _SLICE
+    while end - sim.time > 0.5 * (least := sim.clock.step_ns / 1e9):
+        if _paused(sim):
+            time.sleep(_SLICE)
+            continue
+        rate, began = sim.physics.target_rate, time.monotonic()
+        if rate is not None:
+            piece = _SLICE * rate
+        try:
+            sim.run(max(min(piece, end - sim.time), least), rate=rate)
+        except SimulationError:
+            if not _paused(sim):  # else somebody paused it just now
+                raise
+            continue
         if rate is None:
             took = max(time.monotonic() - began, 1e-4)
             piece = min(max(piece * _SLICE / took, least), 2 * piece)
@@ -222,12 +232,9 @@ def _attend(sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespa
     return 0
 
 
-def _hold(sim: Simulation) -> None:
-    """Wait while the simulation is paused."""
-    sim.pause()
-    sys.stderr.write("paused; Ctrl-C ends it\n")
-    while sim.paused:
-        time.sleep(0.05)
+def _paused(sim: Simulation) -> bool:
+    """Whether it is paused, which another thread may change."""
+    return sim.paused
 
 
 def _rate(text: str) -> float:

@@ -19,7 +19,7 @@ def add_view(parser: argparse.ArgumentParser) -> None:
         type=int,
         nargs="?",
         const=0,
-        help="show worlds in the plane live in a browser on this machine; its address is printed",
+        help="a page in a browser on this machine that shows it live and lets you take part; its address is printed",
     )
 
 
@@ -27,7 +27,8 @@ def viewing(sim: Simulation, args: argparse.Namespace) -> AbstractContextManager
     """The page while the simulation runs, if it is wanted.
 
     Raises:
-        Error: The world is not in the plane, or the port is taken.
+        MissingExtraError: What serves the page is not installed.
+        Error: The port is taken.
     """
     if args.view is None:
         return nullcontext()

@@ -75,9 +75,9 @@ class CameraModel:
         if not cameras:
             raise EngineError("it has no <camera>")
         self.cameras, self.depth = tuple(cameras), depth
-        self._scene, self._engine, self._link = scene, engine, link
+        self._scene, self._engine, self.link = scene, engine, link
         self._lenses = [PinholeLens.of_camera(camera) for camera in cameras]
-        self._poses = [pose * camera.pose for camera in cameras]
+        self.poses = [pose * camera.pose for camera in cameras]
         self._bends = [
             LensDistortion(camera, legacy=legacy) if any(camera.distortion) else None
             for camera in cameras
@@ -94,9 +94,9 @@ class CameraModel:
             interval: Plays no part.
         """
         del interval
-        place = self._engine.link_placement(self._link, worlds)
+        place = self._engine.link_placement(self.link, worlds)
         parts: list[Bytes] = []
-        for number, (lens, pose) in enumerate(zip(self._lenses, self._poses, strict=True)):
+        for number, (lens, pose) in enumerate(zip(self._lenses, self.poses, strict=True)):
             at = place.position + rotate(place.quaternion, np.asarray(pose.position))
             turned = multiply(place.quaternion, np.asarray(pose.quaternion))
             want = ("color", "depth") if self.depth else ("color",)

@@ -1,48 +1,53 @@
-"""A world in the plane, live in a browser on this machine."""
+"""A running simulation, live in a browser on this machine."""
 
 from __future__ import annotations
 
-import json
 import threading
+import time
+import warnings
 from collections.abc import Callable
-from http import HTTPStatus
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
+
+import numpy as np
 
 from gazelle.closing import Closeable
-from gazelle.errors import Error
-from gazelle.simulation import Simulation
-from gazelle.viewer.live_world import LiveWorld
+from gazelle.errors import Error, SimulationError, SimulationWarning
+from gazelle.simulation import Robot, Simulation
+from gazelle.viewer.page.camera_insets import CameraInsets
+from gazelle.viewer.page.context import ROOT, Layer, OptionalLayer, PageContext, spots_of
+from gazelle.viewer.page.driving import DriveControls
+from gazelle.viewer.page.joint_sliders import JointSliders
+from gazelle.viewer.page.model_tools import ModelTools
+from gazelle.viewer.page.overlays import ContactLayer, FrameLayer, NameLayer, RayLayer
+from gazelle.viewer.page.plots import PlotLayer
+from gazelle.viewer.page.run_controls import RunControls
+from gazelle.viewer.page.server import PageServer
+from gazelle.viewer.page.shapes import extent_of_world
+from gazelle.viewer.page.world_layer import ShapeLayer
 
-_HOST = "127.0.0.1"
-_PAGE = Path(__file__).with_name("live.html")
-_GUESTS = 8  # pages that are kept up to date at once
-_SAFE = {
-    "Content-Security-Policy": "default-src 'self' 'unsafe-inline'; frame-ancestors 'none'",
-    "X-Content-Type-Options": "nosniff",
-    "Cache-Control": "no-store",
-}
+_BESIDE = 4  # worlds of a batch that are shown if nobody says
+_SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
 
 class LiveView(Closeable):
-    """Shows a world of the planar engine in a browser while it runs; also a context manager.
+    """Shows a simulation in a browser while it runs, and lets people take part; a context manager.
 
-    A small web server answers on this machine's loopback address only, and only tells: nobody
-    can change anything through it. While no page is open it costs nothing.
+    The page is served on this machine's loopback address, and only to those who know the secret
+    in its address. While no page is open it costs nothing. What goes wrong on it stops nothing.
 
     Args:
-        simulation: Of a world with ``engine="planar"``.
-        world: Which world of a batch.
+        simulation: With any engine.
+        world: The first world of a batch that is shown.
+        worlds: How many are shown beside each other; a few of what there are if None.
         port: Of the server; any free one if 0.
-        rate: Pictures a second.
+        rate: Pictures a second at most.
 
     Attributes:
         url: Where the page is.
 
     Raises:
-        Error: The simulation is not in the plane, there is no such world, the rate is not above
-            zero, or the port is taken.
+        MissingExtraError: viser is not installed.
+        Error: There is no such world, the rate is not above zero, or the port is taken.
     """
 
     def __init__(
@@ -50,117 +55,141 @@ class LiveView(Closeable):
         simulation: Simulation,
         *,
         world: int = 0,
+        worlds: int | None = None,
         port: int = 0,
-        rate: float = 10.0,
+        rate: float = 20.0,
     ) -> None:
+        count = min(_BESIDE, simulation.nworld - world) if worlds is None else worlds
+        if not 0 <= world < simulation.nworld or not 0 < count <= simulation.nworld - world:
+            raise Error(f"there is no world {world}; there are {simulation.nworld}")
         if not rate > 0.0:
             raise Error(f"a view needs a rate above zero, not {rate:g}")
-        self._look = LiveWorld(simulation, world)
-        self._call = simulation.requests.call
-        self._period = 1.0 / rate
+        self._simulation, self._period = simulation, 1.0 / rate
         self._stop = threading.Event()
-        self._guests = threading.Semaphore(_GUESTS)
+        self._server = PageServer(simulation.world.name or "Gazelle", port)
+        self.url = self._server.url
         try:
-            self._server = _Server((_HOST, port), _Handler)
-        except (OSError, OverflowError) as error:
-            raise Error(f"no view on port {port}: {error}", hint="choose another port") from error
-        self._server.view = self
-        self.url = f"http://{_HOST}:{self._server.server_address[1]}/"
-        self._thread = threading.Thread(
-            target=self._server.serve_forever, args=(0.1,), name="live-view", daemon=True
-        )
+            self._begin(np.arange(world, world + count))
+        except BaseException:
+            self._server.close()
+            raise
+        self._thread = threading.Thread(target=self._follow, name="live-view", daemon=True)
         self._thread.start()
 
-    def scenery(self) -> dict[str, Any]:
-        """What stands still, asked for between two steps."""
-        return self._call(self._look.scenery)
+    def close(self) -> None:
+        """Stop showing it, and give the port back; a second call does nothing."""
+        if self._stop.is_set():
+            return
+        self._stop.set()
+        self._server.close()
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+        for end in self._ends:
+            end()
 
-    def follow(self, tell: Callable[[dict[str, Any]], None]) -> bool:
-        """Tell the state again and again until ``close``; False if too many are told already."""
-        if not self._guests.acquire(blocking=False):
-            return False
+    def _begin(self, worlds: Any) -> None:
+        """Make everything that is on the page."""
+        simulation, page = self._simulation, self._server.viser
+        spots = spots_of(simulation, len(worlds))
+        self._context = context = PageContext(simulation, page, worlds, spots)
+        self._root = page.scene.add_frame(ROOT, show_axes=False)
+        page.gui.main_panel.dock_right()
+        page.scene.configure_default_lights(enabled=True, cast_shadow=True)
+        page.scene.configure_environment_map(None)
+        self._look_from(spots)
+        with simulation.requests:
+            controls = RunControls(context)
+            tools = ModelTools(context)
+            shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
+            drive, sliders = DriveControls(context, self._server), JointSliders(context)
+            self._optional: dict[str, OptionalLayer] = {
+                "Collision shapes": ShapeLayer(context, "solid", collisions=True, shown=False),
+                "Names": NameLayer(context),
+                "Frames and joints": FrameLayer(context),
+                "Contacts": ContactLayer(context),
+                "Lidar rays": RayLayer(context),
+                "Camera pictures": CameraInsets(context),
+            }
+            self._plots = PlotLayer(context)
+            self._offer()
+            self._layers: tuple[Layer, ...] = (
+                controls, shapes, tools, drive, sliders, *self._optional.values(), self._plots
+            )  # fmt: skip
+            self._changed = False
+            events = simulation.events
+            self._ends = (
+                events.spawned.subscribe(self._note),
+                events.deleted.subscribe(self._note),
+                self._plots.forget,
+            )
+
+    def _offer(self) -> None:
+        """A box to tick for each thing that can be shown besides."""
+        gui, scene = self._context.gui, self._context.scene
+        with gui.add_folder("Show"):
+            for label, layer in self._optional.items():
+                box = gui.add_checkbox(label, initial_value=layer.shown)
+                box.on_update(_switch(layer))
+            shadows = gui.add_checkbox("Shadows", initial_value=True)
+
+        def shade(event: Any) -> None:
+            scene.configure_default_lights(cast_shadow=event.target.value)
+
+        shadows.on_update(shade)
+
+    def _look_from(self, spots: Any) -> None:
+        """See all of it at first, from above and aside."""
+        low, high = extent_of_world(self._simulation.world)
+        high = high + spots.max(axis=0)
+        low = low + spots.min(axis=0)
+        middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+        camera = self._server.viser.initial_camera
+        camera.look_at = tuple(middle.tolist())
+        camera.position = tuple((middle + np.array([-0.35, -0.55, 0.6]) * size).tolist())
+
+    def _note(self, _robot: Robot) -> None:
+        """Models came or went; between two steps."""
+        self._changed = True
+
+    def _follow(self) -> None:
+        """Show picture after picture while somebody looks."""
         try:
             while not self._stop.is_set():
-                tell(self._call(self._look.state))
-                self._stop.wait(self._period)
-        finally:
-            self._guests.release()
-        return True
+                if not self._server.watched:
+                    self._server.wait()
+                    continue
+                spent = time.thread_time()
+                self._picture()
+                spent = time.thread_time() - spent
+                self._stop.wait(max(self._period, spent / _SHARE))
+        except SimulationError:
+            if not self._simulation.requests.closed:
+                raise
+        except Exception as error:  # noqa: BLE001  a view never ends what it shows
+            if not self._stop.is_set():
+                text = f"the live view ended: {type(error).__name__}: {error}"
+                warnings.warn(SimulationWarning(text), stacklevel=1)
 
-    def close(self) -> None:
-        """End the server; pages that are open show the last picture."""
-        self._stop.set()
-        self._server.shutdown()
-        self._server.server_close()
-        self._thread.join()
+    def _picture(self) -> None:
+        """Look at everything at one moment, then put it on the page."""
+        states = self._simulation.requests.call(self._look)
+        with self._server.viser.atomic():
+            for layer, state in zip(self._layers, states, strict=True):
+                layer.show(state)
+            self._root.position = -self._context.heading * [1.0, 1.0, 0.0]
+
+    def _look(self) -> list[Any]:
+        if self._changed:
+            self._changed = False
+            for layer in self._layers:
+                layer.renew()
+        return [layer.read() for layer in self._layers]
 
 
-class _Server(ThreadingHTTPServer):
-    """Knows what it shows."""
+def _switch(layer: OptionalLayer) -> Callable[[Any], None]:
+    """What shows a layer, or hides it, as a box is ticked."""
 
-    daemon_threads = True
-    block_on_close = False
-    allow_reuse_address = False
-    view: LiveView
+    def turn(event: Any) -> None:
+        layer.shown = event.target.value
 
-
-class _Handler(BaseHTTPRequestHandler):
-    """Answers GET for the page, the scenery and the stream of states; nothing else."""
-
-    protocol_version = "HTTP/1.1"
-    timeout = 10.0
-    server: _Server
-    _kinds: ClassVar[dict[str, str]] = {
-        "/": "text/html; charset=utf-8",
-        "/world": "application/json",
-    }
-
-    def do_GET(self) -> None:  # http.server's name
-        """Answer."""
-        if not self._is_local():
-            self.send_error(HTTPStatus.FORBIDDEN, "this view is for this machine only")
-        elif self.path == "/events":
-            self._stream()
-        elif self.path == "/":
-            self._send(_PAGE.read_bytes())
-        elif self.path == "/world":
-            self._send(json.dumps(self.server.view.scenery()).encode())
-        else:
-            self.send_error(HTTPStatus.NOT_FOUND)
-
-    def _is_local(self) -> bool:
-        """Whether the page was asked for by this machine's name, not by one that leads here."""
-        name, _, _ = self.headers.get("Host", "").rpartition(":")
-        return name in {_HOST, "localhost"}
-
-    def _send(self, body: bytes) -> None:
-        self._begin(self._kinds[self.path], {"Content-Length": str(len(body))})
-        self.wfile.write(body)
-
-    def _stream(self) -> None:
-        """Server-sent events (the HTML standard's), one for each state."""
-        begun = False
-
-        def tell(state: dict[str, Any]) -> None:
-            nonlocal begun
-            if not begun:
-                self._begin("text/event-stream", {"Connection": "close"})
-                begun = True
-            self.wfile.write(b"data: " + json.dumps(state).encode() + b"\n\n")
-            self.wfile.flush()
-
-        try:
-            if not self.server.view.follow(tell):
-                self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "too many pages are open")
-        except OSError:
-            pass  # the page was closed
-        self.close_connection = True
-
-    def _begin(self, kind: str, more: dict[str, str]) -> None:
-        self.send_response(HTTPStatus.OK)
-        for name, value in ({"Content-Type": kind} | _SAFE | more).items():
-            self.send_header(name, value)
-        self.end_headers()
-
-    def log_message(self, *_args: object) -> None:
-        """Nothing: a view does not talk."""
+    return turn

@@ -177,10 +177,17 @@ def test_run_of_a_stage_file_takes_other_robots_too(cli, tmp_path):
     assert "simulated 1.00 s" in err
 
 
-def test_run_says_where_its_view_is(cli):
-    code, out, _ = cli("run", "fleet", "--for", 0.2, "--view")
+@pytest.mark.parametrize("world", ["fleet", "empty"])
+def test_run_says_where_its_view_is(cli, world):
+    pytest.importorskip("viser", reason="the extra 'web' is not installed")
+    code, out, _ = cli("run", world, "--for", 0.2, "--view")
     assert code == 0
-    assert re.search(r"view http://127\.0\.0\.1:\d+/\n", out)
+    assert re.search(r"view http://127\.0\.0\.1:\d+/[\w-]{20,}/\n", out)
+    assert "viser" not in out
+
+
+def test_a_view_without_its_extra_says_what_to_install(cli, monkeypatch):
+    monkeypatch.setitem(sys.modules, "viser", None)
     code, _, err = cli("run", "empty", "--for", 0.1, "--view")
     assert code == 1
-    assert "in the plane" in err
+    assert 'pip install "gazelle[web]"' in err

@@ -1,44 +1,57 @@
-"""A world in the plane is shown live to a browser on this machine, and to nobody else."""
+"""A simulation is shown live in a browser on this machine, to those who know the address alone."""
 
 import http.client
-import json
-import math
+import socket
 import threading
-import time
+import warnings
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
+
+pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 import gazelle
 from gazelle import assets
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.viewer import LiveView
+from tests.ros.graph import until
 
 ROOM = """
-define robot position ( size [.4 .4 .4] drive "diff"
-  ranger ( sensor ( range [0 4] fov 90 samples 46 ) ) )
-model ( size [4 .2 1] pose [0 1.5 0 0] )
-model ( size [4 .2 1] pose [0 -1.5 0 0] )
-robot ( name "r" pose [-1 0 0 90] )
+<sdf version="1.6"><world name="room">
+<model name="ground"><static>true</static><link name="l">
+ <collision name="c"><geometry><plane><normal>0 0 1</normal><size>9 9</size></plane></geometry></collision>
+ <visual name="v"><geometry><plane><normal>0 0 1</normal><size>9 9</size></plane></geometry></visual></link></model>
+<model name="box"><pose>0 0 1 0 0 0</pose><link name="l">
+ <inertial><mass>2</mass></inertial>
+ <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>
+ <visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link></model>
+<model name="other"><pose>3 0 1 0 0 0</pose><link name="l">
+ <inertial><mass>2</mass></inertial>
+ <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>
+ <visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link></model>
+</world></sdf>
 """
+
+
+BODY = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+)
 
 
 @pytest.fixture
 def room(tmp_path):
     file = tmp_path / "room.world"
     file.write_text(ROOM)
-    with Simulation(file, "planar", threads=1) as simulation:
+    with Simulation(file, threads=1) as simulation:
         yield simulation
 
 
-def connect(view):
+def ask(view, path, *, method="GET", **headers):
     where = urlsplit(view.url)
-    return http.client.HTTPConnection(where.hostname, where.port, timeout=60)
-
-
-def get(view, path, method="GET", **headers):
-    connection = connect(view)
+    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=60)
     connection.request(method, path, headers=headers)
     answer = connection.getresponse()
     body = answer.read()
@@ -46,173 +59,306 @@ def get(view, path, method="GET", **headers):
     return answer, body
 
 
-def states(view):
-    """The states of a stream, as they come."""
-    connection = connect(view)
-    connection.request("GET", "/events")
-    answer = connection.getresponse()
-    assert answer.headers["Content-Type"] == "text/event-stream"
-    try:
-        while True:
-            line = answer.readline()
-            if not line:
-                return
-            if line.startswith(b"data: "):
-                yield json.loads(line[6:])
-    finally:
-        answer.close()
-        connection.close()
+def secret(view):
+    return urlsplit(view.url).path
 
 
-def test_it_listens_to_this_machine_only(room):
+def upgrade(view, path):
+    """The first line of the answer to a websocket."""
+    where = urlsplit(view.url)
+    with socket.create_connection((where.hostname, where.port), timeout=60) as connection:
+        connection.sendall(
+            f"GET {path} HTTP/1.1\r\nHost: {where.netloc}\r\nUpgrade: websocket\r\n"
+            "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: viser-v0\r\n\r\n".encode()
+        )
+        return connection.recv(4096).split(b"\r\n")[0]
+
+
+def pictures(view):
+    """One picture, as if somebody looked; who looks is asked for by another thread otherwise."""
+    view._picture()
+
+
+def shapes(view):
+    """The batches of shapes, by how many instances they have."""
+    (layer,) = (each for each in view._layers[1:2])
+    return [batch.handle for batch in layer._batches._batches]
+
+
+def test_only_who_knows_the_address_is_served(room):
     with LiveView(room) as view:
         assert view.url.startswith("http://127.0.0.1:")
-        assert view._server.server_address[0] == "127.0.0.1"
-        assert get(view, "/", Host="evil.example:80")[0].status == 403
-        assert get(view, "/", Host="localhost:80")[0].status == 200
+        assert len(secret(view)) > 20
+        assert ask(view, secret(view))[0].status == 200
+        for path in ("/", "/index.html", "/wrong/", f"{secret(view)[:-2]}/", secret(view)[2:]):
+            assert ask(view, path)[0].status == 403
+        assert ask(view, secret(view), Host="evil.example:80")[0].status == 403
+        assert ask(view, f"{secret(view)}../../pyproject.toml")[0].status == 404
+        assert ask(view, f"{secret(view)}assets/x.js")[0].status == 404
+        assert b"403" in upgrade(view, "/")
+        assert b"403" in upgrade(view, "/wrong")
+        assert b"101" in upgrade(view, secret(view))
 
 
-def test_the_page_and_nothing_else_is_served(room):
+def test_two_views_have_addresses_of_their_own(room):
+    with LiveView(room) as one, LiveView(room) as other:
+        assert ask(one, secret(other))[0].status == 403
+        assert ask(other, secret(other))[0].status == 200
+
+
+def test_the_page_takes_nothing_from_elsewhere(room):
     with LiveView(room) as view:
-        answer, body = get(view, "/")
-        assert answer.status == 200
-        assert b"<canvas" in body
-        assert b"http" not in body.replace(b"http-equiv", b"")  # nothing from elsewhere
-        assert "default-src 'self'" in answer.headers["Content-Security-Policy"]
-        assert answer.headers["Access-Control-Allow-Origin"] is None
-        for path in ("/../pyproject.toml", "/live.py", "/world/", "/%2e%2e/"):
-            assert get(view, path)[0].status == 404
-        for method in ("POST", "PUT", "DELETE"):
-            assert get(view, "/world", method)[0].status == 501
+        answer, _ = ask(view, secret(view))
+        policy = answer.headers["Content-Security-Policy"]
+        assert "default-src 'self'" in policy
+        assert "frame-ancestors 'none'" in policy
+        assert "http" not in policy
+        handlers = view._server.viser._websock_server._incoming_handlers
+        assert not any(kind.__name__.startswith("ShareUrl") for kind in handlers)
 
 
-def test_the_scenery_is_what_stands_and_what_bodies_look_like(room):
+def test_the_port_is_the_one_asked_for_and_given_back(room):
     with LiveView(room) as view:
-        scenery = json.loads(get(view, "/world")[1])
-    assert len(scenery["lines"]) == 4 * 8
-    assert scenery["circles"] == []
-    (body,) = scenery["bodies"]
-    assert sorted(body["parts"][0]) == pytest.approx([-0.2] * 4 + [0.2] * 4)
-    x0, y0, x1, y1 = scenery["extent"]
-    assert x0 < -2 < 2 < x1
-    assert y0 < -1.6 < 1.6 < y1
+        port = urlsplit(view.url).port
+        with pytest.raises(Error, match="it is taken"):
+            LiveView(room, port=port)
+    with LiveView(room, port=port) as view:
+        assert urlsplit(view.url).port == port
 
 
-def test_states_follow_the_simulation(room):
-    with LiveView(room, rate=100) as view:
-        stream = states(view)
-        first = next(stream)
-        assert first["time"] == 0.0
-        assert first["poses"] == pytest.approx([-1, 0, math.pi / 2], abs=1e-3)
-        (scan,) = first["scans"]
-        assert scan["eye"] == [-1.0, 0.0]
-        assert len(scan["met"]) == 46
-        assert scan["ends"][47] == pytest.approx(1.4, abs=2e-3)  # a degree beside the middle
-        assert scan["met"][23] == 1
-        room.stage.commands[0, 0, 0] = 1.0
+@pytest.mark.parametrize("options", [{"world": 1}, {"world": -1}, {"rate": 0.0}, {"worlds": 2}])
+def test_what_cannot_be_is_refused(room, options):
+    with pytest.raises(Error, match=r"there is no world|a rate above zero"):
+        LiveView(room, **options)
+
+
+def test_equal_shapes_are_one_batch_and_follow_the_simulation(room):
+    with LiveView(room) as view:
+        pictures(view)
+        plane, boxes = shapes(view)
+        assert len(plane.batched_positions) == 1
+        assert boxes.batched_positions == pytest.approx(np.array([[0, 0, 1], [3, 0, 1]]))
         room.run(1.0)
-        later = next(state for state in stream if state["time"] >= 1.0)
-        assert later["poses"][1] == pytest.approx(room.stage.poses[0, 0, 1], abs=1e-3)
+        pictures(view)
+        assert boxes.batched_positions[:, 2] == pytest.approx(0.5, abs=1e-2)
+
+
+def test_models_that_come_and_go_are_followed(room):
+    with LiveView(room) as view:
+        pictures(view)
+        view._context.select("other")
+        room.delete("other")
+        pictures(view)
+        assert len(shapes(view)[1].batched_positions) == 1
+        pictures(view)
+        assert view._context.selected == ""
+        room.spawn("turtlebot3_burger", pose=gazelle.Pose(2.0))
+        pictures(view)
+        assert len(shapes(view)) > 3
+
+
+def test_worlds_of_a_batch_stand_beside_each_other(tmp_path):
+    file = tmp_path / "room.world"
+    file.write_text(ROOM)
+    with Simulation(file, nworld=9, threads=1) as sim, LiveView(sim, world=2, worlds=4) as view:
+        sim.robots["box"].set_pose((0.0, 0.0, 2.0), worlds=np.array([3]))
+        pictures(view)
+        places = shapes(view)[1].batched_positions.reshape(4, 2, 3)
+        assert len(np.unique(places[:, 0, :2], axis=0)) == 4
+        assert places[:, 0, 2] == pytest.approx([1.0, 2.0, 1.0, 1.0])
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_everything_that_can_be_shown_is(engine):
+    with Simulation(assets.world("turtlebot3_world"), engine, threads=1) as sim:
+        sim.spawn("turtlebot3_burger", pose=gazelle.Pose(-2.0, -0.5))
+        with LiveView(sim) as view:
+            for layer in view._optional.values():
+                layer.shown = True
+            sim.run(0.2)
+            view._context.select("turtlebot3_burger")
+            pictures(view)
+            pictures(view)
+            names = view._context.scene._handle_from_node_name
+            assert {"/world/rays", "/world/scan", "/world/frames", "/world/joints"} <= set(names)
+            assert "/world/names/turtlebot3_burger" in names
+            rays = names["/world/scan"].points
+            assert len(rays) > 100
+            for layer in view._optional.values():
+                layer.shown = False
+            pictures(view)
+            assert not names["/world/rays"].visible
+
+
+def test_what_is_shown_does_not_change_what_the_run_computes():
+    hashes = []
+    for shown in (False, True):
+        with Simulation(assets.world("turtlebot3_world"), threads=1, seed=3) as sim:
+            robot = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(-2.0, -0.5))
+            robot.inputs["cmd_vel"].send(0.2, 0.3)
+            scan = (
+                robot.sensors["lds"]
+                if "lds" in robot.sensors
+                else next(iter(robot.sensors.values()))
+            )
+            if shown:
+                with LiveView(sim) as view:
+                    for layer in view._optional.values():
+                        layer.shown = True
+                    for _ in range(5):
+                        sim.run(0.1)
+                        pictures(view)
+            else:
+                for _ in range(5):
+                    sim.run(0.1)
+            hashes.append((sim.state_hash(), scan.latest().tobytes()))
+    assert hashes[0] == hashes[1]
+
+
+def test_a_stage_world_is_shown_with_its_rangers():
+    with Simulation(assets.world("fleet"), "planar", threads=1) as sim, LiveView(sim) as view:
+        view._optional["Lidar rays"].shown = True
+        sim.run(0.2)
+        pictures(view)
+        found = sum(len(batch.batched_positions) for batch in shapes(view))
+        assert found >= 72
+
+
+def test_the_clock_is_steered_from_the_page(room):
+    with LiveView(room) as view:
+        controls = view._layers[0]
+        for word, paused in (("pause", True), ("run", False), ("step", True)):
+            controls.do(word)
+            assert room.paused is paused
+        assert room.time == pytest.approx(room.engine.time_step)
+        controls.do("reset")
+        assert room.time == 0.0
+        controls._speed.value = "2"
+        controls._pace()
+        assert room.physics.target_rate == pytest.approx(2.0)
+        controls._speed.value = "max"
+        controls._pace()
+        assert room.physics.target_rate is None
+
+
+def test_a_robot_is_driven_by_the_joystick_and_stands_when_nobody_steers(monkeypatch):
+    with Simulation(assets.world("turtlebot3_stage_1"), "planar", threads=1) as sim:
+        robot = sim.spawn("turtlebot3_burger")
+        with LiveView(sim) as view:
+            view._context.select("turtlebot3_burger")
+            where = f"{secret(view)}drive"
+            assert ask(view, f"{where}?linear=1&angular=0")[0].status == 200
+            until(lambda: robot.inputs["cmd_vel"].linear[0, 0] == pytest.approx(0.2))
+            assert ask(view, f"{where}?linear=nan&angular=0")[0].status == 200
+            assert ask(view, f"{where}?linear=99&angular=-99")[0].status == 200
+            until(lambda: robot.inputs["cmd_vel"].angular[0, 2] == pytest.approx(-1.0))
+            drive = next(each for each in view._layers if type(each).__name__ == "DriveControls")
+
+            def quiet():
+                drive.read()
+                return robot.inputs["cmd_vel"].linear[0, 0] == 0.0
+
+            until(quiet)
+            assert ask(view, "/drive?linear=1&angular=0")[0].status == 403
+
+
+def test_models_are_pushed_lifted_deleted_and_spawned(room):
+    with LiveView(room) as view:
+        tools = view._layers[2]
+        view._context.select("box")
+        tools.do("lift")
+        assert room.robots["box"].pose.z == pytest.approx(1.5)
+        tools._force.value = (50.0, 0.0, 0.0)
+        tools.do("push")
+        room.run(0.3)
+        assert room.robots["box"].pose.x > 0.1
+        tools.do("delete")
+        assert "box" not in room.robots
+        tools._what.value = "turtlebot3_burger"
+        tools._where.value = (0.0, 2.0, 1.57)
+        for _ in range(2):
+            tools.spawn()
+        assert {"turtlebot3_burger", "turtlebot3_burger_2"} <= set(room.robots)
+        assert room.robots["turtlebot3_burger"].pose.y == pytest.approx(2.0)
+
+
+def test_what_goes_wrong_on_the_page_is_said_there_and_stops_nothing(room, monkeypatch):
+    with LiveView(room) as view:
+        said = []
+        monkeypatch.setattr(view._context, "tell", lambda *words: said.append(words))
+        tools = view._layers[2]
+        tools._what.value = "file ..."
+        tools._file.value = "/nowhere/robot.urdf"
+        view._context.careful(tools.spawn)
+        view._context.careful(lambda: 1 / 0)
+        assert "/nowhere/robot.urdf" in said[0][1]
+        assert "ZeroDivisionError" in said[1][1]
+        room.run(0.1)
+
+
+def test_joints_are_moved_by_sliders(tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(
+        f'<robot name="arm"><link name="base">{BODY}</link><link name="tip">{BODY}</link>'
+        '<joint name="j" type="revolute"><parent link="base"/><child link="tip"/>'
+        '<axis xyz="0 0 1"/><limit lower="-1" upper="2" effort="1" velocity="1"/></joint></robot>'
+    )
+    with Simulation("empty", threads=1) as sim:
+        sim.spawn(file)
+        with LiveView(sim) as view:
+            sliders = next(each for each in view._layers if type(each).__name__ == "JointSliders")
+            view._context.select("arm")
+            assert (sliders._sliders["j"].min, sliders._sliders["j"].max) == (-1.0, 2.0)
+            sim.robots["arm"].set_configuration(["j"], [0.7])
+            pictures(view)
+            assert sliders._sliders["j"].value == pytest.approx(0.7, abs=2e-3)
+
+
+def test_outputs_are_plotted_while_they_are_chosen():
+    with Simulation(assets.world("turtlebot3_stage_1"), "planar", threads=1) as sim:
+        robot = sim.spawn("turtlebot3_burger")
+        with LiveView(sim) as view:
+            plots = view._plots
+            assert "turtlebot3_burger: odom" in plots._port.options
+            plots._port.value = "turtlebot3_burger: odom"
+            plots._choose()
+            assert robot.outputs["odom"].wanted
+            sim.run(1.0)
+            pictures(view)
+            assert len(plots._chart.data[0]) > 5
+        assert not robot.outputs["odom"].wanted
+
+
+def test_nobody_who_looks_costs_nothing(room, monkeypatch):
+    with LiveView(room) as view:
+        monkeypatch.setattr(view, "_look", lambda: pytest.fail("nobody looks"))
         room.run(1.0)
-        stalled = next(state for state in stream if state["time"] >= 2.0)
-        assert stalled["stalled"] == [0]
-        stream.close()
+        assert not view._server.watched
 
 
-def test_states_come_at_the_rate_while_it_runs(room):
-    with LiveView(room, rate=20) as view:
-        over = threading.Event()
+def test_an_error_of_the_view_ends_the_view_alone(room, monkeypatch):
+    with LiveView(room) as view:
+        seen = threading.Event()
 
-        def run():
-            while not over.is_set():
-                room.run(0.1, rate=1.0)
+        def broken():
+            seen.set()
+            raise RuntimeError("broken")
 
-        runner = threading.Thread(target=run)
-        start = time.monotonic()
-        runner.start()
-        stream = states(view)
-        for _ in range(21):
-            next(stream)
-        lasted = time.monotonic() - start
-        over.set()
-        runner.join()
-        stream.close()
-    assert lasted > 20 / 20 - 0.2
+        monkeypatch.setattr(view, "_look", broken)
+        monkeypatch.setattr(type(view._server), "watched", property(lambda _: True))
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            view._server._changed.set()
+            until(lambda: not view._thread.is_alive())
+        assert any("the live view ended" in str(each.message) for each in said)
+        room.run(0.1)
 
 
-def test_nothing_is_looked_at_while_no_page_is_open(room, monkeypatch):
-    with LiveView(room, rate=100) as view:
-        monkeypatch.setattr(view._look, "state", lambda: pytest.fail("nobody looks"))
-        room.run(1.0)
-        time.sleep(0.1)
-
-
-def test_pages_beyond_a_number_are_refused(room):
-    with LiveView(room, rate=50) as view:
-        streams = [states(view) for _ in range(8)]
-        for stream in streams:
-            next(stream)
-        assert get(view, "/events")[0].status == 503
-        for stream in streams:
-            stream.close()
-        end = time.monotonic() + 60
-        while time.monotonic() < end:  # a place is free once a page is closed
-            if view._guests.acquire(blocking=False):
-                break
-            time.sleep(0.05)
-        else:
-            pytest.fail("no page was let go")
-
-
-def test_it_ends_and_frees_its_port(room):
+def test_it_ends_with_its_simulation(room):
     view = LiveView(room)
-    stream = states(view)
-    next(stream)
+    room.close()
+    view._server._changed.set()
     view.close()
-    list(stream)
-    with pytest.raises(OSError, match="refused"):
-        get(view, "/")
-    assert not [t for t in threading.enumerate() if t.name == "live-view"]
-
-
-def test_random_numbers_of_a_run_do_not_depend_on_a_page(tmp_path):
-    text = ROOM.replace("samples 46", "samples 46 noise [0.1 0 2]")
-    (tmp_path / "noisy.world").write_text(text)
-    scans = []
-    for watched in (False, True):
-        with Simulation(tmp_path / "noisy.world", "planar", seed=1, threads=1) as sim:
-            if watched:
-                with LiveView(sim, rate=100) as view:
-                    next(states(view))
-            sim.step()
-            scans.append(sim.stage.scan_of("r"))
-    assert (scans[0] == scans[1]).all()
-
-
-def test_any_world_in_the_plane_is_shown_and_models_may_come():
-    with (
-        gazelle.Simulation("turtlebot3_stage_4", engine="planar") as sim,
-        LiveView(sim, rate=100) as view,
-    ):
-        stream = states(view)
-        before = next(stream)["version"]
-        sim.spawn(assets.robot("turtlebot3_burger"), name="burger")
-        sim.run(0.5)
-        now = next(state for state in stream if state["version"] > before)
-        assert len(now["poses"]) == 3 * len(json.loads(get(view, "/world")[1])["bodies"])
-        assert now["scans"]
-        stream.close()
-
-
-def test_what_is_not_in_the_plane_cannot_be_shown():
-    with gazelle.Simulation("empty") as sim, pytest.raises(Error, match="in the plane"):
-        LiveView(sim)
-
-
-def test_a_port_that_is_taken_is_told(room):
-    with LiveView(room) as view, pytest.raises(Error, match="no view on port"):
-        LiveView(room, port=urlsplit(view.url).port)
-    with pytest.raises(Error, match="no view on port"):
-        LiveView(room, port=70000)
-    with pytest.raises(Error, match="rate above zero"):
-        LiveView(room, rate=0)
+    view.close()
+    assert not view._thread.is_alive()

@@ -53,8 +53,8 @@ class StageDoor(Closeable):
         rate: float | None = 1.0,
         model_names: bool = False,
     ) -> None:
-        self.rate = rate
         self._simulation, self._node, self._world = simulation, node, world
+        self.rate = rate
         self._stage = stage = stage_of(simulation)
         if stage.stage.paused and simulation.time == 0.0:
             simulation.pause()
@@ -146,6 +146,16 @@ class StageDoor(Closeable):
         self._schedule.restart()
 
     # -- time ------------------------------------------------------------------------------
+
+    @property
+    def rate(self) -> float | None:
+        """Real-time factor that ``run`` keeps to, as the physics properties have it."""
+        return self._simulation.physics.target_rate
+
+    @rate.setter
+    def rate(self, rate: float | None) -> None:
+        physics = self._simulation.physics
+        physics.update_rate = (rate or 0.0) / physics.time_step
 
     def run(self, seconds: float | None = None) -> None:
         """Let the world run until ``stop``, at ``rate``, or until its ``quit_time``.

@@ -44,9 +44,7 @@ class PlanarLinkTable:
         layout = self.layout
         owner = layout.owners.get(link)
         if owner is None:
-            raise EngineError(
-                f"there is no link '{link}'", hint=did_you_mean(link, layout.owners)
-            )
+            raise EngineError(f"there is no link '{link}'", hint=did_you_mean(link, layout.owners))
         anatomy = layout.models[owner]
         bone = anatomy.skeleton.bones[link]
         body = layout.bodies.get(owner)

@@ -1,0 +1,78 @@
+"""What cameras of robots see, on the page's panel."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Picture
+from gazelle.rendering import PinholeLens
+from gazelle.rotations import multiply, rotate
+from gazelle.sensors import CameraModel
+from gazelle.viewer.page.context import PageContext
+
+_PERIOD = 0.2  # wall time between two pictures [s]
+_MOST = 4
+_WIDTH = 240  # of a picture, at most [pixel]
+
+
+class CameraInsets:
+    """Pictures of cameras, drawn for the page alone: sensors and their noise are left alone.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context, self.shown = context, False
+        self._folder = context.gui.add_folder("Cameras", visible=False)
+        self._images: dict[str, Any] = {}
+        self._next = 0.0
+
+    def read(self) -> dict[str, Picture] | None:
+        """Pictures by the names of cameras; None if it is not yet time for new ones."""
+        if not self.shown:
+            return {}
+        now = time.monotonic()
+        if now < self._next:
+            return None
+        self._next = now + _PERIOD
+        cameras = [
+            (unit.name, unit.model)
+            for unit in tuple(self._context.simulation.entities.sensors)
+            if isinstance(unit.model, CameraModel)
+        ]
+        return {name: self._picture(model) for name, model in cameras[:_MOST]}
+
+    def show(self, state: dict[str, Picture] | None) -> None:
+        """Put the pictures there."""
+        if state is None:
+            return
+        for name in [name for name in self._images if name not in state]:
+            self._images.pop(name).remove()
+        self._folder.visible = bool(state)
+        for name, picture in state.items():
+            if name in self._images:
+                self._images[name].image = picture
+                continue
+            with self._folder:
+                self._images[name] = self._context.gui.add_image(picture, label=name, format="jpeg")
+
+    def renew(self) -> None:
+        """Sensors are looked up with every picture."""
+
+    def _picture(self, model: CameraModel) -> Picture:
+        simulation, world = self._context.simulation, self._context.chosen
+        place = simulation.engine.link_placement(model.link, world)
+        pose, camera = model.poses[0], model.cameras[0]
+        at = place.position + rotate(place.quaternion, np.asarray(pose.position))
+        turned = multiply(place.quaternion, np.asarray(pose.quaternion))
+        width = min(camera.width, _WIDTH)
+        height = max(1, round(camera.height * width / camera.width))
+        lens = PinholeLens(width, height, camera.horizontal_fov, camera.near, camera.far)
+        found: Picture = simulation.live_scene.render(
+            lens, at, turned, world, want=("color",)
+        ).color[0]
+        return found

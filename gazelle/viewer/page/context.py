@@ -1,0 +1,138 @@
+"""What all parts of a page work with."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.errors import Error
+from gazelle.simulation import Simulation
+from gazelle.viewer.page.shapes import extent_of_world
+
+if TYPE_CHECKING:
+    from viser import GuiApi, SceneApi, ViserServer
+
+ROOT = "/world"
+"""What moves when a model is followed; everything hangs on it."""
+
+_GAP = 1.0  # between worlds that stand side by side [m]
+_log = logging.getLogger("gazelle.viewer")
+
+
+class Layer(Protocol):
+    """A part of the page that follows the simulation."""
+
+    def read(self) -> Any:
+        """Look at the state; called between two steps."""
+
+    def show(self, state: Any) -> None:
+        """Put what was read on the page."""
+
+    def renew(self) -> None:
+        """Models came or went."""
+
+
+class OptionalLayer(Layer, Protocol):
+    """One that can be left out.
+
+    Attributes:
+        shown: Whether it is on the page.
+    """
+
+    shown: bool
+
+
+@dataclass
+class PageContext:
+    """What a page shows, and how its parts reach the simulation.
+
+    Attributes:
+        simulation: What runs.
+        page: viser's server.
+        worlds: Which worlds are shown, shape (n,).
+        spots: Where they stand [m], shape (n, 3).
+        selected: Name of the model that tools work on, "" for none.
+        world: Number of the world that tools work on, among those shown.
+        heading: Where the followed model is [m], shape (3,).
+        listeners: Told when another model is selected.
+    """
+
+    simulation: Simulation
+    page: ViserServer
+    worlds: Worlds
+    spots: Floats
+    selected: str = ""
+    world: int = 0
+    heading: Floats = field(default_factory=lambda: np.zeros(3))
+    listeners: list[Callable[[], None]] = field(default_factory=list)
+
+    @property
+    def scene(self) -> SceneApi:
+        """Of the page."""
+        return self.page.scene
+
+    @property
+    def gui(self) -> GuiApi:
+        """Its panel."""
+        return self.page.gui
+
+    @property
+    def chosen(self) -> Worlds:
+        """The world that tools work on, shape (1,)."""
+        return self.worlds[self.world : self.world + 1]
+
+    @property
+    def spot(self) -> Floats:
+        """Where that world stands [m], shape (3,)."""
+        found: Floats = self.spots[self.world]
+        return found
+
+    def select(self, model: str, world: int = 0) -> None:
+        """Let tools work on a model; "" for none."""
+        if (model, world) != (self.selected, self.world):
+            self.selected, self.world = model, world
+            for listener in tuple(self.listeners):
+                listener()
+
+    def tell(self, title: str, text: str) -> None:
+        """Put a notice on every page."""
+        for client in self.page.get_clients().values():
+            client.add_notification(title, text, auto_close_seconds=6.0)
+
+    def heed(self, handle: Any, work: Callable[[], None]) -> None:
+        """Do something when a user, and not this program, changes what is on the panel."""
+
+        def changed(event: Any) -> None:
+            if event.client is not None:
+                self.careful(work)
+
+        handle.on_update(changed)
+
+    def careful(self, work: Callable[[], None]) -> None:
+        """Do what a user asked for; what goes wrong is said on the page and stops nothing."""
+        try:
+            work()
+        except Error as error:
+            self.tell("This cannot be done", str(error))
+        except Exception as error:  # noqa: BLE001  whatever it is, the run goes on
+            _log.exception("the page of a simulation failed")
+            self.tell("This failed", f"{type(error).__name__}: {error}")
+
+
+def spots_of(simulation: Simulation, count: int) -> Floats:
+    """Where copies of a world stand beside each other, in rows [m], shape (count, 3)."""
+    spots = np.zeros((count, 3))
+    if count > 1:
+        low, high = extent_of_world(simulation.world)
+        pitch = high - low + _GAP
+        columns = math.ceil(math.sqrt(count))
+        number = np.arange(count)
+        spots[:, 0] = (number % columns) * pitch[0]
+        spots[:, 1] = -(number // columns) * pitch[1]
+    return spots

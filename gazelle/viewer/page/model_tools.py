@@ -1,0 +1,228 @@
+"""What can be done with a model on the page: select, follow, drag, push, delete, spawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gazelle import assets, formats
+from gazelle.array_types import Floats
+from gazelle.description import Pose
+from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.shapes import Instance
+
+NONE = "none"
+_PUSH = 0.2  # how long a push lasts [s]
+_LIFT = 0.5  # [m]
+_OWN = "file ..."
+
+
+class ModelTools:
+    """Works on one model.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context = context
+        self._held = False  # somebody drags it
+        gui, careful = context.gui, context.careful
+        with gui.add_folder("Model"):
+            self._name: Any = gui.add_dropdown("Selected", (NONE,))
+            self._follow = gui.add_checkbox("Follow", initial_value=False)
+            self._gizmo_on = gui.add_checkbox("Gizmo", initial_value=True)
+            self._force = gui.add_vector3("Force [N]", (1.0, 0.0, 0.0), step=0.1)
+            self._work = gui.add_button_group("Do", ("push", "lift", "delete"))
+            gui.add_markdown("Click selects; drag with Shift moves, with Ctrl pulls by a spring.")
+        with gui.add_folder("Spawn", expand_by_default=False):
+            known = (*sorted(assets.robots()), *sorted(assets.models()))
+            self._what = gui.add_dropdown("What", (*known, _OWN))
+            self._file = gui.add_text("File", "", hint="a file or folder of this machine")
+            self._where = gui.add_vector3("x, y, yaw", (0.0, 0.0, 0.0), step=0.1)
+            self._spawn = gui.add_button("Spawn")
+        self._gizmo = context.scene.add_transform_controls(
+            f"{ROOT}/gizmo", scale=0.5, depth_test=False, visible=False
+        )
+        self._gizmo.on_update(self._moved)
+        context.heed(self._name, self._choose)
+        self._work.on_click(lambda event: careful(lambda: self.do(event.target.value)))
+        self._spawn.on_click(lambda _event: careful(self.spawn))
+        context.listeners.append(self._selected)
+        self.renew()
+
+    def read(self) -> tuple[Floats, Floats] | None:
+        """Where the selected model is, position (3,) and quaternion (4,)."""
+        model = self._context.selected
+        if model not in self._context.simulation.robots:
+            return None
+        place = self._context.simulation.engine.model_placement(model, self._context.chosen)
+        return place.position[0], place.quaternion[0]
+
+    def show(self, state: tuple[Floats, Floats] | None) -> None:
+        """Put the gizmo there, and follow."""
+        context = self._context
+        if state is None and context.selected:
+            context.select("")
+        followed = np.zeros(3)
+        if state is not None:
+            spot = context.spot
+            if self._follow.value:
+                followed = state[0] + spot
+            if not self._held and self._gizmo_on.value:
+                self._gizmo.position, self._gizmo.wxyz = state[0] + spot, state[1][[3, 0, 1, 2]]
+        self._gizmo.visible = state is not None and self._gizmo_on.value
+        context.heading = followed
+
+    def renew(self) -> None:
+        """List the models anew."""
+        self._name.options = (NONE, *self._context.simulation.robots)
+        self._selected()
+
+    def watch(self, handle: Any, met: Callable[[int], Instance]) -> None:
+        """Let the shapes of a batch be clicked and dragged."""
+        context = self._context
+
+        def click(event: Any) -> None:
+            found = met(event.instance_index or 0)
+            context.careful(lambda: context.select(found.link.split("::")[0], found.world))
+
+        handle.on_click(click)
+        handle.on_drag("left", modifier="shift")(_Drag(context, met).moved)
+        handle.on_drag("left", modifier="cmd/ctrl")(_Drag(context, met, pull=True).moved)
+
+    def _selected(self) -> None:
+        wanted = self._context.selected or NONE
+        if wanted in self._name.options:
+            self._name.value = wanted
+
+    def _choose(self) -> None:
+        name = self._name.value
+        self._context.select("" if name == NONE else name, self._context.world)
+
+    async def _moved(self, event: Any) -> None:
+        """The gizmo is held, moved or let go."""
+        self._held = event.phase != "end"
+        if event.phase != "update":
+            return
+        context, model = self._context, self._context.selected
+        at = np.asarray(self._gizmo.position) - context.spot
+        turned = np.asarray(self._gizmo.wxyz)[[1, 2, 3, 0]]
+        chosen = context.chosen
+        _place(context, model, at, turned, chosen)
+
+    def do(self, work: str) -> None:
+        """``push``, ``lift`` or ``delete`` the selected model."""
+        context = self._context
+        if not context.selected:
+            context.tell("No model is selected", "Click one, or choose it by name.")
+            return
+        robot = context.simulation.robots[context.selected]
+        if work == "delete":
+            context.simulation.delete(context.selected)
+        elif work == "lift":
+            pose = robot.placement(context.chosen)
+            up = np.array([0.0, 0.0, _LIFT])
+            robot.set_pose(pose.position + up, pose.quaternion, worlds=context.chosen)
+        else:
+            link = next(iter(robot.links.values()))
+            link.apply_wrench(self._force.value, duration=_PUSH, worlds=context.chosen)
+
+    def spawn(self) -> None:
+        """Put the model that is chosen where it is wanted."""
+        context, simulation = self._context, self._context.simulation
+        what = self._what.value
+        model = formats.load_model(self._file.value.strip() if what == _OWN else what)
+        name, number = model.name, 1
+        while name in simulation.robots:
+            number += 1
+            name = f"{model.name}_{number}"
+        x, y, yaw = self._where.value
+        namespace = "/" if name == model.name else f"/{name}"
+        simulation.spawn(replace(model, name=name), pose=Pose(x, y, yaw=yaw), namespace=namespace)
+        context.select(name, context.world)
+
+
+class _Drag:
+    """A model in the hand of the mouse: moved along the ground, or pulled by a spring.
+
+    Args:
+        context: Of the page.
+        met: The part of an instance.
+        pull: Whether it is pulled instead of moved.
+    """
+
+    def __init__(
+        self, context: PageContext, met: Callable[[int], Instance], *, pull: bool = False
+    ) -> None:
+        self._context, self._met, self._pull = context, met, pull
+        self._begin = np.zeros(3)
+        self._grabbed = np.zeros(3)
+        self._turned = np.array([0.0, 0.0, 0.0, 1.0])
+
+    async def moved(self, event: Any) -> None:
+        """The mouse began, went on or ended; in order, as viser promises for coroutines."""
+        context = self._context
+        found = self._met(event.instance_index or 0)
+        model = found.link.split("::")[0]
+        if event.phase == "start":
+            context.select(model, found.world)
+        world = context.worlds[found.world : found.world + 1]
+        if self._pull:
+            if event.phase != "end":
+                force = np.subtract(event.end_position, event.start_position)
+                _pull(context, model, found.link, force, world)
+            return
+        if event.phase == "start":
+            self._grabbed = np.asarray(event.start_position, np.float64)
+            context.simulation.requests.post(lambda: self._remember(model, world))
+        if event.phase == "update":
+            eye = np.asarray(event.client.camera.position, np.float64)
+            step = _on_level(eye, np.asarray(event.end_position), self._grabbed[2]) - self._grabbed
+            if np.isfinite(step).all():
+                _place(context, model, lambda: self._begin + step, lambda: self._turned, world)
+
+    def _remember(self, model: str, world: Any) -> None:
+        place = self._context.simulation.robots[model].placement(world)
+        self._begin, self._turned = place.position[0], place.quaternion[0]
+
+
+def _on_level(eye: Floats, through: Floats, height: float) -> Floats:
+    """Where the line from an eye through a point is at a height [m], shape (3,); NaN for nowhere."""
+    along = through - eye
+    if abs(along[2]) < 1e-6 or (share := (height - eye[2]) / along[2]) <= 0.0:
+        return np.full(3, math.nan)
+    found: Floats = eye + share * along
+    return found
+
+
+def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -> None:
+    """Put a model somewhere between two steps, without waiting for it."""
+
+    def put() -> None:
+        if model in context.simulation.robots:
+            robot = context.simulation.robots[model]
+            place = at() if callable(at) else at
+            way = turned() if callable(turned) else turned
+            context.careful(lambda: robot.set_pose(place, way, worlds=world))
+
+    context.simulation.requests.post(put)
+
+
+def _pull(context: PageContext, model: str, link: str, way: Floats, world: Any) -> None:
+    """Pull a link towards the mouse, harder the heavier its model and the farther the mouse is."""
+
+    def pull() -> None:
+        if model in context.simulation.robots:
+            robot = context.simulation.robots[model]
+            bodies = (each.description.inertial for each in robot.links.values())
+            mass = sum(body.mass for body in bodies if body is not None)
+            handle = robot.links[link.removeprefix(f"{model}::")]
+            force = 10.0 * mass * way
+            context.careful(lambda: handle.apply_wrench(force, duration=0.1, worlds=world))
+
+    context.simulation.requests.post(pull)

@@ -1,0 +1,292 @@
+"""What is not to be seen in a world: names, frames, joints, contacts, rays of lidars."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import Model, Pose
+from gazelle.engines.planar import PlanarEngine
+from gazelle.errors import EngineError
+from gazelle.rotations import rotate
+from gazelle.sensors import LidarModel
+from gazelle.viewer.page.context import ROOT, PageContext
+
+_NAMES = 200  # models beyond which names are not shown
+_RAYS = 20_000  # of all lidars together, drawn at most
+_FRAMES = 2000
+_CONTACTS = 2000
+_WAY = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+class NameLayer:
+    """A label at each model that moves.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context, self.shown = context, False
+        self._labels: dict[str, Any] = {}
+
+    def read(self) -> dict[str, Floats]:
+        """Where models are in the first world that is shown [m], each shape (3,)."""
+        simulation = self._context.simulation
+        robots = [each for each in simulation.robots.values() if not each.description.static]
+        if not self.shown or len(robots) > _NAMES:
+            return {}
+        first = self._context.worlds[:1]
+        return {each.name: each.placement(first).position[0] for each in robots}
+
+    def show(self, state: dict[str, Floats]) -> None:
+        """Move the labels."""
+        for name in [name for name in self._labels if name not in state]:
+            self._labels.pop(name).remove()
+        for name, place in state.items():
+            if name not in self._labels:
+                path = f"{ROOT}/names/{name}"
+                self._labels[name] = self._context.scene.add_label(path, name)
+            self._labels[name].position = place + self._context.spots[0]
+
+    def renew(self) -> None:
+        """Models that are gone lose their labels with the next picture."""
+
+
+class FrameLayer:
+    """Axes of all links, and the axes of joints as arrows.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context, self.shown = context, False
+        self._axes: Any = None
+        self._arrows: Any = None
+        self._links: tuple[str, ...] = ()
+        self._joints: list[tuple[int, Pose, Floats]] = []
+        self.renew()
+
+    def read(self) -> tuple[Floats, Floats] | None:
+        """Places of the links in the first world that is shown, (links, 3) and (links, 4)."""
+        if not self.shown:
+            return None
+        first = self._context.worlds[:1]
+        place = self._context.simulation.engine.link_placements(self._links, first)
+        return place.position[0], place.quaternion[0]
+
+    def show(self, state: tuple[Floats, Floats] | None) -> None:
+        """Draw them."""
+        for handle in (self._axes, self._arrows):
+            if handle is not None:
+                handle.visible = state is not None
+        if state is None or not len(state[0]):
+            return
+        at, turned = state[0] + self._context.spots[0], state[1]
+        if self._axes is None:
+            self._axes = self._context.scene.add_batched_axes(
+                f"{ROOT}/frames",
+                np.tile(_WAY, (len(at), 1)),
+                at,
+                axes_length=0.15,
+                axes_radius=0.006,
+            )
+        self._axes.batched_positions = at.astype(np.float32)
+        self._axes.batched_wxyzs = turned[:, [3, 0, 1, 2]].astype(np.float32)
+        self._point(at, turned)
+
+    def renew(self) -> None:
+        """List the links anew."""
+        for handle in (self._axes, self._arrows):
+            if handle is not None:
+                handle.remove()
+        self._axes = self._arrows = None
+        simulation = self._context.simulation
+        self._links = tuple(simulation.engine.link_names[:_FRAMES])
+        numbers = {link: number for number, link in enumerate(self._links)}
+        moving = set(simulation.engine.joint_names)
+        self._joints = [
+            (numbers[child], pose, axis)
+            for model in simulation.world.models
+            for name, child, pose, axis in _axes_of(model)
+            if name in moving and child in numbers
+        ]
+
+    def _point(self, at: Floats, turned: Floats) -> None:
+        if not self._joints:
+            return
+        lines = np.empty((len(self._joints), 2, 3))
+        for row, (link, pose, axis) in zip(lines, self._joints, strict=True):
+            row[0] = at[link] + rotate(turned[link], np.asarray(pose.position))
+            row[1] = row[0] + 0.2 * rotate(turned[link], np.asarray(pose.rotate(tuple(axis))))
+        if self._arrows is None:
+            self._arrows = self._context.scene.add_arrows(
+                f"{ROOT}/joints",
+                lines.astype(np.float32),
+                (230, 180, 20),
+                shaft_radius=0.006,
+                head_radius=0.015,
+                head_length=0.03,
+            )
+        self._arrows.points = lines.astype(np.float32)
+
+
+class ContactLayer:
+    """An arrow at each contact, along the force on what is touched.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context, self.shown = context, False
+        self._arrows: Any = None
+        self._names: tuple[str, ...] = ()
+        self.renew()
+
+    def read(self) -> Floats | None:
+        """Beginnings and ends of arrows [m], shape (n, 2, 3)."""
+        if not self.shown:
+            return None
+        context = self._context
+        try:
+            which, found = context.simulation.engine.touching(self._names, context.worlds)
+        except EngineError:  # an engine that knows no contacts
+            return np.zeros((0, 2, 3))
+        rows = np.searchsorted(context.worlds, which)
+        start = found.position + context.spots[rows]
+        force = np.linalg.norm(found.force, axis=1, keepdims=True)
+        length = 0.1 * np.log1p(force)
+        along = np.where(force > 0.0, found.force / np.maximum(force, 1e-9), found.normal)
+        return np.stack((start, start + length * along), axis=1)[:_CONTACTS]
+
+    def show(self, state: Floats | None) -> None:
+        """Draw them."""
+        if self._arrows is not None:
+            self._arrows.remove()
+            self._arrows = None
+        if state is not None and len(state):
+            self._arrows = self._context.scene.add_arrows(
+                f"{ROOT}/contacts",
+                state.astype(np.float32),
+                (210, 40, 40),
+                shaft_radius=0.008,
+                head_radius=0.02,
+                head_length=0.03,
+            )
+
+    def renew(self) -> None:
+        """List the collision shapes of what moves anew."""
+        self._names = tuple(
+            f"{placed.scope}::{link.name}::{collision.name}"
+            for model in self._context.simulation.world.models
+            if not model.static
+            for placed in model.walk()
+            for link in placed.model.links
+            for collision in link.collisions
+        )
+
+
+class RayLayer:
+    """Rays of lidars and rangers, and the points where they meet something.
+
+    What sensors measure is left alone: the rays are followed without noise.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context, self.shown = context, False
+        self._lines: Any = None
+        self._points: Any = None
+
+    def read(self) -> tuple[Floats, Floats] | None:
+        """Rays, shape (n, 2, 3), and points, shape (m, 3) [m]."""
+        if not self.shown:
+            return None
+        rays, met = [np.zeros((0, 2, 3))], [np.zeros((0, 3))]
+        count = 0
+        for eyes, ends, hits in self._followed():
+            rays.append(np.stack((eyes, ends), axis=1))
+            met.append(ends[hits])
+            count += len(ends)
+            if count > _RAYS:
+                break
+        return np.concatenate(rays)[:_RAYS], np.concatenate(met)[:_RAYS]
+
+    def show(self, state: tuple[Floats, Floats] | None) -> None:
+        """Draw them."""
+        for handle in (self._lines, self._points):
+            if handle is not None:
+                handle.visible = state is not None
+        if state is None:
+            return
+        lines, points = (part.astype(np.float32) for part in state)
+        scene = self._context.scene
+        if self._lines is None:
+            self._lines = scene.add_line_segments(f"{ROOT}/rays", lines, (120, 170, 230))
+            self._points = scene.add_point_cloud(
+                f"{ROOT}/scan", points, (210, 40, 40), point_size=0.03, point_shape="circle",
+                precision="float32",
+            )  # fmt: skip
+            return
+        self._lines.points = lines
+        self._points.points = points
+
+    def renew(self) -> None:
+        """Sensors are looked up with every picture."""
+
+    def _followed(self) -> Iterator[tuple[Floats, Floats, Any]]:
+        """Of each sensor in each world: where rays begin and end, and which met something."""
+        context = self._context
+        if isinstance(context.simulation.engine, PlanarEngine):
+            yield from self._planar()
+            return
+        for unit in tuple(context.simulation.entities.sensors):
+            model = unit.model
+            if isinstance(model, LidarModel):
+                yield from self._spatial(model)
+
+    def _planar(self) -> Iterator[tuple[Floats, Floats, Any]]:
+        from gazelle.viewer.plan import fleet_of, rays_of
+        from gazelle.viewer.plan_scans import scanners_of
+
+        context = self._context
+        for scanner in scanners_of(context.simulation, fleet_of(context.simulation)):
+            for world, spot in zip(context.worlds.tolist(), context.spots, strict=True):
+                for eye, ends, met in zip(*rays_of(scanner, world), strict=True):
+                    high = np.full(len(ends), 0.2)
+                    tips = np.column_stack((ends, high)) + spot
+                    root = np.array([*eye, 0.2]) + spot
+                    yield np.broadcast_to(root, tips.shape), tips, met
+
+    def _spatial(self, model: LidarModel) -> Iterator[tuple[Floats, Floats, Any]]:
+        context = self._context
+        engine = context.simulation.engine
+        found = engine.cast_rays(model.link, model.origins, model.directions, context.worlds)
+        place = engine.link_placement(model.link, context.worlds)
+        reach = model.lidar.range_max - model.lidar.range_min
+        for number, spot in enumerate(context.spots):
+            turned = place.quaternion[number][None]
+            eyes = place.position[number] + rotate(turned, model.origins) + spot
+            along = rotate(turned, model.directions)
+            away = np.minimum(found.distance[number], reach)
+            yield eyes, eyes + away[:, None] * along, found.distance[number] < reach
+
+
+def _axes_of(model: Model) -> Iterator[tuple[str, str, Pose, Floats]]:
+    """Names of joints and of the links on them, and their axes in these links."""
+    for placed in model.walk():
+        for joint in placed.model.joints:
+            for axis in joint.axes[:1]:
+                yield (
+                    f"{placed.scope}::{joint.name}",
+                    f"{placed.scope}::{joint.child}",
+                    joint.pose,
+                    np.asarray(axis.xyz),
+                )

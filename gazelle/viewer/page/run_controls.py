@@ -1,0 +1,110 @@
+"""Time on the page: run, pause, step, start over, how fast."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.viewer.page.context import PageContext
+
+_SPEEDS = ("0.1", "0.25", "0.5", "1", "2", "5", "10", "max")
+_WINDOW = 1.0  # over which the real-time factor is measured [s]
+
+
+@dataclass(frozen=True, slots=True)
+class ClockState:
+    """What the clock says.
+
+    Attributes:
+        time: Simulated [s].
+        paused: Whether it stands.
+        speed: Real-time factor that is aimed at; None for as fast as possible.
+    """
+
+    time: float
+    paused: bool
+    speed: float | None
+
+
+class RunControls:
+    """Buttons for the clock, and what it shows.
+
+    Args:
+        context: Of the page.
+    """
+
+    def __init__(self, context: PageContext) -> None:
+        self._context = context
+        self._marks: list[tuple[float, float]] = []
+        self._said = ""
+        gui, careful = context.gui, context.careful
+        self._status = gui.add_markdown("")
+        with gui.add_folder("Run"):
+            self._run = gui.add_button_group("Clock", ("run", "pause", "step", "reset"))
+            self._steps = gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
+            self._speed: Any = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
+        self._run.on_click(lambda event: careful(lambda: self.do(event.target.value)))
+        context.heed(self._speed, self._pace)
+
+    def read(self) -> ClockState:
+        """The clock now."""
+        simulation = self._context.simulation
+        return ClockState(simulation.time, simulation.paused, simulation.physics.target_rate)
+
+    def show(self, state: ClockState) -> None:
+        """Say what the clock says."""
+        speed = _name(state.speed)
+        if self._speed.value != speed:
+            if speed not in self._speed.options:
+                self._speed.options = (*_SPEEDS, speed)
+            self._speed.value = speed
+        factor = self._factor(state.time)
+        mode = "paused" if state.paused else f"real-time factor {factor:.2f}"
+        self._say(f"**{state.time:.2f} s** &nbsp; {mode}")
+
+    def renew(self) -> None:
+        """The clock does not depend on models."""
+
+    def _say(self, text: str) -> None:
+        if text != self._said:
+            self._status.content = self._said = text
+
+    def _factor(self, now: float) -> float:
+        """Simulated time a wall time, over the last while."""
+        wall = time.monotonic()
+        if self._marks and now < self._marks[-1][1]:
+            self._marks.clear()
+        self._marks.append((wall, now))
+        while len(self._marks) > 2 and wall - self._marks[1][0] > _WINDOW:
+            self._marks.pop(0)
+        (start, began), passed = self._marks[0], wall - self._marks[0][0]
+        return (now - began) / passed if passed > 0.0 and start else 0.0
+
+    def do(self, word: str) -> None:
+        """``run``, ``pause``, ``step`` or ``reset``."""
+        simulation = self._context.simulation
+        match word:
+            case "run":
+                simulation.unpause()
+            case "pause":
+                simulation.pause()
+            case "step":
+                simulation.pause()
+                simulation.step(int(self._steps.value))
+            case _:
+                simulation.reset()
+
+    def _pace(self) -> None:
+        set_speed(self._context.simulation, self._speed.value)
+
+
+def set_speed(simulation: Any, speed: str) -> None:
+    """Aim at a real-time factor, or ``max`` for as fast as possible."""
+    factor = 0.0 if speed == "max" else float(speed)
+    physics = simulation.physics
+    physics.update_rate = factor / physics.time_step
+
+
+def _name(speed: float | None) -> str:
+    return "max" if speed is None else f"{speed:.3g}"

@@ -1,0 +1,213 @@
+"""A page on this machine that only those see who know its address.
+
+viser serves whoever reaches its port, and offers to share the page over the internet. Here every
+request, the websocket's too, has to begin with a secret; what comes without it is refused before
+viser sees it, and nothing is shared.
+"""
+
+from __future__ import annotations
+
+import hmac
+import http.client
+import importlib
+import logging
+import secrets
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qsl, urlsplit
+
+from gazelle.closing import Closeable
+from gazelle.errors import Error, MissingExtraError
+
+if TYPE_CHECKING:
+    import viser
+    from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
+
+HOST = "127.0.0.1"
+GUESTS = 8
+"""Pages that are served at once."""
+
+_NAMES = frozenset([HOST, "localhost"])
+_OPENING = threading.Lock()
+_SAFE = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cache-Control": "no-store",
+}
+
+Handler = Callable[[Mapping[str, str]], None]
+
+
+class PageServer(Closeable):
+    """Serves one page of viser's on the loopback address, behind a secret.
+
+    Args:
+        title: Of the page's panel.
+        port: Any free one if 0.
+
+    Attributes:
+        viser: What the page shows and has on its panel.
+        url: Where the page is, with the secret.
+        handlers: What scripts on the page may ask for, by name.
+
+    Raises:
+        MissingExtraError: viser is not installed.
+        Error: The port is taken, or this viser cannot be guarded.
+    """
+
+    def __init__(self, title: str, port: int = 0) -> None:
+        try:
+            import viser
+        except ImportError as error:
+            raise MissingExtraError("viser", "web") from error
+        if not 0 <= port < 2**16:
+            raise Error(f"there is no port {port}", hint="ports are 0 to 65535")
+        self._token = secrets.token_urlsafe(16)
+        self._changed = threading.Event()
+        self._closed = False
+        self.handlers: dict[str, Handler] = {}
+        with _OPENING, _guarded(self._admit), _silent():
+            self.viser: viser.ViserServer = viser.ViserServer(HOST, port, title, verbose=False)
+        self.port = self.viser.get_port()
+        self.url = f"http://{HOST}:{self.port}/{self._token}/"
+        try:
+            self._check(port)
+        except BaseException:
+            self.close()
+            raise
+        self._forbid_sharing()
+        self.viser.on_client_connect(self._note)
+        self.viser.on_client_disconnect(self._note)
+
+    @property
+    def watched(self) -> bool:
+        """Whether anybody looks."""
+        return bool(self.viser.get_clients())
+
+    @property
+    def closed(self) -> bool:
+        """Whether it serves nobody any more."""
+        return self._closed
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait until somebody comes or goes, or it is closed."""
+        self._changed.wait(seconds)
+        self._changed.clear()
+
+    def close(self) -> None:
+        """Serve nobody any more, and give the port back."""
+        if self._closed:
+            return
+        self._closed = True
+        self._changed.set()
+        with _OPENING, _silent():
+            self.viser.stop()
+
+    async def _note(self, _client: object) -> None:
+        self._changed.set()
+
+    def _check(self, port: int) -> None:
+        """Make sure that it is the port that was asked for, and that strangers are refused."""
+        if port not in (0, self.port):
+            raise Error(f"no view on port {port}: it is taken", hint="choose another port")
+        connection = http.client.HTTPConnection(HOST, self.port, timeout=60)
+        try:
+            connection.request("GET", "/")
+            status = connection.getresponse().status
+        finally:
+            connection.close()
+        if status != HTTPStatus.FORBIDDEN:
+            raise Error(
+                "this release of viser serves its page to everybody",
+                hint='pip install "viser==1.1.1"',
+            )
+
+    def _forbid_sharing(self) -> None:
+        from viser import _messages
+
+        for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
+            self.viser._websock_server.unregister_handler(message)  # noqa: SLF001  there is no switch
+        self.viser.gui.configure_theme(show_logo=False, show_share_button=False)
+
+    def _admit(
+        self,
+        connection: ServerConnection,
+        request: Request,
+        serve: Callable[[ServerConnection, Request], Response | None],
+    ) -> Response | None:
+        """Let a request through to viser, answer it, or refuse it."""
+        host = urlsplit(f"//{request.headers.get('Host', '')}").hostname
+        path, _, query = request.path.partition("?")
+        _, token, *rest = (*path.split("/", 2), "")[:3]
+        if host not in _NAMES or not hmac.compare_digest(token.encode(), self._token.encode()):
+            return connection.respond(HTTPStatus.FORBIDDEN, "this page has a secret address\n")
+        name = rest[0]
+        if request.headers.get("Upgrade", "").lower() == "websocket":
+            if len(self.viser.get_clients()) >= GUESTS:
+                return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "too many pages\n")
+            return None
+        if name in self.handlers:
+            self.handlers[name](dict(parse_qsl(query)))
+            return connection.respond(HTTPStatus.OK, "")
+        if name not in ("", "index.html"):
+            return connection.respond(HTTPStatus.NOT_FOUND, "there is nothing\n")
+        request.path = f"/{name}"
+        response = serve(connection, request)
+        if response is not None:
+            for header, value in (*_SAFE.items(), ("Content-Security-Policy", self._policy())):
+                response.headers[header] = value
+        return response
+
+    def _policy(self) -> str:
+        """Nothing from elsewhere, and nobody's frame around it."""
+        own = " ".join(f"ws://{name}:{self.port}" for name in sorted(_NAMES))
+        return (
+            "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "
+            f"connect-src 'self' data: blob: {own}; frame-ancestors 'none'; base-uri 'none'"
+        )
+
+
+@contextmanager
+def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
+    """Let what viser serves meanwhile ask first whom to serve.
+
+    viser has no hook for it: it gives its own ``process_request`` to websockets' ``serve``.
+    """
+    from websockets.asyncio import server
+
+    original: Any = server.serve
+    log = logging.getLogger("gazelle.viewer")
+    log.addHandler(logging.NullHandler())
+    log.propagate = False
+
+    def serve(handler: Any, *args: Any, **options: Any) -> Any:
+        if not handler.__module__.startswith("viser."):
+            return original(handler, *args, **options)
+        inner = options.pop("process_request")
+
+        def ask(connection: Any, request: Any) -> Any:
+            return admit(connection, request, inner)
+
+        return original(handler, *args, process_request=ask, logger=log, **options)
+
+    server.serve = serve  # type: ignore[misc,assignment]
+    try:
+        yield
+    finally:
+        server.serve = original  # type: ignore[misc]
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Keep viser from printing: its address lacks the secret, and its end is nobody's business."""
+    rich: Any = importlib.import_module("rich")  # viser brings it
+    original = rich.print
+    rich.print = lambda *_args, **_options: None
+    try:
+        yield
+    finally:
+        rich.print = original
