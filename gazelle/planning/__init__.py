@@ -11,18 +11,27 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
+from gazelle.planning.allowed_collisions import AllowedCollisionMatrix
 from gazelle.planning.inverse import IkSolutions, InverseKinematics
 from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.robot_model import RobotModel
+from gazelle.planning.scene import PlanningScene, SceneContact
+from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
 from gazelle.planning.tree_builder import LinkFrame
 from gazelle.planning.variables import JointBounds, Variable
 
 __all__ = [
+    "AllowedCollisionMatrix",
+    "AttachedObject",
     "IkSolutions",
     "InverseKinematics",
     "JointBounds",
     "JointModelGroup",
     "LinkFrame",
+    "PlanningScene",
     "RobotModel",
+    "SceneContact",
+    "SceneObject",
     "Variable",
+    "voxel_boxes",
 ]

@@ -42,6 +42,7 @@ class RobotModel:
             virtual joint.
         variables: In the order of columns.
         links: By name; links that a description has made part of others are among them.
+        nodes: The joints that the variables move, parents first, one for each variable.
 
     Raises:
         PlanningError: The robot is no tree with one root.
@@ -60,7 +61,7 @@ class RobotModel:
         self.variables = tuple(builder.variables)
         self.links = builder.links()
         self.tree = builder.tree()
-        self._nodes = builder.nodes
+        self.nodes = builder.nodes
         self._sources = [builder.source(node) for node in builder.nodes]
         self._column = {variable.name: i for i, variable in enumerate(self.variables)}
         self._groups: dict[str, JointModelGroup] = {}
@@ -153,9 +154,9 @@ class RobotModel:
             node, way = self.link(link).joint, []
             while node >= 0:
                 way.append(node)
-                node = self._nodes[node].parent
+                node = self.nodes[node].parent
             ends.append(way)
-        joints = {self._nodes[joint].name for joint in {*ends[0]} ^ {*ends[1]}}
+        joints = {self.nodes[joint].name for joint in {*ends[0]} ^ {*ends[1]}}
         links = [joint.child for joint in self.model.joints if joint.name in joints]
         ordered = [link for link in self.links if link in (*links, tip)]
         return self._made(name, joints, tuple(ordered), (tip,), base)
@@ -208,7 +209,7 @@ class RobotModel:
         """Names of the links that move when some variables do."""
         chosen = {int(each) for each in np.asarray(columns).ravel()}
         moves: list[bool] = []
-        for node, (source, _, _) in zip(self._nodes, self._sources, strict=True):
+        for node, (source, _, _) in zip(self.nodes, self._sources, strict=True):
             moves.append(source in chosen or (node.parent >= 0 and moves[node.parent]))
         return frozenset(
             name for name, link in self.links.items() if link.joint >= 0 and moves[link.joint]

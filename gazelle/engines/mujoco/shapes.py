@@ -37,6 +37,7 @@ from gazelle.formats.ground import Ground
 
 if TYPE_CHECKING:
     from gazelle.formats.convex import ConvexPieces
+    from gazelle.formats.mesh import MeshData
 
 CONTACT_GROUP = 2
 """Of what collides and is not seen by rays, since a mesh stands for it."""
@@ -97,6 +98,13 @@ class ShapeBuilder:
         if pieces.gap > pieces.promised:
             _warn_of_gap(shape, pieces.gap, source)
         return self._piece_geoms((_key_of(shape), static), pieces, pose)
+
+    def data_options(self, data: MeshData, pose: Pose, *, static: bool) -> list[dict[str, Any]]:
+        """Arguments of ``add_geom`` for a mesh that is in no file; ``static`` as in ``options``."""
+        from gazelle.formats.convex import decompose
+
+        key = ("data", len(self.meshes), static)
+        return self._piece_geoms(key, decompose(data, static=static), pose)
 
     def _piece_geoms(self, key: Any, pieces: ConvexPieces, pose: Pose) -> list[dict[str, Any]]:
         """A geom of each piece, with its middle as origin: far from it MuJoCo's hull rounds."""

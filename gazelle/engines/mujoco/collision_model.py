@@ -1,0 +1,178 @@
+"""Which bodies of a tree touch what, without time or forces: MuJoCo's collision functions alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import mujoco
+
+from gazelle.array_types import Floats
+from gazelle.description import Geometry, Pose, Vector3
+from gazelle.engines.mujoco.process import settle
+from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.formats import MeshData
+
+Shape = Geometry | MeshData
+_HINGE, _SLIDE = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE
+
+
+@dataclass(frozen=True, slots=True)
+class CollisionBody:
+    """A body with shapes, that hangs on another one.
+
+    Attributes:
+        name: Unique.
+        parent: Name of the body that it hangs on; empty for the base of the robot.
+        pose: In the parent's frame.
+        shapes: With their poses in its own frame.
+        axis: Of the joint that holds it, in its frame; None where it is fixed.
+        slides: Whether it moves along the axis, rather than about it.
+    """
+
+    name: str
+    parent: str = ""
+    pose: Pose = field(default_factory=Pose)
+    shapes: tuple[tuple[Shape, Pose], ...] = ()
+    axis: Vector3 | None = None
+    slides: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class BodyContact:
+    """Two bodies that touch.
+
+    Attributes:
+        first: A name.
+        second: A name.
+        depth: How far they are within each other [m], padding counted.
+        point: Where, in the world frame [m].
+        normal: From the first to the second, in the world frame.
+    """
+
+    first: str
+    second: str
+    depth: float
+    point: Vector3
+    normal: Vector3
+
+
+class CollisionModel:
+    """A robot and what stands around it.
+
+    Bodies that are fixed to each other are not checked against each other; nor are obstacles.
+
+    Args:
+        bodies: Of the robot, parents first.
+        obstacles: What stands still; their parents and axes do not count.
+        ignored: Pairs of names that may touch.
+        padding: By name: at which distance from obstacles it counts as touching [m].
+    """
+
+    def __init__(
+        self,
+        bodies: Sequence[CollisionBody],
+        obstacles: Sequence[CollisionBody],
+        ignored: Iterable[tuple[str, str]],
+        padding: Mapping[str, float],
+    ) -> None:
+        settle()
+        spec = mujoco.MjSpec()
+        spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+        self._builder = ShapeBuilder(spec)
+        self._padding = dict(padding)
+        names = {body.name for body in (*bodies, *obstacles)}
+        widest = sorted((self._padding.get(name, 0.0) for name in names), reverse=True)[:2]
+        self._margin = max(0.0, sum(widest))
+        self._build(spec, bodies, obstacles)
+        for first, second in ignored:
+            if first in names and second in names:
+                spec.add_exclude(bodyname1=first, bodyname2=second)
+        self._model = spec.compile()
+        self._data = mujoco.MjData(self._model)
+        self._names = [self._model.body(index).name for index in range(self._model.nbody)]
+        self._still = {body.name for body in obstacles}
+
+    def _build(
+        self,
+        spec: mujoco.MjSpec,
+        bodies: Sequence[CollisionBody],
+        obstacles: Sequence[CollisionBody],
+    ) -> None:
+        weight = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "explicitinertial": True}
+        root = spec.worldbody.add_body(name=" base", **weight)
+        root.add_freejoint()
+        made = {"": root}
+        for body in bodies:
+            handle = made[body.parent].add_body(name=body.name, **weight, **_place(body.pose))
+            if body.axis is not None:
+                kind = _SLIDE if body.slides else _HINGE
+                handle.add_joint(type=kind, axis=list(body.axis))
+            made[body.name] = handle
+            self._add_shapes(handle, body, static=False)
+        for body in obstacles:
+            handle = spec.worldbody.add_body(name=body.name, **_place(body.pose))
+            self._add_shapes(handle, body, static=True)
+
+    def _add_shapes(self, handle: mujoco.MjsBody, body: CollisionBody, *, static: bool) -> None:
+        for shape, pose in body.shapes:
+            if isinstance(shape, MeshData):
+                geoms = self._builder.data_options(shape, pose, static=static)
+            else:
+                geoms = self._builder.options(shape, pose, None, static=static)
+            for geom in geoms:
+                handle.add_geom(margin=self._margin, **geom)
+
+    def place(self, positions: Floats, base: Sequence[float] | None = None) -> None:
+        """Move the robot.
+
+        Args:
+            positions: Of the joints in the order of their bodies [m or rad], shape (joints,).
+            base: Position and quaternion (x, y, z, w) of the base; as it is if None.
+        """
+        data = self._data
+        data.qpos[7:] = positions
+        if base is not None:
+            data.qpos[:3] = base[:3]
+            data.qpos[3:7] = base[6], *base[3:6]
+        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_collision(self._model, data)
+
+    def touches(self, positions: Floats) -> bool:
+        """Whether anything touches, with the joints at some positions, shape (joints,)."""
+        data = self._data
+        data.qpos[7:] = positions
+        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_collision(self._model, data)
+        if data.ncon == 0:
+            return False
+        if self._margin == 0.0:
+            return bool((data.contact.dist[: data.ncon] < 0.0).any())
+        return bool(self.contacts())
+
+    def contacts(self) -> list[BodyContact]:
+        """What touches, as the robot was placed last: of each pair where it is deepest."""
+        found: dict[tuple[str, str], BodyContact] = {}
+        owners = self._model.geom_bodyid
+        for number in range(self._data.ncon):
+            contact = self._data.contact[number]
+            first, second = (self._names[owners[geom]] for geom in contact.geom)
+            depth = self._allowance(first, second) - contact.dist
+            known = found.get((first, second))
+            if depth > 0.0 and (known is None or depth > known.depth):
+                point, normal = contact.pos.tolist(), contact.frame[:3].tolist()
+                found[first, second] = BodyContact(
+                    first, second, float(depth), tuple(point), tuple(normal)
+                )
+        return list(found.values())
+
+    def _allowance(self, first: str, second: str) -> float:
+        """At which distance two bodies count as touching; a robot's own parts have no padding."""
+        if not {first, second} & self._still:
+            return 0.0
+        return self._padding.get(first, 0.0) + self._padding.get(second, 0.0)
+
+
+def _place(pose: Pose) -> dict[str, list[float]]:
+    x, y, z, w = pose.quaternion
+    return {"pos": list(pose.position), "quat": [w, x, y, z]}

@@ -1,0 +1,99 @@
+"""Which pairs of names may touch: links, and what stands around."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Self
+
+from gazelle.description import Model, Semantics
+
+Pair = tuple[str, str]
+
+
+class AllowedCollisionMatrix:
+    """Pairs that may touch, and names that may touch anything.
+
+    A pair's own entry counts before those of its names; of these a False counts before a True.
+    """
+
+    def __init__(self) -> None:
+        self._pairs: dict[Pair, bool] = {}
+        self._names: dict[str, bool] = {}
+
+    @classmethod
+    def of_robot(cls, model: Model, semantics: Semantics) -> Self:
+        """As an SRDF says; without any pair there, links that one joint holds together may touch."""
+        made = cls()
+        for link in semantics.unchecked_links:
+            made.set_default(link, allowed=True)
+        for pair in semantics.disabled_collisions:
+            made.set_pair(pair.link1, pair.link2, allowed=True)
+        for pair in semantics.enabled_collisions:
+            made.set_pair(pair.link1, pair.link2, allowed=False)
+        if not semantics.disabled_collisions and not semantics.unchecked_links:
+            for joint in model.joints:
+                made.set_pair(joint.parent, joint.child, allowed=True)
+        return made
+
+    def set_pair(self, first: str, second: str, *, allowed: bool) -> None:
+        """Say of a pair whether it may touch."""
+        self._pairs[_key(first, second)] = allowed
+
+    def set_default(self, name: str, *, allowed: bool) -> None:
+        """Say of a name whether it may touch what no pair says anything of."""
+        self._names[name] = allowed
+
+    def forget(self, name: str) -> None:
+        """Drop all entries of a name."""
+        self._names.pop(name, None)
+        self._pairs = {pair: value for pair, value in self._pairs.items() if name not in pair}
+
+    def clear(self) -> None:
+        """Drop all entries: nothing may touch."""
+        self._pairs.clear()
+        self._names.clear()
+
+    def copy(self) -> AllowedCollisionMatrix:
+        """Another one that says the same."""
+        made = AllowedCollisionMatrix()
+        made._pairs, made._names = dict(self._pairs), dict(self._names)  # its own class
+        return made
+
+    def allows(self, first: str, second: str) -> bool:
+        """Whether two names may touch."""
+        own = self._pairs.get(_key(first, second))
+        if own is not None:
+            return own
+        said = [self._names[name] for name in (first, second) if name in self._names]
+        return bool(said) and all(said)
+
+    def allowed_among(self, names: Iterable[str]) -> list[Pair]:
+        """All pairs of some names that may touch."""
+        known = sorted(set(names))
+        if not self._names:
+            here = set(known)
+            return [
+                p for p, value in self._pairs.items() if value and {*p} <= here and p[0] != p[1]
+            ]
+        return [(a, b) for i, a in enumerate(known) for b in known[:i] if self.allows(a, b)]
+
+    @property
+    def pairs(self) -> Mapping[Pair, bool]:
+        """Entries of pairs, names in alphabetic order."""
+        return dict(self._pairs)
+
+    @property
+    def defaults(self) -> Mapping[str, bool]:
+        """Entries of names."""
+        return dict(self._names)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, AllowedCollisionMatrix):
+            return NotImplemented
+        return self._pairs == other._pairs and self._names == other._names
+
+    __hash__ = None  # type: ignore[assignment]  # it changes
+
+
+def _key(first: str, second: str) -> Pair:
+    return (first, second) if first <= second else (second, first)
