@@ -1,0 +1,218 @@
+"""The layer of what sensors see: points become obstacles, and what is before them free."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from gazelle.array_types import Bytes, Floats
+from gazelle.navigation.costmap.costmap import Costmap, Layer, raise_to, roll
+from gazelle.navigation.costmap.footprint import inside, placed
+from gazelle.navigation.costmap.rays import clear_rays
+from gazelle.navigation.costmap.values import (
+    FREE_SPACE,
+    LETHAL,
+    NO_INFORMATION,
+    Region,
+    Window,
+)
+from gazelle.navigation.following import Pose2
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """What a sensor saw once.
+
+    Attributes:
+        time: When [s].
+        origin: Of the sensor in the costmap's frame [m], shape (3,).
+        points: What it saw, likewise, shape (n, 3).
+    """
+
+    time: float
+    origin: Floats
+    points: Floats
+
+
+@dataclass(slots=True)
+class ObservationSource:
+    """A sensor, and how much of what it sees counts.
+
+    Attributes:
+        marking: Whether what it sees is an obstacle.
+        clearing: Whether what is before that is free.
+        obstacle_range: Points farther off are no obstacles [m].
+        raytrace_range: What is farther off is not freed [m].
+        min_height: Points below are left out [m].
+        max_height: Points above, too.
+        persistence: How long observations count [s]; 0 for the last one only.
+        observations: Those that count, oldest first.
+    """
+
+    marking: bool = True
+    clearing: bool = False
+    obstacle_range: float = 2.5
+    raytrace_range: float = 3.0
+    min_height: float = 0.0
+    max_height: float = 2.0
+    persistence: float = 0.0
+    observations: list[Observation] = field(default_factory=list)
+
+    def add(self, seen: Observation) -> None:
+        """Take what was seen."""
+        z = seen.points[:, 2]
+        kept = seen.points[(z >= self.min_height) & (z <= self.max_height)]
+        seen = Observation(seen.time, seen.origin, kept)
+        if self.persistence > 0.0:
+            self.observations = [
+                each
+                for each in self.observations
+                if 0.0 <= seen.time - each.time <= self.persistence
+            ]
+            self.observations.append(seen)
+        else:
+            self.observations = [seen]
+
+
+class ObstacleLayer(Layer):
+    """Obstacles that sensors see, in the plane.
+
+    Args:
+        name: Within the costmap.
+        sources: Sensors by name.
+        max_height: Points above are left out, whatever the source says [m].
+        footprint_clearing: Whether the robot stands on free ground by definition.
+        overwrite: Write all that is known; else only raise costs (``combination_method`` 0, 1).
+    """
+
+    def __init__(
+        self,
+        name: str = "obstacle_layer",
+        sources: Mapping[str, ObservationSource] | None = None,
+        *,
+        max_height: float = 2.0,
+        footprint_clearing: bool = True,
+        overwrite: bool = False,
+    ) -> None:
+        super().__init__(name)
+        self.sources = dict(sources or {})
+        self._max_height = max_height
+        self._footprint_clearing, self._overwrite = footprint_clearing, overwrite
+        self.cells: Bytes = np.zeros((0, 0), np.uint8)
+        self._outline: Floats = np.zeros((0, 2))
+        self._all = False
+
+    def observe(self, source: str, time: float, origin: Floats, points: Floats) -> None:
+        """Take what a sensor saw.
+
+        Args:
+            source: Its name.
+            time: When [s].
+            origin: Of the sensor in the costmap's frame [m], shape (3,).
+            points: Likewise, shape (n, 3).
+        """
+        self.sources[source].add(Observation(time, origin, points))
+
+    def resized(self, costmap: Costmap) -> None:
+        """Begin with nothing known."""
+        self.cells = np.full(costmap.cells.shape, costmap.default, np.uint8)
+
+    def moved(self, costmap: Costmap, columns: int, rows: int) -> None:
+        """Keep what is still in the window."""
+        roll(self.cells, columns, rows, costmap.default)
+        self._all = True
+
+    def reset(self) -> None:
+        """Forget all."""
+        self.cells.fill(FREE_SPACE)
+        for source in self.sources.values():
+            source.observations.clear()
+        self._all = True
+
+    def clear_area(self, costmap: Costmap, area: Region, *, outside: bool) -> None:
+        """Forget what was seen within an area, or outside of it."""
+        window = costmap.window_of(area)
+        if outside:
+            kept = self.cells[window.slices].copy()
+            self.cells.fill(costmap.default)
+            self.cells[window.slices] = kept
+        else:
+            self.cells[window.slices] = costmap.default
+        self._all = True
+
+    def update_bounds(self, costmap: Costmap, pose: Pose2, region: Region) -> None:
+        """Draw all observations onto the layer."""
+        seen = [(source, each) for source in self.sources.values() for each in source.observations]
+        for source, each in seen:
+            if source.clearing:
+                self._clear(costmap, source, each, region)
+        for source, each in seen:
+            if source.marking:
+                self._mark(costmap, source, each, region)
+        self._outline = placed(costmap.footprint, *pose)
+        for x, y in self._outline:
+            region.touch(float(x), float(y))
+        if self._all or costmap.rolling:
+            rows, columns = self.cells.shape
+            region.touch(*costmap.place_of(0, 0))
+            region.touch(*costmap.place_of(columns - 1, rows - 1))
+            self._all = False
+
+    def update_costs(self, costmap: Costmap, window: Window) -> None:
+        """Write what was seen."""
+        if self._footprint_clearing:
+            _fill(self.cells, costmap, self._outline, FREE_SPACE)
+        layer, target = self.cells[window.slices], costmap.cells[window.slices]
+        if self._overwrite:
+            np.copyto(target, layer, where=layer != NO_INFORMATION)
+        else:
+            raise_to(target, layer)
+
+    def _clear(
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+    ) -> None:
+        """Free what is between a sensor and what it saw."""
+        start = costmap.cell_of(float(seen.origin[0]), float(seen.origin[1]))
+        if start is None or not len(seen.points):
+            return
+        corner, side = np.array(costmap.origin), costmap.resolution
+        ends = np.floor((seen.points[:, :2] - corner) / side)
+        clear_rays(self.cells, start, ends, math.ceil(source.raytrace_range / side))
+        self._touch(seen, source.raytrace_range, region)
+
+    def _mark(
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+    ) -> None:
+        """Make obstacles of what a sensor saw."""
+        away = ((seen.points - seen.origin) ** 2).sum(axis=1)
+        kept = (away < source.obstacle_range**2) & (seen.points[:, 2] <= self._max_height)
+        points = seen.points[kept]
+        corner = np.array(costmap.origin)
+        cells = np.floor((points[:, :2] - corner) / costmap.resolution).astype(int)
+        limit = np.array(self.cells.shape[::-1])
+        on_map = ((cells >= 0) & (cells < limit)).all(axis=1)
+        self.cells[cells[on_map, 1], cells[on_map, 0]] = LETHAL
+        self._touch(seen, source.obstacle_range, region)
+
+    @staticmethod
+    def _touch(seen: Observation, reach: float, region: Region) -> None:
+        """Widen the region by what was seen, as far as it counts."""
+        origin = seen.origin[:2]
+        ends = seen.points[:, :2] - origin
+        far = np.hypot(ends[:, 0], ends[:, 1])
+        ends = origin + ends * np.minimum(1.0, reach / np.maximum(far, 1e-9))[:, None]
+        for x, y in (origin, *((ends.min(axis=0), ends.max(axis=0)) if len(ends) else ())):
+            region.touch(float(x), float(y))
+
+
+def _fill(cells: Bytes, costmap: Costmap, outline: Floats, cost: int) -> None:
+    """Give all cells whose middles are within an outline a cost."""
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    window = costmap.window_of(Region(low[0], low[1], high[0], high[1]))
+    side = costmap.resolution
+    x = costmap.origin[0] + (np.arange(window.x0, window.x1, dtype=np.float64) + 0.5) * side
+    y = costmap.origin[1] + (np.arange(window.y0, window.y1, dtype=np.float64) + 0.5) * side
+    cells[window.slices][inside(outline, x, y[:, None])] = cost

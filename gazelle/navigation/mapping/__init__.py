@@ -1,0 +1,9 @@
+"""Kernels."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])

@@ -1,0 +1,46 @@
+"""``carrot_planner/CarrotPlanner``: straight towards the goal, as far as there is room."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.planners.navfn import NO_PLAN
+from gazelle.navigation.planners.plugins import GlobalPlannerPlugin
+from gazelle.navigation.planners.rollout import Rollout
+
+_STEP = 0.01
+"""Share of the way by which the end moves back at a time."""
+
+
+class CarrotPlanner(GlobalPlannerPlugin):
+    """A straight way that ends where the robot can stand, at or before the goal.
+
+    Parameters: ``min_dist_from_robot`` 0.1 m is read and, as in the original, not used.
+    """
+
+    def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
+        """Two poses; see `GlobalPlannerPlugin`."""
+        del tolerance
+        if self.costmap.cell_of(goal[0], goal[1]) is None:
+            return NO_PLAN
+        rollout = Rollout(
+            self.costmap.cells,
+            self.costmap.origin,
+            self.costmap.resolution,
+            self.costmap.footprint,
+            np.zeros((4, *self.costmap.cells.shape), np.int32),
+            np.zeros(6),
+            0.0,
+        )
+        turn = math.remainder(goal[2] - start[2], 2.0 * math.pi)
+        for share in 1.0 - _STEP * np.arange(round(1.0 / _STEP)):
+            x = start[0] + share * (goal[0] - start[0])
+            y = start[1] + share * (goal[1] - start[1])
+            heading = start[2] + share * turn
+            if rollout.footprint_cost(x, y, heading) >= 0.0:
+                return np.array([start, (x, y, heading)], np.float64)
+        return NO_PLAN

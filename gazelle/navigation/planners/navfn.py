@@ -1,0 +1,124 @@
+"""``navfn/NavfnROS``: the cheapest way over a costmap."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from gazelle.array_types import Floats, Floats32
+from gazelle.navigation.costmap import Costmap
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.costmap.values import INSCRIBED, NO_INFORMATION
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.planners.plugins import GlobalPlannerPlugin, Values
+from gazelle.navigation.planners.potential import NOT_REACHED, PotentialField
+
+_NEUTRAL: Final = 50.0
+_FACTOR: Final = 0.8
+_UNKNOWN: Final = 253.0
+"""Prices of a cell: 50 + 0.8 times its cost; of unknown cells 253."""
+
+NO_PLAN: Final[Floats] = np.zeros((0, 3))
+
+
+class PotentialPlanner(GlobalPlannerPlugin):
+    """What planners share that go down a potential.
+
+    The potential spreads from the robot, so that goals nearby can be looked at if one cannot be
+    reached.
+    """
+
+    def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
+        super().__init__(name, costmap, parameters)
+        self.allow_unknown = value_of(parameters, "allow_unknown", True)
+        self.tolerance = value_of(parameters, "default_tolerance", 0.0)
+        self.quadratic = True
+        self.grid_path = False
+        self._field: PotentialField | None = None
+
+    def prices(self) -> Floats32:
+        """What the length of a cell costs, by its cost; 0 where it is closed; shape (256,)."""
+        table = _NEUTRAL + _FACTOR * np.arange(256, dtype=np.float32)
+        table[INSCRIBED:] = 0.0
+        table[NO_INFORMATION] = _UNKNOWN if self.allow_unknown else 0.0
+        return table.astype(np.float32)
+
+    def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
+        """The cheapest way; see `GlobalPlannerPlugin`."""
+        first = self.costmap.cell_of(start[0], start[1])
+        last = self.costmap.cell_of(goal[0], goal[1])
+        if first is None or last is None:
+            return NO_PLAN
+        table = self.prices()
+        prices = table[self.costmap.cells]
+        # The robot stands where it stands, whatever the map says.
+        prices[first[1], first[0]] = table[0]
+        field = self._prepared()
+        reach = self.tolerance if tolerance is None else tolerance
+        least = float(table[table > 0.0].min())
+        field.spread(prices, first, last if reach <= 0.0 else None, least, self.quadratic)
+        end = last if reach <= 0.0 else self._nearest(field, last, reach)
+        if end is None or field.values[end[1], end[0]] >= NOT_REACHED:
+            return NO_PLAN
+        cells = field.way_down(end, first, self.grid_path)
+        if not len(cells):
+            return NO_PLAN
+        return self._posed(cells[::-1], start, goal, exact=end == last)
+
+    def _prepared(self) -> PotentialField:
+        rows, columns = self.costmap.cells.shape
+        if self._field is None or self._field.values.shape != (rows, columns):
+            self._field = PotentialField(rows, columns)
+        return self._field
+
+    def _nearest(
+        self, field: PotentialField, goal: tuple[int, int], reach: float
+    ) -> tuple[int, int] | None:
+        """The cell nearest to the goal that was reached, within a distance [m]."""
+        rows, columns = np.nonzero(field.values < NOT_REACHED)
+        away = np.hypot(columns - goal[0], rows - goal[1])
+        if not len(away) or away.min() * self.costmap.resolution > reach:
+            return None
+        best = int(away.argmin())
+        return int(columns[best]), int(rows[best])
+
+    def _posed(self, cells: Floats, start: Pose2, goal: Pose2, *, exact: bool) -> Floats:
+        """Poses along a way of cells: each but the last one looks ahead by what ``oriented`` says."""
+        corner = np.array(self.costmap.origin)
+        plan = np.zeros((len(cells), 3))
+        plan[:, :2] = corner + (cells + 0.5) * self.costmap.resolution
+        if exact:
+            plan[-1] = goal
+        plan[-1, 2] = goal[2]
+        return self.oriented(plan, start)
+
+    def oriented(self, plan: Floats, start: Pose2) -> Floats:
+        """The same poses with headings; here they are left 0, as navfn leaves them."""
+        del start
+        return plan
+
+
+class NavfnPlanner(PotentialPlanner):
+    """``navfn/NavfnROS``: parameters ``allow_unknown``, ``default_tolerance``."""
+
+
+def path_length(plan: Floats) -> float:
+    """Of a plan, shape (n, 2) or (n, 3) [m]."""
+    return float(np.hypot(*np.diff(plan[:, :2], axis=0).T).sum()) if len(plan) > 1 else 0.0
+
+
+def heading_along(plan: Floats) -> Floats:
+    """The heading from each pose to the next [rad], shape (n,); the last keeps the one before."""
+    steps = np.diff(plan[:, :2], axis=0)
+    if not len(steps):
+        return np.zeros(len(plan))
+    headings = np.arctan2(steps[:, 1], steps[:, 0])
+    return np.append(headings, headings[-1])
+
+
+def turned(headings: Floats, angle: float) -> Floats:
+    """Headings turned by an angle, between -pi and pi."""
+    wrapped: Floats = np.remainder(headings + angle + math.pi, 2.0 * math.pi) - math.pi
+    return wrapped

@@ -1,0 +1,74 @@
+"""Keep a robot from going to and fro on the spot."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gazelle.array_types import Bools, Floats
+from gazelle.navigation.following import Pose2, wrapped
+
+_AXES = 3
+
+
+class OscillationGuard:
+    """Once a robot has gone to and fro along x or y, or in turning, only the last way is left to it.
+
+    Until it has moved on. The rule is that of ``base_local_planner``.
+
+    Args:
+        distance: That ends it [m].
+        angle: That ends it, too [rad].
+    """
+
+    def __init__(self, distance: float, angle: float) -> None:
+        self._distance, self._angle = distance, angle
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all."""
+        self._last = [0] * _AXES
+        """The sign of the last motion on each axis."""
+        self._only = [0] * _AXES
+        """The one sign that is left to it."""
+        self._pose: Pose2 = (0.0, 0.0, 0.0)
+
+    def forbidden(self, commands: Floats) -> Bools:
+        """Which commands it may not have, shape (n,)."""
+        found = np.zeros(len(commands), np.bool_)
+        for axis, only in enumerate(self._only):
+            if only:
+                found |= np.sign(commands[:, axis]) == -only
+        return found
+
+    def update(self, pose: Pose2, command: Floats, least: float) -> None:
+        """Learn what it is going to do.
+
+        Args:
+            pose: Of the robot.
+            command: x, y [m/s] and turning [rad/s], shape (3,).
+            least: Faster than this along x, turning does not count [m/s].
+        """
+        changed = self._learn(0, command[0])
+        if abs(command[0]) <= least:
+            changed |= self._learn(1, command[1]) | self._learn(2, command[2])
+        if changed:
+            self._pose = pose
+        elif any(self._only) and self._away(pose):
+            self._last, self._only = [0] * _AXES, [0] * _AXES
+
+    def _learn(self, axis: int, speed: float) -> bool:
+        """Note a motion on an axis; returns whether it turned round."""
+        sign = int(np.sign(speed))
+        if not sign:
+            return False
+        back = self._last[axis] == -sign and self._only[axis] != sign
+        if back:
+            self._only[axis] = sign
+        self._last[axis] = sign
+        return back
+
+    def _away(self, pose: Pose2) -> bool:
+        moved = math.hypot(pose[0] - self._pose[0], pose[1] - self._pose[1])
+        return moved > self._distance or abs(wrapped(pose[2] - self._pose[2])) > self._angle
