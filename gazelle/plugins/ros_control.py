@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from gazelle import formats
@@ -15,7 +15,7 @@ from gazelle.array_types import Worlds
 from gazelle.control import ControllerParameters
 from gazelle.control.limits import JointLimits
 from gazelle.control.pid import PidGains
-from gazelle.description import Parameters, Transmission
+from gazelle.description import Model, Parameters, Transmission
 from gazelle.errors import ControlWarning, Error, SimulationError, did_you_mean, located
 from gazelle.simulation import Input, Robot, Setting, absolute, namespace_of
 from gazelle.simulation.control_loop import ControlLoop
@@ -36,7 +36,8 @@ class RosControl(ControlLoop):
     """Lets controllers command the joints that transmissions name, each through its first interface.
 
     Its controllers are ``robot.controllers``; of a model with several of these plugins, each with a
-    namespace of its own, ``robot.managers[namespace]``.
+    namespace of its own, ``robot.managers[namespace]``. Settings and inputs of the second and
+    further ones have their full names: ``robot.settings["/head/joint_limits"]``.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
@@ -60,16 +61,20 @@ class RosControl(ControlLoop):
         topic = parameters.get("eStopTopic", "")
         if topic:
             full = absolute(self._namespace, topic)
-            robot.inputs["emergency_stop"] = Input(full, EmergencyStop, self._press, queue_size=1)
+            name = _unused("emergency_stop", full, robot.inputs)
+            robot.inputs[name] = Input(full, EmergencyStop, self._press, queue_size=1)
         gains = absolute(self._namespace, "gazebo_ros_control/pid_gains")
         limits = absolute(self._namespace, "joint_limits")
-        robot.settings["pid_gains"] = Setting(gains, {}, self.take_gains)
-        robot.settings["joint_limits"] = Setting(limits, {}, self.take_limits)
+        for full, name, take in (
+            (gains, "pid_gains", self.take_gains),
+            (limits, "joint_limits", self.take_limits),
+        ):
+            robot.settings[_unused(name, full, robot.settings)] = Setting(full, {}, take)
         if "robotParam" in parameters or not robot.description.transmissions:
             name = parameters.get("robotParam", "robot_description")
             full = absolute(self._namespace, name)
             awaited = not robot.description.transmissions
-            robot.settings[name] = Setting(
+            robot.settings[_unused(name, full, robot.settings)] = Setting(
                 full, "", self.take_description, search=True, awaited=awaited
             )
 
@@ -112,10 +117,14 @@ class RosControl(ControlLoop):
 
     # -- making the robot's side ---------------------------------------------------------
 
+    def transmissions_of(self, model: Model) -> Sequence[Transmission]:
+        """Those of a model whose joints are controlled."""
+        return model.transmissions
+
     def _make(self) -> SimulatedHardware:
         joints = [
             self._joint(transmission)
-            for transmission in self._model.transmissions
+            for transmission in self.transmissions_of(self._model)
             if self._is_good(transmission)
         ]
         setup = HardwareSetup(self._namespace, joints, self._model, self._parameters)
@@ -182,6 +191,11 @@ def _fault_of(transmission: Transmission) -> str:
     if not transmission.actuators:
         return "has no <actuator>"
     return ""
+
+
+def _unused(name: str, full: str, taken: Mapping[str, object]) -> str:
+    """The short name of a port, or its full one where another of these plugins has the short one."""
+    return full if name in taken else name
 
 
 def _free(namespace: str, taken: Mapping[str, object]) -> str:

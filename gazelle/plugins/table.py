@@ -81,6 +81,7 @@ _JOINTS = (
     _simulated("gazebo_ros_wheel_slip WheelSlipPlugin", "lets wheels slip by compliance · radius · spin · force / normal force", "wheel_slip:WheelSlip"),
     _simulated("gazebo_ros_elevator ElevatorPlugin", "a lift with a door", "elevator:Elevator"),
     _simulated("gazebo_ros_control", "joints under ros_control's controllers", "ros_control:RosControl"),
+    _simulated("gazebo_ros_control_select_joints", "the same for the joints that `<joints>` names", "select_joints:SelectedRosControl"),
     _simulated("JointControlPlugin", "joints held by PID, or turned", "joint_control:JointControl"),
 )
 
@@ -106,7 +107,6 @@ _NOT_SIMULATED = (
     _left_out("gazebo_ros_thermal_camera gazebo_ros_thermal_depth_camera gazebo_ros_triggered_multicamera",
               "cameras of heat, triggered pairs", "its pictures are not published yet; its topics stay away"),
     _left_out("gazebo_ros_projector gazebo_ros_video", "pictures on models", "pictures on models are not shown; its topic is not listened to"),
-    _left_out("gazebo_ros_control_select_joints", "ros_control for some of the joints", "its joints move freely; libgazebo_ros_control.so is simulated"),
     _left_out("CessnaGUIPlugin HydraDemoPlugin HydraPlugin JoyPlugin KeysToCmdVelPlugin KeysToJointsPlugin PlaneDemoPlugin",
               "what keys, joysticks and buttons drive", "there are no keys, joysticks or buttons; command it by topics, or from Python"),
     _left_out("AttachLightPlugin FlashLightPlugin LedPlugin RosFlashLightPlugin", "lights that flash, or that links carry",
