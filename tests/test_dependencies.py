@@ -18,6 +18,7 @@ DEVELOPERS = {"test", "lint", "oracle", "bench"}
 
 NOT_OURS = {
     "cv2": "cv_bridge hands images to the user's OpenCV, and says so where there is none",
+    "onnxruntime": "whoever deploys ONNX policies chooses one of its builds; it is in `test`",
     "cython": "what is compiled needs it no more; it is in the extra `test`",
 }
 """Libraries that nobody can declare, and why."""

@@ -47,6 +47,7 @@ COMMANDS = {
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
         Command("export", "a run's policy as ONNX or numpy arrays", "learn", "export"),
+        Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "deploy"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),
         Command("launch", "run a roslaunch file", "ROS 1", "launch"),
         Command("exec", "run a Python script written for ROS 1", "ROS 1", "execute"),

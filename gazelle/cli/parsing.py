@@ -6,6 +6,7 @@ import argparse
 import json
 import shutil
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -17,8 +18,23 @@ _WIDTH = 80
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are one line and a hint, with exit code 2."""
 
+    intermixed = False
+    """Whether options may stand between words, as those of nodes with remappings do."""
+
     def __init__(self, **keywords: Any) -> None:
         super().__init__(formatter_class=_formatter, allow_abbrev=False, **keywords)
+
+    def parse_known_args(  # type: ignore[override]  # its overloads say the same
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """As the library's, but for `intermixed`."""
+        if not self.intermixed:
+            return super().parse_known_args(args, namespace)
+        self.intermixed = False  # the library's method calls this one
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self.intermixed = True
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the command line and exit with code 2."""

@@ -32,9 +32,13 @@ def contract_of(env: VectorEnv[Any, Any, Any], config: RunConfig) -> PolicyContr
     if not isinstance(told, PolicyContract):
         spaces = env.single_observation_space, env.single_action_space
         told = generic_contract(*spaces, control_period(env))
+    limit = told.time_limit
+    if limit is None and told.control_period and env.spec and env.spec.max_episode_steps:
+        limit = env.spec.max_episode_steps * told.control_period
     return dataclasses.replace(
         told,
         task=config.task,
+        time_limit=limit,
         versions=versions(),
         training={
             "algorithm": config.recipe.algo,

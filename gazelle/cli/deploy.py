@@ -1,0 +1,148 @@
+"""Let a policy drive a robot on a ROS 1 graph: Gazelle's, a real Gazebo's, a real
+TurtleBot3. Needs no torch.
+
+  gazelle run turtlebot3_stage_1 --ros --spawn turtlebot3_burger
+  gazelle deploy runs/TurtleBot3Stage1-ppo-20261105-140302 --arm --goal 1,0.5
+  gazelle deploy policy.npz --max-linear 0.1 --log drive.jsonl odom:=/tb3/odom
+
+It hears scan, odom and move_base_simple/goal, sends cmd_vel; all names can be
+remapped. It stands still until the service /gazelle_policy/arm is called:
+
+  gazelle service call /gazelle_policy/arm "data: true"
+
+However it ends, by kill -9 too, the robot is sent zero: a guard, a process of
+its own, holds cmd_vel. With goals given it ends when they are done, and the
+exit code is 1 if one was not reached.
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.argument_types import positive_float
+from gazelle.cli.parsing import Parser
+
+if TYPE_CHECKING:
+    from gazelle.training.deploy import GoalOutcome, GoalPlace, Policy, SafetyLimits
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    if isinstance(parser, Parser):
+        parser.intermixed = True
+    parser.add_argument("policy", metavar="RUN|FILE", type=Path, help="run, .npz or .onnx")
+    parser.add_argument(
+        "names", metavar="OLD:=NEW", nargs="*", help="ROS names, such as scan:=/lidar"
+    )
+    goals = parser.add_argument_group("where to")
+    goals.add_argument(
+        "--goal", metavar="X,Y", action="append", default=[], help="go there [m] (repeatable)"
+    )
+    goals.add_argument("--goals", metavar="FILE", type=Path, help="one x, y a line [m]")
+    goals.add_argument(
+        "--time-limit", metavar="S", type=positive_float, help="for each goal (default the task's)"
+    )
+    safety = parser.add_argument_group("what it may not do, whatever the policy wants")
+    safety.add_argument("--arm", action="store_true", help="drive as soon as all sensors speak")
+    safety.add_argument("--max-linear", metavar="M/S", type=positive_float, default=math.inf)
+    safety.add_argument("--max-angular", metavar="RAD/S", type=positive_float, default=math.inf)
+    safety.add_argument(
+        "--stop-distance",
+        metavar="M",
+        type=float,
+        help="only turn with something nearer than this ahead; 0: never (default the range that "
+        "was a collision and 0.03)",
+    )
+    safety.add_argument(
+        "--scan-timeout", metavar="S", type=positive_float, default=0.4, help="default 0.4"
+    )
+    safety.add_argument(
+        "--odom-timeout", metavar="S", type=positive_float, default=0.4, help="default 0.4"
+    )
+    parser.add_argument(
+        "--scan-yaw",
+        metavar="RAD",
+        type=float,
+        default=0.0,
+        help="how far the lidar is turned to the left on the robot",
+    )
+    parser.add_argument("--log", metavar="FILE", type=Path, help="log of interventions (JSON)")
+    parser.set_defaults(parser=parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.ros.builtin.arguments import parse_arguments
+    from gazelle.ros.signals import stopping
+    from gazelle.training.deploy import DeployNode, open_policy
+
+    arguments = parse_arguments(args.names, "gazelle_policy")
+    if arguments.plain:
+        args.parser.error(f"unrecognized arguments: {' '.join(arguments.plain)}")
+    goals = _goals(args)
+    policy = open_policy(args.policy)
+    limits = _limits(args, policy)
+    with stopping() as stop:
+        node = arguments.start()
+        try:
+            deployed = DeployNode(
+                node,
+                policy,
+                limits,
+                turned=args.scan_yaw,
+                time_limit=args.time_limit,
+                log=args.log,
+            )
+        except BaseException:
+            node.close()
+            raise
+        with deployed:
+            sys.stderr.write(f"{policy.contract.task} on {node.name}, guarded\n")
+            deployed.go_to(goals)
+            deployed.run(stop, arm=args.arm, until_done=bool(goals))
+            outcomes, overruled = deployed.pilot.outcomes, deployed.interventions.count
+    return _report(outcomes, overruled, len(goals))
+
+
+def _goals(args: argparse.Namespace) -> list[GoalPlace]:
+    from gazelle.training.deploy import read_goals
+    from gazelle.training.deploy.goals import parse_goal
+
+    goals = []
+    for text in args.goal:
+        try:
+            goals.append(parse_goal(text))
+        except ValueError:
+            args.parser.error(f"--goal {text}: expected X,Y in metres")
+    return goals + ([] if args.goals is None else read_goals(args.goals))
+
+
+def _limits(args: argparse.Namespace, policy: Policy) -> SafetyLimits:
+    from gazelle.training.deploy import SafetyLimits
+
+    distance = args.stop_distance
+    if distance is None:
+        distance = SafetyLimits.default_stop_distance(policy.contract)
+    return SafetyLimits(
+        max_linear=args.max_linear,
+        max_angular=args.max_angular,
+        stop_distance=distance,
+        scan_timeout=args.scan_timeout,
+        odometry_timeout=args.odom_timeout,
+    )
+
+
+def _report(outcomes: list[GoalOutcome], overruled: int, asked: int) -> int:
+    """Say what became of the goals; returns the exit code."""
+    for each in outcomes:
+        sys.stdout.write(
+            f"({each.goal.x:g}, {each.goal.y:g})  {each.outcome}, {each.seconds:.1f} s\n"
+        )
+    reached = sum(each.outcome == "reached" for each in outcomes)
+    if outcomes:
+        sys.stdout.write(f"reached {reached} of {len(outcomes)}, overruled {overruled} times\n")
+    return 0 if reached >= asked else 1

@@ -1,0 +1,70 @@
+"""Goals of other frames than the odometry's, such as ``map``, through tf."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from gazelle.ros import Node, load_message
+from gazelle.ros.tf import FrameTree, TransformException
+from gazelle.training.deploy.goals import GoalPlace
+
+
+class GoalFrames:
+    """Knows where goals are in the frame of the odometry; listens to ``/tf`` once it has to.
+
+    Args:
+        node: Listens.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._tree: FrameTree | None = None
+
+    def place(self, goal: GoalPlace, frame: str) -> tuple[float, float] | None:
+        """Where a goal is now [m], or None if no transform tells.
+
+        Args:
+            goal: In its own frame.
+            frame: Of the odometry.
+        """
+        if goal.frame in {"", frame}:
+            return goal.x, goal.y
+        if self._tree is None:
+            self._tree = self._listen(FrameTree())
+        try:
+            found = self._tree.lookup(frame, goal.frame)
+        except TransformException:
+            return None
+        return _moved(goal, found)
+
+    def _listen(self, tree: FrameTree) -> FrameTree:
+        kind = load_message("tf2_msgs/TFMessage")
+        for topic, static in (("/tf", False), ("/tf_static", True)):
+            self._node.subscribe(topic, kind, partial(_place_all, tree, static=static))
+        return tree
+
+
+def _moved(goal: GoalPlace, found: Any) -> tuple[float, float]:
+    """A place on the ground, turned and shifted by a transform."""
+    x, y, z, w = found.rotation
+    cos, sin = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
+    other_cos, other_sin = 1.0 - 2.0 * (x * x + z * z), 2.0 * (x * y - w * z)
+    return (
+        found.translation[0] + cos * goal.x + other_sin * goal.y,
+        found.translation[1] + sin * goal.x + other_cos * goal.y,
+    )
+
+
+def _place_all(tree: FrameTree, message: Any, *, static: bool) -> None:
+    for each in message.transforms:
+        shift, turn = each.transform.translation, each.transform.rotation
+        tree.place(
+            each.header.frame_id,
+            each.child_frame_id,
+            each.header.stamp.to_nsec(),
+            (shift.x, shift.y, shift.z),
+            (turn.x, turn.y, turn.z, turn.w),
+            authority=each.header.frame_id,
+            static=static,
+        )

@@ -1,0 +1,78 @@
+"""Where a deployed policy is to go, and what became of it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from gazelle.errors import FormatError
+
+
+@dataclass(frozen=True, slots=True)
+class GoalPlace:
+    """A place to go to."""
+
+    x: float
+    """[m]"""
+    y: float
+    """[m]"""
+    frame: str = ""
+    """Of the place; empty for that of the odometry."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalOutcome:
+    """What became of a goal."""
+
+    goal: GoalPlace
+    outcome: str
+    """``reached``, ``collision``, ``time-out`` or ``replaced`` by another goal."""
+    seconds: float
+    """How long it took [s of the node's clock]."""
+    distance: float
+    """How far from it the robot was then [m]."""
+
+
+def read_goals(file: Path) -> list[GoalPlace]:
+    """Goals from a text file: one ``x, y`` [m] a line, and a frame behind them if need be.
+
+    Empty lines, and what follows a ``#``, are left out.
+
+    Raises:
+        FormatError: A line is no goal, or the file cannot be read.
+    """
+    goals = []
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise FormatError(f"cannot read the goals: {error}", file=str(file)) from error
+    for number, line in enumerate(lines, 1):
+        text = line.partition("#")[0].strip()
+        if not text:
+            continue
+        try:
+            goals.append(parse_goal(text))
+        except ValueError as error:
+            hint = "expected x, y in metres, such as: 1.5, -0.5"
+            raise FormatError(str(error), file=str(file), line=number, hint=hint) from error
+    return goals
+
+
+def parse_goal(text: str) -> GoalPlace:
+    """A goal from ``x,y`` or ``x,y,frame``.
+
+    Raises:
+        ValueError: It is not of that form.
+    """
+    (fields,) = csv.reader([text], skipinitialspace=True)
+    if len(fields) not in {2, 3}:
+        raise ValueError(f"'{text}' is no goal")
+    try:
+        x, y = float(fields[0]), float(fields[1])
+    except ValueError:
+        raise ValueError(f"'{text}' is no goal") from None
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise ValueError(f"'{text}' is no goal")
+    return GoalPlace(x, y, fields[2].strip() if len(fields) == 3 else "")

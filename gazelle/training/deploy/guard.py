@@ -1,0 +1,121 @@
+"""The guard: a process of its own that holds the topic of commands and outlives the node.
+
+The node writes to it through a pipe what the robot is to do, many times a second. When the pipe ends,
+because the node ended in whatever way (`SIGKILL` too), or when nothing comes through it for a while
+(the node hangs or was stopped), the guard sends the robot zero. As it is the only publisher, nothing
+of the node can come after that. It ignores Ctrl-C and SIGTERM, which ask the node to end.
+
+Run as ``python -m gazelle.training.deploy.guard OPTIONS``, options being JSON: ``node`` (what
+`gazelle.ros.Node` takes), ``topic``, ``timeout`` [s].
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import struct
+import sys
+import time
+from typing import Any
+
+from gazelle.ros import Node, Publisher, load_message
+from gazelle.ros.errors import RosError
+
+ORDER = struct.Struct("<?dd")
+"""What comes through the pipe: whether the node has a say, forward speed [m/s], yaw rate [rad/s]."""
+READY = b"ready\n"
+"""What the guard answers when it is connected."""
+
+_AGAIN = 0.1  # commands that do not change are sent again after this [s]
+_FAREWELLS = 5  # zeros at the end, in case a subscriber loses some
+_FAREWELL_GAP = 0.05  # [s]
+
+
+class _Relay:
+    """Publishes what the node orders."""
+
+    def __init__(self, publisher: Publisher) -> None:
+        self._publisher = publisher
+        self._kind = load_message("geometry_msgs/Twist")
+        self._last = (False, 0.0, 0.0)
+        self._drove = False
+        self._sent_at = 0.0
+
+    @property
+    def active(self) -> bool:
+        """Whether the last order was one to drive by."""
+        return self._last[0]
+
+    def obey(self, order: tuple[bool, float, float]) -> None:
+        """Publish an order if it is news, or if the last one was some time ago."""
+        active, linear, angular = order
+        now = time.monotonic()
+        self._drove |= active
+        if active and (order != self._last or now - self._sent_at >= _AGAIN):
+            self._send(linear, angular)
+            self._sent_at = now
+        elif self._last[0] and not active:
+            self._send(0.0, 0.0)
+        self._last = order
+
+    def stop(self) -> None:
+        """The node is silent: let the robot stand."""
+        if self.active:
+            self.obey((True, 0.0, 0.0))
+
+    def say_farewell(self) -> None:
+        """The node is gone: let the robot stand, if it was driven at all."""
+        for _ in range(_FAREWELLS if self._drove else 0):
+            self._send(0.0, 0.0)
+            time.sleep(_FAREWELL_GAP)
+
+    def _send(self, linear: float, angular: float) -> None:
+        message: Any = self._kind()
+        message.linear.x, message.angular.z = linear, angular
+        self._publisher.publish(message)
+
+
+def main(text: str) -> int:
+    """Guard until the pipe on standard input ends; returns the exit code."""
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
+    options: dict[str, Any] = json.loads(text)
+    try:
+        node = Node(**options["node"])
+    except RosError as error:
+        sys.stderr.write(f"the guard: {error}\n")
+        return 1
+    try:
+        relay = _Relay(node.advertise(options["topic"], load_message("geometry_msgs/Twist"), 1))
+        os.write(sys.stdout.fileno(), READY)
+        _serve(relay, node, float(options["timeout"]))
+        relay.say_farewell()
+    finally:
+        node.close()
+    return 0
+
+
+def _serve(relay: _Relay, node: Node, timeout: float) -> None:
+    """Do what comes through the pipe until it ends, or somebody ends the guard's node."""
+    pipe, rest = sys.stdin.fileno(), b""
+    while not node.closed:
+        readable, _, _ = select.select([pipe], [], [], timeout)
+        if not readable:
+            relay.stop()
+            continue
+        data = os.read(pipe, 65536)
+        if not data:
+            return
+        rest += data
+        whole = len(rest) // ORDER.size * ORDER.size
+        if whole:
+            # Orders that wait behind each other are old: the newest counts.
+            relay.obey(ORDER.unpack(rest[whole - ORDER.size : whole]))
+            rest = rest[whole:]
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

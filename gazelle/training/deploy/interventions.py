@@ -1,0 +1,78 @@
+"""A log of every time the robot did not do what the policy wanted, and why."""
+
+from __future__ import annotations
+
+import json
+import logging
+from pathlib import Path
+from typing import IO, Any
+
+from gazelle.errors import TaskError
+from gazelle.training.deploy.pilot import Tick
+from gazelle.training.deploy.safety import VelocityCommand
+
+_LOG = logging.getLogger(__name__)
+
+
+class InterventionLog:
+    """One line of JSON where an intervention begins and one where it ends.
+
+    They also go to this module's logger, and from there to ``/rosout``: warnings and infos.
+
+    Args:
+        file: Lines are added to it; None for the logger alone.
+
+    Raises:
+        TaskError: The file cannot be written.
+
+    Attributes:
+        count: Interventions so far.
+    """
+
+    def __init__(self, file: Path | None = None) -> None:
+        self._file: IO[str] | None = None
+        if file is not None:
+            try:
+                file.parent.mkdir(parents=True, exist_ok=True)
+                self._file = file.open("a", encoding="utf-8")
+            except OSError as error:
+                raise TaskError(f"cannot write the log: {error}", hint="see --log") from error
+        self._cause = ""
+        self._began = 0.0
+        self.count = 0
+
+    def follow(self, tick: Tick, now: float) -> None:
+        """Take in what the pilot said; numbers in a reason do not make it another one."""
+        cause = "" if tick.reason is None else tick.reason.partition(" at ")[0]
+        if cause == self._cause:
+            return
+        if self._cause:
+            self.note("end", now, reason=self._cause, seconds=round(now - self._began, 3))
+        self._cause, self._began = cause, now
+        if cause:
+            self.count += 1
+            _LOG.warning("the policy is overruled: %s", tick.reason)
+            self.note(
+                "begin",
+                now,
+                reason=cause,
+                detail=tick.reason,
+                wanted=_pair(tick.wanted),
+                given=_pair(tick.command),
+            )
+
+    def note(self, event: str, now: float, **details: Any) -> None:
+        """Add a line."""
+        if self._file is not None:
+            self._file.write(json.dumps({"time": round(now, 6), "event": event, **details}) + "\n")
+            self._file.flush()
+
+    def close(self) -> None:
+        """Close the file; a second call does nothing."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+
+def _pair(command: VelocityCommand) -> list[float]:
+    return [round(command.linear, 4), round(command.angular, 4)]

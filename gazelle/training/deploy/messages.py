@@ -1,0 +1,58 @@
+"""Between ROS messages and what the pilot works with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.ros import load_message
+from gazelle.training.deploy.goals import GoalPlace
+from gazelle.training.deploy.sensing import OdometryReading, ScanReading
+
+
+def scan_of(message: Any) -> ScanReading:
+    """What a sensor_msgs/LaserScan says."""
+    return ScanReading(
+        np.asarray(message.ranges, dtype=np.float32).astype(np.float64),
+        float(message.angle_min),
+        float(message.angle_increment),
+        float(message.range_min),
+        float(message.range_max),
+    )
+
+
+def odometry_of(message: Any) -> OdometryReading:
+    """What a nav_msgs/Odometry says."""
+    place, twist = message.pose.pose, message.twist.twist
+    return OdometryReading(
+        float(place.position.x),
+        float(place.position.y),
+        yaw_of(place.orientation),
+        float(twist.linear.x),
+        float(twist.angular.z),
+    )
+
+
+def goal_of(message: Any) -> GoalPlace:
+    """What a geometry_msgs/PoseStamped says."""
+    place = message.pose.position
+    return GoalPlace(float(place.x), float(place.y), message.header.frame_id.removeprefix("/"))
+
+
+def yaw_of(quaternion: Any) -> float:
+    """The angle about z of a geometry_msgs/Quaternion [rad], in [-pi, pi]."""
+    x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def floats_message(labels: Sequence[str], values: Sequence[float]) -> Any:
+    """A std_msgs/Float32MultiArray of one dimension, whose label names its numbers."""
+    message: Any = load_message("std_msgs/Float32MultiArray")()
+    dimension: Any = load_message("std_msgs/MultiArrayDimension")()
+    dimension.label, dimension.size, dimension.stride = ",".join(labels), len(values), len(values)
+    message.layout.dim = [dimension]
+    message.data = [float(value) for value in values]
+    return message

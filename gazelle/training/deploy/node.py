@@ -1,0 +1,278 @@
+"""The node: hears scan, odometry and goals, lets the pilot decide, and orders the guard."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import math
+import threading
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from gazelle.closing import Closeable
+from gazelle.ros import MasterProxy, Node, load_message, load_service
+from gazelle.ros.errors import RosError
+from gazelle.training.deploy.frames import GoalFrames
+from gazelle.training.deploy.goals import GoalOutcome, GoalPlace
+from gazelle.training.deploy.guarding import Guarded, GuardLostError
+from gazelle.training.deploy.interventions import InterventionLog
+from gazelle.training.deploy.messages import floats_message, goal_of, odometry_of, scan_of
+from gazelle.training.deploy.pilot import Acted, Pilot, Tick
+from gazelle.training.deploy.policies import Policy
+from gazelle.training.deploy.safety import SafetyLimits
+
+_LOG = logging.getLogger(__name__)
+
+_TICK_S = 0.02
+_MASTER_LOOK_S = 0.5
+_MASTER_MISSES = 2
+_FAREWELLS = 5
+
+
+class DeployNode(Closeable):
+    """A policy as a ROS 1 node.
+
+    It stands still until it is armed: by the service ``~arm`` (``std_srvs/SetBool``), or by ``arm``.
+
+    ======================================  ==================================================
+    Name (relative ones can be remapped)    Meaning
+    ======================================  ==================================================
+    ``scan``, ``odom`` (in)                 sensor_msgs/LaserScan, nav_msgs/Odometry
+    ``move_base_simple/goal`` (in)          geometry_msgs/PoseStamped; takes the place of all
+                                            goals there are
+    ``cmd_vel`` (out, by the guard)         geometry_msgs/Twist; silent while nothing is to do
+    ``get_action`` (out)                    std_msgs/Float32MultiArray: action, score, reward
+    ``result`` (out)                        std_msgs/Float32MultiArray: score, max_q, where a
+                                            goal came to its end
+    ``~status`` (out, latched)              std_msgs/String
+    ``~arm`` (service)                      std_srvs/SetBool
+    ======================================  ==================================================
+
+    As there is no reward on a robot, ``reward`` is how much nearer to the goal it came in a step
+    [m], and ``score`` the sum of those.
+
+    Args:
+        node: On the graph; it is closed with this.
+        policy: Acts.
+        limits: What it may not do.
+        turned: How far the lidar is turned to the left on the robot [rad].
+        time_limit: For each goal [s]; None for that of the contract.
+        log: File for the log of interventions.
+
+    Raises:
+        GuardLostError: The guard did not start.
+        TaskError: The policy sees what no sensor gives, or the log cannot be written.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        policy: Policy,
+        limits: SafetyLimits,
+        *,
+        turned: float = 0.0,
+        time_limit: float | None = None,
+        log: Path | None = None,
+    ) -> None:
+        self.node = node
+        self.pilot = Pilot(policy, limits, turned=turned, time_limit=time_limit)
+        self.interventions = InterventionLog(log)
+        self._lock = threading.RLock()
+        self._news = threading.Event()
+        self._over = threading.Event()
+        self._frame = ""
+        self._frames = GoalFrames(node)
+        self._best = 0.0
+        self._score = 0.0
+        self._said = ""
+        self._master_lost = False
+        self._guard = _start_guard(node)
+        self._connect()
+        self._watch = threading.Thread(target=self._watch_master, daemon=True)
+        self._watch.start()
+
+    @property
+    def guard_pid(self) -> int:
+        """Of the guard's process."""
+        return self._guard.pid
+
+    def arm(self) -> str | None:
+        """Let the robot drive; returns why it may not, or None."""
+        with self._lock:
+            fault = "the master is lost" if self._master_lost else self.pilot.arm(self._now())
+            if fault is None:
+                self.interventions.note("armed", self._now())
+            return fault
+
+    def disarm(self, why: str = "asked to") -> None:
+        """Let the robot stand."""
+        with self._lock:
+            if self.pilot.armed:
+                self.pilot.disarm()
+                _LOG.warning("disarmed: %s", why)
+                self.interventions.note("disarmed", self._now(), reason=why)
+        self._news.set()
+
+    def go_to(self, goals: Iterable[GoalPlace]) -> None:
+        """Go to these goals, one after another, and to no others."""
+        with self._lock:
+            ended = self.pilot.go_to(goals, self._now())
+            if ended is not None:
+                self._tell_end(ended)
+        self._news.set()
+
+    def run(self, stop: threading.Event, *, arm: bool = False, until_done: bool = False) -> None:
+        """Drive until asked to stop, until somebody ends the node, or until all goals are done.
+
+        Args:
+            stop: Asks to stop.
+            arm: Arm as soon as all sensors speak.
+            until_done: Return when there is no goal left.
+
+        Raises:
+            GuardLostError: The guard is gone; the robot was stopped.
+        """
+        self.node.on_shutdown.append(lambda _: self._over.set())
+        try:
+            while not stop.is_set() and not self._over.is_set() and not self.node.closed:
+                if arm and not self.pilot.armed and self.arm() is None:
+                    arm = False
+                self._step()
+                if until_done and self.pilot.goal is None:
+                    return
+                self._news.wait(_TICK_S)
+                self._news.clear()
+        except GuardLostError:
+            self._stop_without_guard()
+            raise
+        finally:
+            self.disarm("the node ends")
+
+    def close(self) -> None:
+        """Let the robot stand and the node end; a second call does nothing."""
+        self._over.set()
+        self.pilot.disarm()
+        self._guard.close()
+        self.interventions.close()
+        self.node.close()
+        if self._watch is not threading.current_thread():
+            self._watch.join()
+
+    # Inner ---------------------------------------------------------------------------------
+
+    def _connect(self) -> None:
+        node = self.node
+        floats = load_message("std_msgs/Float32MultiArray")
+        self._actions = node.advertise("get_action", floats, 10)
+        self._results = node.advertise("result", floats, 10)
+        self._status = node.advertise("~status", load_message("std_msgs/String"), 1, latch=True)
+        node.subscribe("scan", load_message("sensor_msgs/LaserScan"), self._hear_scan, 1)
+        node.subscribe("odom", load_message("nav_msgs/Odometry"), self._hear_odometry, 1)
+        goals = load_message("geometry_msgs/PoseStamped")
+        node.subscribe("move_base_simple/goal", goals, lambda m: self.go_to([goal_of(m)]), 1)
+        node.serve("~arm", load_service("std_srvs/SetBool"), self._serve_arm)
+
+    def _now(self) -> float:
+        return self.node.clock.now() * 1e-9
+
+    def _hear_scan(self, message: Any) -> None:
+        reading = scan_of(message)
+        with self._lock:
+            self.pilot.see(reading, self._now())
+        self._news.set()
+
+    def _hear_odometry(self, message: Any) -> None:
+        reading = odometry_of(message)
+        with self._lock:
+            self._frame = message.header.frame_id.removeprefix("/")
+            self.pilot.feel(reading, self._now())
+
+    def _serve_arm(self, request: Any) -> Any:
+        response: Any = load_service("std_srvs/SetBool")._response_class()
+        if not request.data:
+            self.disarm()
+            response.success, response.message = True, "disarmed"
+            return response
+        fault = self.arm()
+        response.success, response.message = fault is None, fault or "armed"
+        return response
+
+    def _step(self) -> None:
+        """Let the pilot decide, and tell everybody."""
+        with self._lock:
+            now, goal = self._now(), self.pilot.goal
+            place = None if goal is None else self._frames.place(goal, self._frame)
+            tick = self.pilot.tick(now, place)
+            self.interventions.follow(tick, now)
+        self._guard.order(tick.command, active=tick.active)
+        if tick.acted is not None:
+            self._tell_act(tick.acted)
+        if tick.ended is not None:
+            self._tell_end(tick.ended)
+        self._tell_status(tick)
+
+    def _tell_act(self, acted: Acted) -> None:
+        self._best = max(self._best, acted.decision.best_output)
+        self._score = acted.score
+        action = acted.decision.action
+        names = ["action"] if len(action) == 1 else ["linear", "angular"]
+        values = [*action, acted.score, acted.gain]
+        self._actions.publish(floats_message([*names, "score", "reward"], values))
+
+    def _tell_end(self, ended: GoalOutcome) -> None:
+        _LOG.info("goal (%g, %g): %s", ended.goal.x, ended.goal.y, ended.outcome)
+        self.interventions.note(
+            "goal",
+            self._now(),
+            goal=[ended.goal.x, ended.goal.y],
+            outcome=ended.outcome,
+            seconds=round(ended.seconds, 3),
+            distance=None if math.isnan(ended.distance) else round(ended.distance, 3),
+        )
+        self._results.publish(floats_message(["score", "max_q"], [self._score, self._best]))
+        self._best = self._score = 0.0
+
+    def _tell_status(self, tick: Tick) -> None:
+        if not self.pilot.armed:
+            text = "disarmed"
+        elif not tick.active:
+            text = "armed, no goal"
+        else:
+            text = "driving" if tick.reason is None else f"overruled: {tick.reason}"
+        cause = text.partition(" at ")[0]
+        if cause != self._said:
+            self._said = cause
+            self._status.publish(self._status.message_class(text))
+
+    def _stop_without_guard(self) -> None:
+        """The guard is gone: send the robot zero from here."""
+        kind = load_message("geometry_msgs/Twist")
+        with contextlib.suppress(RosError):
+            publisher = self.node.advertise("cmd_vel", kind, 1)
+            for _ in range(_FAREWELLS):
+                publisher.publish(kind())
+                self._over.wait(0.1)
+
+    def _watch_master(self) -> None:
+        """Without a master nobody finds the node, to disarm it for instance: stand still then."""
+        proxy, missed = MasterProxy(self.node.master_uri, self.node.name), 0
+        while not self._over.wait(_MASTER_LOOK_S) and not self.node.closed:
+            try:
+                proxy.get_pid()
+                missed = 0
+            except (RosError, OSError):
+                missed += 1
+            self._master_lost = missed >= _MASTER_MISSES
+            if self._master_lost:
+                self.disarm("the master is lost")
+        proxy.close()
+
+
+def _start_guard(node: Node) -> Guarded:
+    options = {
+        "name": f"{node.name}_guard",
+        "master_uri": node.master_uri,
+        "host": node.host,
+    }
+    return Guarded(options, node.resolve("cmd_vel"))

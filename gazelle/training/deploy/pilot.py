@@ -1,0 +1,248 @@
+"""Decides what a robot does next: the policy's will, within what is safe. Knows nothing of ROS.
+
+Times are those of the node's clock in seconds, which may be simulated and may jump back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from gazelle.training.deploy.goals import GoalOutcome, GoalPlace
+from gazelle.training.deploy.policies import Decision, Policy
+from gazelle.training.deploy.safety import STAND, SafetyLimits, VelocityCommand, unusable
+from gazelle.training.deploy.sensing import (
+    Observer,
+    OdometryReading,
+    ScanReading,
+    distance_to_goal,
+)
+
+_EARLY = 0.75  # share of the control period after which a new scan is acted on
+_SPEED_CHANGE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Acted:
+    """One act of the policy."""
+
+    decision: Decision
+    """What it decided."""
+    gain: float
+    """How much nearer to the goal the robot came since the act before [m]."""
+    score: float
+    """Sum of those since the goal was set [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """What the pilot says at one moment."""
+
+    command: VelocityCommand
+    """What the robot is to do."""
+    active: bool
+    """Whether the pilot has a say; if not, others may drive."""
+    wanted: VelocityCommand = STAND
+    """What the policy wants."""
+    reason: str | None = None
+    """Why the command is not what the policy wants; None where it is."""
+    acted: Acted | None = None
+    """Set where the policy acted at this moment."""
+    ended: GoalOutcome | None = None
+    """Set where a goal came to its end at this moment."""
+
+
+class Pilot:
+    """Follows a policy to one goal after another.
+
+    Args:
+        policy: Acts.
+        limits: What it may not do.
+        turned: How far the lidar is turned to the left on the robot [rad].
+        time_limit: For each goal [s]; None for that of the contract, which may be none.
+
+    Attributes:
+        armed: Whether it may drive.
+        goal: Where it goes; None where it has nothing to do.
+        waiting: Goals that follow.
+        outcomes: What became of goals.
+    """
+
+    def __init__(
+        self,
+        policy: Policy,
+        limits: SafetyLimits,
+        *,
+        turned: float = 0.0,
+        time_limit: float | None = None,
+    ) -> None:
+        self.policy = policy
+        self.limits = limits
+        self.armed = False
+        self.goal: GoalPlace | None = None
+        self.waiting: deque[GoalPlace] = deque()
+        self.outcomes: list[GoalOutcome] = []
+        contract = policy.contract
+        self._observer = Observer(contract, turned=turned)
+        self._turned = turned
+        self._period = contract.control_period or 0.0
+        self._reach = contract.goal_distance or 0.2
+        limit = contract.time_limit if time_limit is None else time_limit
+        self._time_limit = math.inf if limit is None else limit
+        self._scan: tuple[float, ScanReading] | None = None
+        self._odometry: tuple[float, OdometryReading] | None = None
+        self._now = -math.inf
+        self._began: float | None = None
+        self._distance: float | None = None
+        self._score = 0.0
+        self._wanted = STAND
+        self._acted_at = -math.inf
+        self._fresh = self._touching = False
+
+    # What is heard -------------------------------------------------------------------------
+
+    def see(self, scan: ScanReading, now: float) -> None:
+        """A scan came."""
+        self._scan = (now, scan)
+        self._fresh = True
+
+    def feel(self, odometry: OdometryReading, now: float) -> None:
+        """Odometry came, in the frame that goals are looked up in."""
+        self._odometry = (now, odometry)
+
+    def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalOutcome | None:
+        """Go to these goals from now on; returns what became of the one before, if there is one."""
+        ended = None if self.goal is None else self._end("replaced", now)
+        self.waiting = deque(goals)
+        self._next_goal()
+        return ended
+
+    def arm(self, now: float) -> str | None:
+        """Let it drive; returns why it cannot, or None."""
+        fault = self._blind(now)
+        if fault is None:
+            self.armed = True
+            self._halt()
+        return fault
+
+    def disarm(self) -> None:
+        """Let it stand, and not drive any more until it is armed."""
+        self.armed = False
+        self._halt()
+
+    # What is done --------------------------------------------------------------------------
+
+    def tick(self, now: float, place: tuple[float, float] | None) -> Tick:
+        """Say what the robot is to do now.
+
+        Args:
+            now: Time [s].
+            place: Of the goal in the frame of the odometry [m]; None where that is not known.
+        """
+        if now < self._now - _SPEED_CHANGE:
+            # Time began anew: what was heard before it did is of another life.
+            self._scan = self._odometry = None
+            self._halt()
+        self._now = now
+        if not self.armed or self.goal is None:
+            return Tick(STAND, active=False)
+        if self._began is None:
+            self._began = now
+        fault = self._blind(now)
+        if fault is None and place is None:
+            fault = f"no transform from the goal's frame '{self.goal.frame}'"
+        if fault is not None or place is None or self._scan is None or self._odometry is None:
+            wanted, self._wanted = self._wanted, STAND
+            self._acted_at = -math.inf
+            return Tick(STAND, active=True, wanted=wanted, reason=fault)
+        return self._drive(now, place, self._scan[1], self._odometry[1])
+
+    def _drive(
+        self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
+    ) -> Tick:
+        """Act if it is time to, and keep within the limits."""
+        acted = None
+        if self._fresh and now - self._acted_at >= _EARLY * self._period:
+            self._fresh = False
+            ended = self._judge(now, place, scan, odometry)
+            if ended is not None:
+                # What follows is another goal, or nothing to do.
+                return Tick(STAND, active=self.goal is not None, ended=ended)
+            acted = self._act(now, place, scan, odometry)
+        given = self.limits.limited(self._wanted)
+        reason = None if given == self._wanted else "limit"
+        nearest = self.limits.blocked(given, scan, turned=self._turned)
+        if nearest is not None:
+            given, reason = VelocityCommand(0.0, given.angular), f"obstacle at {nearest:.2f} m"
+        return Tick(given, active=True, wanted=self._wanted, reason=reason, acted=acted)
+
+    def _act(
+        self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
+    ) -> Acted:
+        decision = self.policy.decide(self._observer.observe(scan, odometry, place))
+        distance = distance_to_goal(odometry, place)
+        gain = 0.0 if self._distance is None else self._distance - distance
+        self._score += gain
+        self._distance, self._acted_at, self._wanted = distance, now, decision.command
+        return Acted(decision, gain, self._score)
+
+    def _judge(
+        self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
+    ) -> GoalOutcome | None:
+        """Whether the goal came to its end, and how."""
+        distance = distance_to_goal(odometry, place)
+        began = now if self._began is None else self._began
+        crashed = self._crashes(scan)
+        self._distance = distance if self._distance is None else self._distance
+        if round(distance, 2) < self._reach:
+            return self._end("reached", now, distance)
+        if crashed:
+            return self._end("collision", now, distance)
+        if now - began > self._time_limit:
+            return self._end("time-out", now, distance)
+        return None
+
+    def _crashes(self, scan: ScanReading) -> bool:
+        """Whether something came as near as counts as a collision, and was not so near before."""
+        least = self.policy.contract.collision_range
+        ranges = scan.ranges[scan.measured()]
+        touching = least is not None and len(ranges) > 0 and float(ranges.min()) < least
+        crashed, self._touching = touching and not self._touching, touching
+        return crashed
+
+    def _end(self, outcome: str, now: float, distance: float | None = None) -> GoalOutcome:
+        began = now if self._began is None else self._began
+        goal = GoalPlace(0.0, 0.0) if self.goal is None else self.goal
+        far = self._distance if distance is None else distance
+        ended = GoalOutcome(goal, outcome, now - began, math.nan if far is None else far)
+        self.outcomes.append(ended)
+        self._next_goal()
+        return ended
+
+    def _next_goal(self) -> None:
+        self.goal = self.waiting.popleft() if self.waiting else None
+        self._halt()
+
+    def _halt(self) -> None:
+        """Want nothing, and forget what the acts before led to."""
+        self._wanted = STAND
+        self._acted_at = -math.inf
+        self._began = self._distance = None
+        self._score = 0.0
+        self._fresh = self._scan is not None
+
+    def _blind(self, now: float) -> str | None:
+        """Why too little is known to drive; None if enough is."""
+        if self._scan is None:
+            return "no scan yet"
+        if self._odometry is None:
+            return "no odometry yet"
+        if now - self._scan[0] > self.limits.scan_timeout:
+            return "scan lost"
+        if now - self._odometry[0] > self.limits.odometry_timeout:
+            return "odometry lost"
+        if unusable(self._scan[1]):
+            return "scan unusable: most rays failed"
+        return None

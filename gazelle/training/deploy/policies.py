@@ -1,0 +1,138 @@
+"""Policies from files, without torch: numpy arrays, or ONNX Runtime."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from gazelle.array_types import Floats32
+from gazelle.envs.contract import ActionRule, PolicyContract
+from gazelle.errors import FormatError, TaskError
+from gazelle.training.actor import Actor, load_actor
+from gazelle.training.deploy.safety import VelocityCommand
+from gazelle.training.policy_files import load_policy
+
+
+class Brain(Protocol):
+    """What acts: from observations (N, entries) to the last layer's outputs and the actions."""
+
+    def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
+        """Outputs of shape (N, outputs), and actions of shape (N,) or (N, actions)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What a policy decided."""
+
+    action: tuple[float, ...]
+    """The number of a discrete action, or the numbers of a continuous one."""
+    command: VelocityCommand
+    """What it means."""
+    best_output: float
+    """The greatest output of the last layer: of DQN, the value of the action."""
+
+
+class Policy:
+    """A policy and its contract.
+
+    Args:
+        brain: Acts.
+        contract: What it sees and does.
+
+    Raises:
+        TaskError: Its actions are no velocities.
+    """
+
+    def __init__(self, brain: Brain, contract: PolicyContract) -> None:
+        if contract.action.kind != "velocity":
+            raise TaskError(
+                "the policy's actions are no velocities, so there is nothing to send",
+                hint="give the task a contract; docs/deploy.md says how",
+            )
+        self.brain = brain
+        self.contract = contract
+
+    def decide(self, obs: Floats32) -> Decision:
+        """Decide for one observation, shape (1, entries)."""
+        outputs, actions = self.brain.decide(obs)
+        action = tuple(float(value) for value in np.asarray(actions[0]).reshape(-1))
+        return Decision(action, command_of(action, self.contract.action), float(outputs.max()))
+
+
+def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
+    """What an action means.
+
+    Raises:
+        TaskError: The rule does not tell, or the action is none of its own.
+    """
+    if rule.type == "discrete":
+        number = int(action[0]) - rule.first
+        if not 0 <= number < len(rule.choices):
+            raise TaskError(f"the contract does not tell what action {int(action[0])} means")
+        return VelocityCommand(*rule.choices[number])
+    if rule.at_low is None or rule.at_high is None or len(action) != 2:
+        raise TaskError("the contract does not tell what the two actions mean")
+    low, high = np.array(rule.low), np.array(rule.high)
+    share = (np.clip(np.array(action), low, high) - low) / (high - low)
+    least, greatest = np.array(rule.at_low), np.array(rule.at_high)
+    linear, angular = least + share * (greatest - least)
+    return VelocityCommand(float(linear), float(angular))
+
+
+def open_policy(source: str | Path) -> Policy:
+    """A policy from the folder of a run, or from a file that `export_policy` wrote.
+
+    Raises:
+        FormatError: There is none, or it or its contract is damaged.
+        TaskError: Its actions are no velocities, or it is an ONNX file, and ONNX Runtime is not
+            installed.
+    """
+    file, contract = load_policy(source)
+    brain: Brain = _OnnxBrain(file) if file.suffix == ".onnx" else _ArrayBrain(load_actor(file))
+    outputs, _ = brain.decide(np.zeros((1, contract.size), np.float32))
+    if contract.action.choices and outputs.shape[1] != len(contract.action.choices):
+        raise FormatError(
+            f"the policy has {outputs.shape[1]} actions, its contract tells "
+            f"{len(contract.action.choices)}",
+            file=str(file),
+        )
+    return Policy(brain, contract)
+
+
+class _ArrayBrain:
+    def __init__(self, actor: Actor) -> None:
+        self._actor = actor
+
+    def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
+        if obs.shape[1] != self._actor.inputs:
+            raise FormatError(
+                f"the policy takes {self._actor.inputs} numbers, its contract tells {obs.shape[1]}"
+            )
+        outputs = self._actor.outputs(obs)
+        return outputs, self._actor.to_env(self._actor.mode(outputs))
+
+
+class _OnnxBrain:
+    def __init__(self, file: Path) -> None:
+        try:
+            import onnxruntime  # type: ignore[import-untyped]
+        except ModuleNotFoundError as error:
+            raise TaskError(
+                "ONNX policies need ONNX Runtime",
+                hint="pip install onnxruntime, or export with --format numpy",
+            ) from error
+        try:
+            self._session = onnxruntime.InferenceSession(
+                str(file), providers=["CPUExecutionProvider"]
+            )
+        except Exception as error:  # the library has no common class of its errors
+            reason = str(error).splitlines()[0]
+            raise FormatError(f"not a policy: {reason}", file=str(file)) from error
+
+    def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
+        outputs, action = self._session.run(["outputs", "action"], {"observation": obs})
+        return outputs, action
