@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 
-from _stage_goals import Goals
+from _goals import Goals
 from _stage_office import STEPS, office, places, roamers
 
 from gazelle.engines.planar import Fan

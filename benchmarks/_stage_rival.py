@@ -11,7 +11,7 @@ from pathlib import Path
 
 import _stage_worlds as worlds
 import numpy as np
-from _stage_goals import Goals, shown
+from _goals import Goals, shown
 from _stage_itself import Spent, Stage
 
 from gazelle import formats

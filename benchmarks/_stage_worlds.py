@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from _stage_goals import Goals, shown
+from _goals import Goals, shown
 from _stage_office import places
 from PIL import Image
 

@@ -24,7 +24,7 @@ from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
 from gazelle.engines.planar.roaming import Roaming
 
 if TYPE_CHECKING:
-    from _stage_goals import Goals
+    from _goals import Goals
 
 SENSORS = {
     "none": None,
@@ -58,7 +58,7 @@ def main() -> None:
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
     sys.path.insert(0, str(Path(__file__).resolve().parent))
-    from _stage_goals import Goals
+    from _goals import Goals
 
     goals = Goals()
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")

@@ -1,4 +1,4 @@
-"""What the planar engine is held to, and whether a run of ``gazelle bench stage`` reached it."""
+"""What ``gazelle bench env`` and ``gazelle bench stage`` are held to, and whether a run reached it."""
 
 from __future__ import annotations
 
