@@ -14,6 +14,12 @@ The batched tasks are the implementation: arrays with a leading axis over worlds
 environment wraps one with many worlds, a single environment one with one world.
 """
 
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
 from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
 from gazelle.envs.contract import ActionRule, ObservationPart, PolicyContract, ScanRule
 from gazelle.envs.errors import ClosedEnvError, ResetNeededError

@@ -1,15 +1,21 @@
+# cython: infer_types=True, annotation_typing=False
+# mypy: disable-error-code="misc"
 """Rounding of whole arrays exactly as Python's ``round`` does it."""
 
 from __future__ import annotations
 
+import cython
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from cython.cimports.libc.math import floor, rint
+from numpy.typing import ArrayLike
 
-_SPLIT = 2.0**27 + 1.0
-_SCALE = 100.0
+from gazelle.array_types import Floats
+
+SPLIT = cython.declare(cython.double, 2.0**27 + 1.0)
+SCALE = cython.declare(cython.double, 100.0)
 
 
-def round2(values: ArrayLike) -> NDArray[np.float64]:
+def round2(values: ArrayLike) -> Floats:
     """Round to two decimals, bit for bit as ``round(value, 2)`` would.
 
     ``numpy.round`` multiplies by 100 first, and that product can land on a tie which the
@@ -23,20 +29,32 @@ def round2(values: ArrayLike) -> NDArray[np.float64]:
         Rounded numbers, same shape.
     """
     x = np.asarray(values, dtype=np.float64)
-    product = x * _SCALE
-    whole = np.rint(product)
-    tied = np.abs(product - whole) == 0.5  # exact: both are multiples of 0.5 there
-    if tied.any():
-        whole[tied] = _settled(x[tied], product[tied])
-    rounded: NDArray[np.float64] = whole / _SCALE
-    return rounded
+    rounded = np.empty(x.size)
+    round_all(np.ascontiguousarray(x.reshape(-1)), rounded)
+    return rounded.reshape(x.shape)
 
 
-def _settled(x: NDArray[np.float64], product: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Which ints numbers are nearest to whose product seems to be in the middle."""
-    high = x * _SPLIT
+def round_all(x: Floats, rounded: Floats) -> None:
+    """Round numbers, shape (n,)."""
+    ties = 0
+    for i in range(x.shape[0]):
+        product = x[i] * SCALE
+        whole = rint(product)
+        ties += abs(product - whole) == 0.5  # exact: both are multiples of 0.5 there
+        rounded[i] = whole / SCALE
+    if ties:
+        for i in range(x.shape[0]):
+            product = x[i] * SCALE
+            if abs(product - rint(product)) == 0.5:
+                rounded[i] = settled(x[i], product) / SCALE
+
+
+def settled(x: float, product: float) -> float:
+    """Which int a number is nearest to whose product seems to be in the middle."""
+    high = x * SPLIT
     high -= high - x
-    error = (high * _SCALE - product) + (x - high) * _SCALE
-    below = np.floor(product)
-    settled = np.where(error > 0.0, below + 1.0, below)
-    return np.where(error != 0.0, settled, np.rint(product))
+    error = (high * SCALE - product) + (x - high) * SCALE
+    if error == 0.0:
+        return rint(product)
+    below = floor(product)
+    return below + 1.0 if error > 0.0 else below

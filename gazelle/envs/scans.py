@@ -1,16 +1,21 @@
+# cython: infer_types=True, annotation_typing=False
+# mypy: disable-error-code="misc"
 """From what a lidar reports to numbers that a policy can take."""
+
+# ruff: noqa: FURB136  # loops that become vectors
 
 from __future__ import annotations
 
-from typing import TypeVar
-
+import cython
 import numpy as np
 from numpy.typing import NDArray
 
-R = TypeVar("R", np.float32, np.float64)
+from gazelle.array_types import Floats, Floats32
+
+INF = cython.declare(cython.double, float("inf"))
 
 
-def clean_ranges(ranges: NDArray[R], *, nearest: float, farthest: float) -> NDArray[R]:
+def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats32:
     """Replace what is not a number by one.
 
     Args:
@@ -20,17 +25,27 @@ def clean_ranges(ranges: NDArray[R], *, nearest: float, farthest: float) -> NDAr
         farthest: Stands for +inf, and caps what a longer lidar sees [m].
 
     Returns:
-        Ranges [m] in [0, farthest], shape (n, samples), of the same precision; NaN became 0.
+        Ranges [m] in [0, farthest], shape (n, samples), in single precision, as a LaserScan and an
+        observation have them; NaN became 0.
     """
-    kind = ranges.dtype.type
-    cleaned: NDArray[R] = np.fmax(ranges, kind(0.0))
-    if np.fmin.reduce(ranges, axis=None, initial=0.0) == -np.inf:
-        cleaned[np.isneginf(ranges)] = nearest
-    np.fmin(cleaned, kind(farthest), out=cleaned)
+    cleaned = np.empty(ranges.shape, np.float32)
+    clean_all(np.ascontiguousarray(ranges.reshape(-1)), cleaned.reshape(-1), nearest, farthest)
     return cleaned
 
 
-def nearest_obstacle(ranges: NDArray[R]) -> tuple[NDArray[R], NDArray[np.intp]]:
+def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float) -> None:
+    """Clean ranges, shape (n,)."""
+    near: cython.float = nearest
+    far: cython.float = farthest
+    zero: cython.float = 0.0
+    for i in range(ranges.shape[0]):
+        single = cython.cast(cython.float, ranges[i])
+        known = single if single > zero else zero  # not a number is not greater
+        known = near if ranges[i] == -INF else known
+        cleaned[i] = known if known < far else far
+
+
+def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:
     """The shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
     ray = ranges.argmin(axis=1)
     return ranges[np.arange(len(ranges)), ray], ray

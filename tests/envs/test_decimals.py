@@ -24,3 +24,10 @@ def test_settles_what_numpy_gets_wrong():
     wrong = np.flatnonzero(np.round(values, 2) != [round(value, 2) for value in values.tolist()])
     assert len(wrong) > 0
     assert round2(values[wrong]).tolist() == [round(v, 2) for v in values[wrong].tolist()]
+
+
+def test_any_shape_and_order_keeps_its_places():
+    values = np.arange(24).reshape(2, 3, 4) / 8000.0
+    for each in (values, values.T, values[:, ::2], values[0, 0, 0]):
+        wanted = np.vectorize(lambda value: round(float(value), 2))(each)
+        assert np.array_equal(round2(each), wanted)

@@ -1,6 +1,9 @@
 """Ranges a policy can take."""
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from gazelle.envs.scans import clean_ranges, nearest_obstacle
 
@@ -8,7 +11,25 @@ from gazelle.envs.scans import clean_ranges, nearest_obstacle
 def test_every_special_range_has_a_number():
     ranges = np.array([[np.inf, -np.inf, np.nan, 1.25, 9.0, 0.0]])
     cleaned = clean_ranges(ranges, nearest=0.12, farthest=3.5)
-    assert cleaned.tolist() == [[3.5, 0.12, 0.0, 1.25, 3.5, 0.0]]
+    assert cleaned.dtype == np.float32
+    assert cleaned.tolist() == [[3.5, np.float32(0.12), 0.0, 1.25, 3.5, 0.0]]
+
+
+@given(
+    arrays(np.float64, (3, 7), elements=st.floats(width=64)),
+    st.floats(0.0, 1.0),
+    st.floats(1.0, 10.0),
+)
+def test_ranges_are_cleaned_as_numpy_would(ranges, nearest, farthest):
+    with np.errstate(over="ignore"):
+        wanted = np.fmax(ranges.astype(np.float32), np.float32(0.0))
+    wanted[np.isneginf(ranges)] = nearest
+    wanted = np.fmin(wanted, np.float32(farthest))
+    # What lies between others in memory is cleaned alike.
+    apart = np.zeros((3, 8))[:, :7]
+    apart[:] = ranges
+    for each in (ranges, apart):
+        assert np.array_equal(clean_ranges(each, nearest=nearest, farthest=farthest), wanted)
 
 
 def test_the_scan_given_stays_as_it_was():

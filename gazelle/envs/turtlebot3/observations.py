@@ -58,8 +58,7 @@ def sight(
     """
     # Single precision, as in a LaserScan message and in the observation: what is worked out of
     # ranges here comes out the same from those.
-    single = ranges.astype(np.float32)
-    cleaned = clean_ranges(single, nearest=range_min, farthest=rules.range_max)
+    cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
     shortest, ray = nearest_obstacle(cleaned)
     nearest = shortest.astype(np.float64)
     heading = heading_to(pose, pose[:, 2], goal)
