@@ -326,6 +326,6 @@ def _made_again(
 
 def _only(values: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
     """The values of some worlds, and zeros elsewhere."""
-    kept = np.zeros_like(values)
+    kept = np.zeros(values.shape, values.dtype)
     kept[worlds] = values[worlds]
     return kept

@@ -226,7 +226,8 @@ class DiffDrive(ModelPlugin):
         rows = slice(None) if worlds is None else worlds
         self._tables.speeds[:, 0][rows] = 0.0
         self._targets[rows] = np.nan
-        self._reckoning.reset(worlds, self._angles())
+        if self._from_encoders:
+            self._reckoning.reset(worlds, self._angles())
         if worlds is None:
             self._tables.last_ns[:, 0][:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
 

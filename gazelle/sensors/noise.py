@@ -121,10 +121,10 @@ class NoiseModel:
         if worlds is None:
             self._stream.rewind()
             self._bias_stream.rewind()
-        if not self._active:
-            return
-        self._drift[slice(None) if worlds is None else worlds] = 0.0
-        self._draw_bias(worlds)
+        if self.drifts:
+            self._drift[slice(None) if worlds is None else worlds] = 0.0
+        if self._biased:
+            self._draw_bias(worlds)
 
     def apply(self, values: Floats, interval: float, worlds: Worlds | None = None) -> Floats:
         """Values with noise.

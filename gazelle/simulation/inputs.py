@@ -34,10 +34,12 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
     """
     if worlds is None:
         return None
-    given = np.atleast_1d(np.asarray(worlds))
+    given = np.asarray(worlds)
+    if not given.ndim:
+        given = given.reshape(1)
     if given.dtype == np.bool_ and given.shape == (nworld,):
         return np.flatnonzero(given)
-    whole = given.ndim == 1 and (given.size == 0 or np.issubdtype(given.dtype, np.integer))
+    whole = given.ndim == 1 and (given.size == 0 or given.dtype.kind in "iu")
     if not whole or (given.size and not 0 <= given.min() <= given.max() < nworld):
         raise SimulationError(
             f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {worlds}"

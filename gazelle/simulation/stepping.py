@@ -281,5 +281,7 @@ def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None
     """
     if worlds is None:
         return None
-    some = np.asarray(chosen(worlds, nworld))
-    return some if (some[1:] > some[:-1]).all() else np.unique(some)
+    some = chosen(worlds, nworld)
+    if some is None or len(some) < 2 or (some[1:] > some[:-1]).all():
+        return some
+    return np.unique(some)

@@ -11,3 +11,4 @@ cdef class Bodies:
     cdef public signed char[::1] state
     cdef public unsigned char[::1] stalled
     cdef public double[::1] way
+    cdef public double[:, ::1] memory

@@ -46,6 +46,7 @@ class Bodies:
         state: What becomes of a body in a step, shape (nworld * nbody,).
         stalled: Whether the last move was not made, shape (nworld * nbody,).
         way: How far each body would go in this step [m], where threads share a world.
+        memory: What kernels remember of each body, shape (nworld * nbody, MEMORY).
     """
 
     def __init__(self, **tables: Any) -> None:

@@ -22,6 +22,10 @@ cdef bint piece_meets(
 cdef bint static_meets(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t s) noexcept nogil
 @cython.locals(near=int, i=Py_ssize_t)
 cdef bint any_near(Bodies w, double x, double y, double radius) noexcept nogil
+@cython.locals(kind=int)
+cdef bint near_static(Bodies w, Py_ssize_t s, double x, double y, double radius) noexcept nogil
+@cython.locals(i=Py_ssize_t)
+cdef bint has_room(Bodies w, Py_ssize_t b, double radius) noexcept nogil
 @cython.locals(i=Py_ssize_t)
 cdef bint statics_meet(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
 @cython.locals(apart=bint, i=Py_ssize_t, j=Py_ssize_t, q=Py_ssize_t)
@@ -33,8 +37,12 @@ cdef bint pieces_meet(
 @cython.locals(p=Py_ssize_t, q=Py_ssize_t, over=bint, under=bint)
 cdef bint bodies_meet(
     Bodies w, Py_ssize_t a, Py_ssize_t ka, Py_ssize_t b, Py_ssize_t kb, bint gone) noexcept nogil
-@cython.locals(ordered=bint, row=Py_ssize_t, cell=Py_ssize_t, b=Py_ssize_t)
+@cython.locals(ordered=bint, row=Py_ssize_t, cell=Py_ssize_t)
 cdef bint obstructed(Bodies w, Py_ssize_t a, double reach) noexcept nogil
+@cython.locals(b=Py_ssize_t)
+cdef bint bars_in(
+    Bodies w, Py_ssize_t a, Py_ssize_t k, Py_ssize_t world, Py_ssize_t cell, bint ordered
+) noexcept nogil
 @cython.locals(ahead=bint, gone=bint)
 cdef bint bars(
     Bodies w, Py_ssize_t a, Py_ssize_t k, Py_ssize_t b, Py_ssize_t kb, bint ordered) noexcept nogil

@@ -33,6 +33,8 @@ from cython.cimports.gazelle.engines.planar.columns import (
     PIECE_HIGH,
     PIECE_LOW,
     RADIUS,
+    ROOM_X,
+    ROOM_Y,
     SIN,
     UNDECIDED,
     X0,
@@ -49,6 +51,8 @@ from cython.cimports.libc.math import sqrt
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
 FEW = cython.declare(cython.Py_ssize_t, 16)  # statics up to which all are gone through at once
+ROOM = cython.declare(cython.double, 0.5)  # radii of a body around it that may be remembered as free
+STEPS = cython.declare(cython.double, 4.0)  # for so many steps at least, else it is not worth it
 
 
 def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radius: float) -> bool:
@@ -154,9 +158,47 @@ def any_near(w: Bodies, x: float, y: float, radius: float) -> bool:
     return near > 0
 
 
+def near_static(w: Bodies, s: int, x: float, y: float, radius: float) -> bool:
+    """Whether a disc, at any height, meets a static primitive."""
+    kind = cython.cast(cython.int, w.statics[s, KIND])
+    x0, y0, x1, y1 = w.statics[s, X0], w.statics[s, Y0], w.statics[s, X1], w.statics[s, Y1]
+    if (kind & CIRCLE) != 0:
+        radius, x1, y1 = radius + x1, x0, y0
+    return (kind & GHOST) == 0 and reaches(x, y, x0, y0, x1, y1, radius)
+
+
+def has_room(w: Bodies, b: int, radius: float) -> bool:
+    """Whether there is so much room around a body's goal that nothing static can be met.
+
+    A disc without statics, somewhat larger than the body, is remembered, and as long as the body is
+    within it nothing need be looked for. It is looked for where a body does not leave it at once.
+    """
+    x, y, spare = w.goal[b, X], w.goal[b, Y], ROOM * radius
+    dx, dy = x - w.memory[b, ROOM_X], y - w.memory[b, ROOM_Y]
+    if dx * dx + dy * dy < spare * spare:
+        return True
+    dx, dy = STEPS * (x - w.rows[b, X]), STEPS * (y - w.rows[b, Y])
+    if not dx * dx + dy * dy < spare * spare:
+        return False
+    r = radius + spare + TOUCH
+    left = place_in(x - r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
+    right = place_in(x + r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
+    low = place_in(y - r, w.near_grid[1], w.near_grid[2], w.near_grid[4])
+    high = place_in(y + r, w.near_grid[1], w.near_grid[2], w.near_grid[4])
+    for row in range(low, high + 1):
+        base = row * cython.cast(cython.Py_ssize_t, w.near_grid[3])
+        for i in range(w.near_start[base + left], w.near_start[base + right + 1]):
+            if near_static(w, w.near_items[i], x, y, r):
+                return False
+    w.memory[b, ROOM_X], w.memory[b, ROOM_Y] = x, y
+    return True
+
+
 def statics_meet(w: Bodies, b: int, k: int) -> bool:
     """Whether body b, of kind k, at its goal meets anything static."""
     x, y, r = w.goal[b, X], w.goal[b, Y], w.kinds[k, RADIUS]
+    if has_room(w, b, r):
+        return False
     if 0 < w.lanes.shape[1] <= FEW and not any_near(w, x, y, r):
         return False
     left = place_in(x - r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
@@ -260,6 +302,8 @@ def obstructed(w: Bodies, a: int, reach: float) -> bool:
     ordered = w.state[a] == UNDECIDED
     k, world = a % w.nbody, a // w.nbody
     x, y, r = w.goal[a, X], w.goal[a, Y], w.kinds[k, RADIUS] + reach
+    if w.head.shape[1] == 1:
+        return bars_in(w, a, k, world, 0, ordered)
     left = place_in(x - r, w.grid[0], w.grid[2], w.grid[3])
     right = place_in(x + r, w.grid[0], w.grid[2], w.grid[3])
     low = place_in(y - r, w.grid[1], w.grid[2], w.grid[4])
@@ -267,11 +311,18 @@ def obstructed(w: Bodies, a: int, reach: float) -> bool:
     for row in range(low, high + 1):
         base = row * cython.cast(cython.Py_ssize_t, w.grid[3])
         for cell in range(base + left, base + right + 1):
-            b = w.head[world, cell]
-            while b >= 0:
-                if b != a and bars(w, a, k, b, b - world * w.nbody, ordered):
-                    return True
-                b = w.follow[b]
+            if bars_in(w, a, k, world, cell, ordered):
+                return True
+    return False
+
+
+def bars_in(w: Bodies, a: int, k: int, world: int, cell: int, ordered: bool) -> bool:
+    """Whether a body in a cell is in the way of body a; see ``obstructed``."""
+    b = w.head[world, cell]
+    while b >= 0:
+        if b != a and bars(w, a, k, b, b - world * w.nbody, ordered):
+            return True
+        b = w.follow[b]
     return False
 
 

@@ -40,7 +40,16 @@ cdef enum:
     FASTEST = 5
     BRAKE = 8
     PUSH = 11
-    DRIVE = 14
+    FREE = 14
+    DRIVE = 15
+    TURN = 0
+    TURN_SIN = 1
+    TURN_COS = 2
+    TURN_AHEAD = 3
+    TURN_ACROSS = 4
+    ROOM_X = 5
+    ROOM_Y = 6
+    MEMORY = 8
     PASSIVE = -1
     DIFFERENTIAL = 0
     OMNIDIRECTIONAL = 1

@@ -41,6 +41,18 @@ SIN: Final = 4
 Z: Final = 5
 BODY: Final = 8
 
+# What is remembered of bodies because it is likely to hold in the next step too: what the sine and
+# the like of the last turn were, see ``drive_motion.turned``, and a place around which there is so
+# much room that nothing static is met nearby, see ``collision.statics_meet``.
+TURN: Final = 0
+TURN_SIN: Final = 1
+TURN_COS: Final = 2
+TURN_AHEAD: Final = 3
+TURN_ACROSS: Final = 4
+ROOM_X: Final = 5
+ROOM_Y: Final = 6
+MEMORY: Final = 8
+
 # Convex pieces, what bodies bump with: polygons counter-clockwise, or circles.
 CENTRE_X: Final = 0
 CENTRE_Y: Final = 1
@@ -59,7 +71,8 @@ SLOWEST: Final = 2
 FASTEST: Final = 5
 BRAKE: Final = 8
 PUSH: Final = 11
-DRIVE: Final = 14
+FREE: Final = 14  # 1 where none of these bounds anything
+DRIVE: Final = 15
 
 PASSIVE: Final = -1
 DIFFERENTIAL: Final = 0

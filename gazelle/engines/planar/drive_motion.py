@@ -14,6 +14,7 @@ from cython.cimports.gazelle.engines.planar.columns import (
     DIFFERENTIAL,
     DRIVE_KIND,
     FASTEST,
+    FREE,
     MOVING,
     PASSIVE,
     PUSH,
@@ -22,6 +23,11 @@ from cython.cimports.gazelle.engines.planar.columns import (
     SLOWEST,
     STILL,
     STRIDE,
+    TURN,
+    TURN_ACROSS,
+    TURN_AHEAD,
+    TURN_COS,
+    TURN_SIN,
     WHEELBASE,
     YAW,
     X,
@@ -73,7 +79,12 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
     it goes along the arc, which is exact.
     """
     angle = turn * dt
-    sine, cosine, ahead, across = turned(angle)
+    if angle != w.memory[b, TURN]:
+        sine, cosine, ahead, across = turned(angle)
+        w.memory[b, TURN], w.memory[b, TURN_SIN], w.memory[b, TURN_COS] = angle, sine, cosine
+        w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS] = ahead, across
+    sine, cosine = w.memory[b, TURN_SIN], w.memory[b, TURN_COS]
+    ahead, across = w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS]
     forward, aside = vx * dt, vy * dt
     if not w.euler:
         forward, aside = ahead * forward - across * aside, across * forward + ahead * aside
@@ -105,9 +116,11 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
             continue
         for axis in range(3):
             wanted = w.command[b, axis]
-            if kind != CAR:
-                wanted = bounded(w, wanted, k, axis)
-            w.velocity[b, axis] = toward(w, w.velocity[b, axis], wanted, k, axis, dt)
+            if w.drives[k, FREE] == 0.0:
+                if kind != CAR:
+                    wanted = bounded(w, wanted, k, axis)
+                wanted = toward(w, w.velocity[b, axis], wanted, k, axis, dt)
+            w.velocity[b, axis] = wanted
         vx, vy, turn = w.velocity[b, 0], w.velocity[b, 1], w.velocity[b, 2]
         if kind in (DIFFERENTIAL, CAR):
             vy = w.velocity[b, 1] = 0.0

@@ -220,9 +220,12 @@ class PlanarEngine(Refusals, PlanarAccess):
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""
         self._fleet.reset(worlds)
+        if not self._layout.axes:
+            return
         rows = rows_of(worlds)
         self._angles[rows], self._rates[rows] = 0.0, 0.0
-        self._targets[rows] = np.where(np.isnan(self._targets[rows]), math.nan, 0.0)
+        # Where there is no motor there is no number, and that in all worlds.
+        self._targets[rows] = np.where(np.isnan(self._targets[0]), math.nan, 0.0)
 
     def command(self, wanted: ArrayLike) -> None:
         """Set what drives of all bodies are told, shape (nworld, nbody, 3); see ``Drive``."""

@@ -121,7 +121,7 @@ class Fleet:
         heights = np.array([body.z for body in bodies], np.float64)
         if not (np.isfinite(first).all() and np.isfinite(heights).all()):
             raise EngineError("a pose must be finite")
-        self._start = np.column_stack((first, heights))
+        self._initial = _rows_of(np.column_stack((first, heights)))
         extent = first[:, :2] if len(bodies) else np.zeros((1, 2))
         side = max(cell, 2.0 * self._widest)
         self.scene = scene_of(statics, extent, side, nbody=self.nbody, nworld=nworld)
@@ -167,7 +167,7 @@ class Fleet:
 
     def _make_state(self) -> None:
         total = self.nworld * self.nbody
-        self.rows = _rows_of(np.tile(self._start, (self.nworld, 1)))
+        self.rows = np.tile(self._initial, (self.nworld, 1))
         self.goal = self.rows[:, : c.Z + 1].copy()
         self._command = np.zeros((total, 3))
         self._velocity = np.zeros((total, 3))
@@ -176,6 +176,7 @@ class Fleet:
         self.head = np.full((self.nworld, self.scene.cells), -1, np.int32)
         self.follow = np.full(total, -1, np.int32)
         self.cell = np.full(total, -1, np.int32)
+        self.memory = np.full((total, c.MEMORY), math.inf)
 
     def _tables(self, time_step: float, *, sweep: bool) -> Bodies:
         """All of this as kernels see it."""
@@ -189,6 +190,7 @@ class Fleet:
             near_start=scene.near_start, near_items=scene.near_items, head=self.head,
             follow=self.follow, cell=self.cell, state=self._state,
             stalled=self._stalled.view(np.uint8), way=np.zeros(len(self.rows)),
+            memory=self.memory,
         )  # fmt: skip
 
     @property
@@ -213,7 +215,7 @@ class Fleet:
     @property
     def initial(self) -> Floats:
         """The rows of a world's bodies as they were made, shape (nbody, columns.BODY)."""
-        return _rows_of(self._start)
+        return self._initial.copy()
 
     # -- state -------------------------------------------------------------------------
 
@@ -310,22 +312,23 @@ class Fleet:
 
     def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
         """Put worlds back to how they were made: poses, rest, no commands."""
-        which = np.arange(self.nworld) if worlds is None else worlds
-        rows = (which[:, None] * self.nbody + np.arange(self.nbody)).ravel()
-        self.rows.reshape(self.nworld, *self.initial.shape)[which] = self.initial
-        self._command[rows], self._velocity[rows], self._stalled[rows] = 0.0, 0.0, False
+        which = slice(None) if worlds is None else worlds
+        self.rows.reshape(self.nworld, *self._initial.shape)[which] = self._initial
+        self.command[which], self.velocity[which], self.stalled[which] = 0.0, 0.0, False
+        rows: slice | NDArray[np.intp] = slice(None)
+        if worlds is not None:
+            rows = (worlds[:, None] * self.nbody + np.arange(self.nbody)).ravel()
         self._relink(rows)
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:
         """Keep the lists of the grid right for some bodies, which were put somewhere."""
         self.changes += 1
-        which = np.arange(len(self.rows))[rows]
-        if not len(which):
-            return
-        if len(which) == len(self.rows):
-            relink(self.bodies, 0, len(which))
-        else:
-            relink_some(self.bodies, np.ascontiguousarray(which))
+        if isinstance(rows, slice):
+            if rows == slice(None):
+                relink(self.bodies, 0, len(self.rows))
+                return
+            rows = np.arange(len(self.rows))[rows]
+        relink_some(self.bodies, np.ascontiguousarray(rows))
 
     # -- time --------------------------------------------------------------------------
 
@@ -385,7 +388,8 @@ def _drive_row(drive: Drive | None) -> Floats:
         raise EngineError(f"the wheelbase must be positive, not {drive.wheelbase:g} m")
     row[c.DRIVE_KIND], row[c.WHEELBASE] = _KINDS[drive.kind], drive.wheelbase
     row[c.SLOWEST : c.FASTEST], row[c.FASTEST : c.BRAKE] = drive.slowest, drive.fastest
-    row[c.BRAKE : c.PUSH], row[c.PUSH :] = drive.brake, drive.push
+    row[c.BRAKE : c.PUSH], row[c.PUSH : c.FREE] = drive.brake, drive.push
+    row[c.FREE] = np.isinf(row[c.SLOWEST : c.FREE]).all()
     return row
 
 
