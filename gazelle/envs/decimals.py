@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-# mypy: disable-error-code="misc"
+# mypy: disable-error-code="misc, no-any-return"
 """Rounding of whole arrays exactly as Python's ``round`` does it."""
 
 from __future__ import annotations

@@ -24,6 +24,7 @@ class HandOfGod(Publishing):
     """
 
     update_rate = 0.0
+    only_publishes = False
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the link, listen to tf."""

@@ -21,6 +21,8 @@ class Published(Protocol):
 class PublishingPlugin(Plugin):
     """Publishes its outputs at its rate, and needs no updates while nobody listens."""
 
+    only_publishes = True
+
     def __init__(self) -> None:
         self._published: list[Published] = []
 

@@ -108,7 +108,7 @@ class Schedule:
     def follow(self, due_ns: int) -> None:
         """Go on as a system that is due at a time [ns] now."""
         if self.rate > 0.0 and due_ns != self.due_ns:
-            self.count = round(due_ns * self.rate / NANOSECONDS)
+            self._count, self.due_ns = round(due_ns * self.rate / NANOSECONDS), due_ns
 
     def is_due(self, now_ns: int) -> bool:
         """Whether its time has come."""

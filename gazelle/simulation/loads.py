@@ -285,6 +285,8 @@ class Loads:
 
     def reset(self, worlds: Worlds | None) -> None:
         """End everything in these worlds, as the engine's reset does with what acts now."""
+        if not (self._wrenches or self._joints or self._held):
+            return
         if worlds is None:
             self._wrenches, self._joints, self._held = [], {}, {}
         for wrench in self._wrenches:

@@ -29,9 +29,12 @@ class Plugin:
     Attributes:
         update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
             step, None means never. Set it in the class or in ``load``.
+        only_publishes: Whether ``active`` is true exactly while somebody listens to an output, so
+            that it need not be asked at every step.
     """
 
     update_rate: float | None = None
+    only_publishes: bool = False
 
     @property
     def active(self) -> bool:

@@ -45,6 +45,14 @@ class ScheduledPlugin:
         """What is updated in its place now."""
         return self._ask(self.plugin.system, "when asked for its system")
 
+    @property
+    def rests(self) -> bool:
+        """Whether it has no update until somebody subscribes, or models come or go."""
+        plugin = self.plugin
+        if self.schedule is None:
+            return True
+        return plugin.only_publishes and self._ask(lambda: not plugin.active, "when asked") is True
+
     def kind(self) -> Hashable | None:
         """What it has in common with those that are updated together with it."""
         return self._ask(self.plugin.kind, "when asked for its kind")
@@ -123,9 +131,11 @@ class StepPlan:
         alone: Whether sensors are measured from Python all the same.
 
     Attributes:
-        plugins: What is updated in turn, groups in the place of their first plugin.
+        plugins: What is updated in turn, groups in the place of their first plugin; those that
+            rest are left out.
         sensors: What is measured from Python: those awake that are in no group.
         groups: Of sensors.
+        settled: The systems and schedules of all plugins where Python has a say in none; else None.
     """
 
     def __init__(
@@ -140,10 +150,13 @@ class StepPlan:
         self.groups: list[SensorGroup] = []
         if native and not alone:  # sensors first: asking for their kind may change the engine
             self._group_sensors()
-        entries = list(plugins)
+        entries = [each for each in plugins if not each.rests]
         self.plugins: list[ScheduledPlugin | PluginGroup] = [*entries]
         if native:
             self.plugins = _with_groups(entries)
+        self.settled: tuple[list[System], list[Schedule]] | None = None
+        if native and all(isinstance(each, PluginGroup) for each in self.plugins):
+            self.settled = with_systems(self.plugins)[:2]
 
     def release(self) -> None:
         """Let everything be updated by itself again."""
@@ -223,10 +236,16 @@ def with_systems(
         if schedule is None or system is None:
             others.append(entry)
             continue
-        system.rate, system.due = schedule.rate, schedule.due_ns
         systems.append(system)
         schedules.append(schedule)
+    set_due(systems, schedules)
     return systems, schedules, others
+
+
+def set_due(systems: Iterable[System], schedules: Iterable[Schedule]) -> None:
+    """Let systems be due when their schedules say."""
+    for system, schedule in zip(systems, schedules, strict=True):
+        system.rate, system.due = schedule.rate, schedule.due_ns
 
 
 def update_plugins(plugins: Iterable[ScheduledPlugin], clock: Clock) -> None:

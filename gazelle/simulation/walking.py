@@ -16,8 +16,10 @@ from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.stepping import (
+    PluginGroup,
     ScheduledPlugin,
     StepPlan,
+    set_due,
     steps_to_next,
     update_plugins,
     update_sensors,
@@ -146,10 +148,14 @@ class StepLoop:
         simulation, asked = self._simulation, set[int]()
         while True:
             plan = self._renew()
-            plugins: Sequence[ScheduledPlugin] = self._entities.plugins
+            if plan.settled is not None:
+                self._systems, self._schedules = plan.settled
+                set_due(self._systems, self._schedules)
+                return ()
+            others: Sequence[ScheduledPlugin | PluginGroup] = plan.plugins
             if simulation.native is not None:
                 self._systems, self._schedules, others = with_systems(plan.plugins)
-                plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
+            plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
             update_plugins([each for each in plugins if id(each) not in asked], simulation.clock)
             # One of them may have woken a sensor, or let others come or go.
             if simulation.requests.closed or self._planned == self._now():

@@ -51,7 +51,9 @@ from cython.cimports.libc.math import sqrt
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
 FEW = cython.declare(cython.Py_ssize_t, 16)  # statics up to which all are gone through at once
-ROOM = cython.declare(cython.double, 0.5)  # radii of a body around it that may be remembered as free
+ROOM = cython.declare(
+    cython.double, 0.5
+)  # radii of a body around it that may be remembered as free
 STEPS = cython.declare(cython.double, 4.0)  # for so many steps at least, else it is not worth it
 
 

@@ -86,7 +86,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
         self._casters, self._recent, self._tables = {}, {}, {}
-        self._loops: tuple[Sequence[System], SystemLoop] | None = None
+        self._loops: tuple[Sequence[System], SystemLoop, int] | None = None
         self._before: tuple[System, ...] = ()
         self._after: tuple[System, ...] = ()
 
@@ -105,8 +105,8 @@ class PlanarEngine(Refusals, PlanarAccess):
             matrix=np.vstack([np.zeros((0, 3)), *(each.matrix.T for each in bases)]),
         )
 
-    def _loop_of(self, systems: Sequence[System]) -> SystemLoop:
-        """What makes steps with these systems; kept for the next time."""
+    def _loop_of(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
+        """What makes steps with these systems, and on how many threads; kept for the next time."""
         if self._loops is None or self._loops[0] != systems:
             fleet, joints = self._fleet, self._joints()
             last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
@@ -114,8 +114,11 @@ class PlanarEngine(Refusals, PlanarAccess):
             late = [each for each in systems if each.late]
             first = [*early, *self._before, Rolling(fleet.bodies, joints)]
             made = [*first, *fleet.systems(), *last, *self._after, *late]
-            self._loops = systems, SystemLoop(made, fleet.nworld, 1, fleet.pool)
-        return self._loops[1]
+            rows = [(fleet.nworld * each.rows, _WORTH * each.least) for each in systems]
+            heavy = any(count >= least > _WORTH for count, least in rows)
+            loop = SystemLoop(made, fleet.nworld, 1, fleet.pool)
+            self._loops = systems, loop, 0 if heavy else fleet.threads
+        return self._loops[1:]
 
     @property
     def nworld(self) -> int:
@@ -203,13 +206,11 @@ class PlanarEngine(Refusals, PlanarAccess):
         count = whole_number("the number of steps", count, 0)
         if not count:
             return
-        loop = self._loop_of(systems)
+        loop, threads = self._loop_of(systems)
         loop.step = round(self._fleet.time_step * NANOSECONDS)
         loop.time = now_ns
-        fleet = self._fleet
-        heavy = any(fleet.nworld * each.rows >= _WORTH * each.least > _WORTH for each in systems)
-        loop.run(now_ns + count * loop.step, 0 if heavy else fleet.threads)
-        fleet.changes += 1
+        loop.run(now_ns + count * loop.step, threads)
+        self._fleet.changes += 1
 
     def update(self, system: System) -> None:
         """Update a system now, whatever its rate, on all threads."""

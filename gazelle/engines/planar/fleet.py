@@ -14,7 +14,7 @@ from gazelle.array_types import Floats
 from gazelle.engines.limits import physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
-from gazelle.engines.planar.grid_cells import relink, relink_some
+from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
 from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
@@ -312,13 +312,9 @@ class Fleet:
 
     def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
         """Put worlds back to how they were made: poses, rest, no commands."""
-        which = slice(None) if worlds is None else worlds
-        self.rows.reshape(self.nworld, *self._initial.shape)[which] = self._initial
-        self.command[which], self.velocity[which], self.stalled[which] = 0.0, 0.0, False
-        rows: slice | NDArray[np.intp] = slice(None)
-        if worlds is not None:
-            rows = (worlds[:, None] * self.nbody + np.arange(self.nbody)).ravel()
-        self._relink(rows)
+        which = np.arange(self.nworld) if worlds is None else np.ascontiguousarray(worlds)
+        put_back(self.bodies, which, self._initial)
+        self.changes += 1
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:
         """Keep the lists of the grid right for some bodies, which were put somewhere."""

@@ -15,7 +15,7 @@ from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1, X, Y
 from cython.cimports.libc.math import floor
 
-from gazelle.array_types import Floats, Ints32
+from gazelle.array_types import Floats, Ints32, Worlds
 
 INFINITE = float("inf")
 
@@ -134,3 +134,16 @@ def relink_some(w: Bodies, which: Floats) -> None:
     """The same for some bodies, shape (n,)."""
     for i in range(which.shape[0]):
         relink_one(w, which[i])
+
+
+def put_back(w: Bodies, worlds: Worlds, initial: Floats) -> None:
+    """Put all bodies of some worlds, shape (n,), back to rows of a world, at rest, as if just made."""
+    for i in range(worlds.shape[0]):
+        for k in range(w.nbody):
+            b = worlds[i] * w.nbody + k
+            for c in range(initial.shape[1]):
+                w.rows[b, c] = initial[k, c]
+            for axis in range(3):
+                w.command[b, axis] = w.velocity[b, axis] = 0.0
+            w.stalled[b] = 0
+            relink_one(w, b)

@@ -1,0 +1,101 @@
+"""What only publishes is not asked at every step while nobody listens, and wakes at once."""
+
+from __future__ import annotations
+
+import pytest
+
+import gazelle
+from gazelle import formats
+from gazelle.simulation import ModelPlugin, Output, register
+
+WORLD = """<sdf version="1.6"><world name="w"><model name="m"><static>1</static><link name="l"/>
+<plugin name="teller" filename="libteller.so"/></model></world></sdf>"""
+ENGINES = ("mujoco", "planar")
+
+
+class Teller(ModelPlugin):
+    """Publishes a number at each of its updates."""
+
+    update_rate = 0.0
+    only_publishes = True
+
+    def load(self, robot, parameters):  # noqa: ARG002  it needs none
+        self.asked = self.told = 0
+        self._count = robot.outputs["count"] = Output("/count", int, lambda: self.told)
+
+    @property
+    def active(self):
+        self.asked += 1
+        return self._count.wanted
+
+    def on_update(self, time):  # noqa: ARG002  it only counts
+        self.told += 1
+        self._count.publish()
+
+
+class Asked(Teller):
+    """The same, which has to be asked."""
+
+    only_publishes = False
+
+
+@pytest.fixture(params=ENGINES)
+def run(request):
+    def make(kind):
+        register("libteller.so", kind)
+        return gazelle.Simulation(formats.load_string(WORLD), engine=request.param)
+
+    return make
+
+
+def test_it_is_asked_once_and_no_more_until_somebody_listens(run):
+    with run(Teller) as sim:
+        teller = sim.plugins[0].plugin
+        for _ in range(20):
+            sim.step()
+        assert teller.asked == 1
+        heard = []
+        end = sim.robots["m"].outputs["count"].subscribe(heard.append)
+        sim.step(3)
+        assert heard == [1, 2, 3]
+        end()
+        asked = teller.asked
+        sim.step(3)
+        assert teller.told == 3
+        sim.step(3)
+        assert teller.asked == asked + 1
+
+
+def test_who_may_be_active_for_other_reasons_is_asked_at_every_step(run):
+    with run(Asked) as sim:
+        teller = sim.plugins[0].plugin
+        for _ in range(20):
+            sim.step()
+        assert teller.asked >= 20
+
+
+def test_one_that_cannot_say_whether_it_is_active_is_detached(run):
+    class Broken(Teller):
+        @property
+        def active(self):
+            raise RuntimeError("no idea")
+
+    with run(Broken) as sim:
+        with pytest.warns(gazelle.errors.PluginWarning, match="no idea"):
+            sim.step()
+        sim.step(2)
+        assert sim.plugins[0].detached
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.filterwarnings("ignore::gazelle.errors.GazelleWarning")
+def test_a_burger_without_listeners_leaves_python_nothing_to_ask(engine):
+    with gazelle.Simulation("empty", engine=engine) as sim:
+        robot = sim.spawn("turtlebot3_burger")
+        sim.run(seconds=0.1)
+        due = [each.plugin for each in sim.plugins if not each.rests]
+        assert [type(each).__name__ for each in due] == ["DiffDrive"]
+        heard = []
+        robot.outputs["imu"].subscribe(heard.append)
+        sim.run(seconds=0.5)
+        assert heard
