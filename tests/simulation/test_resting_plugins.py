@@ -19,7 +19,7 @@ class Teller(ModelPlugin):
     update_rate = 0.0
     only_publishes = True
 
-    def load(self, robot, parameters):  # noqa: ARG002  it needs none
+    def load(self, robot, parameters):
         self.asked = self.told = 0
         self._count = robot.outputs["count"] = Output("/count", int, lambda: self.told)
 
@@ -28,7 +28,7 @@ class Teller(ModelPlugin):
         self.asked += 1
         return self._count.wanted
 
-    def on_update(self, time):  # noqa: ARG002  it only counts
+    def on_update(self, time):
         self.told += 1
         self._count.publish()
 
