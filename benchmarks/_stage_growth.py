@@ -36,9 +36,9 @@ def growth(sensors: dict[str, Fan | None], largest: int, threads: int, goals: Go
 
 
 def cost(halls: int, fan: Fan | None, threads: int) -> float:
-    """Processor time of a robot's step and scan [ns], the least of three."""
+    """Processor time of a robot's step and scan [ns], the least of two."""
     times = []
-    for window in range(3):
+    for window in range(2):
         worlds = [
             world(halls, fan, threads, seed)
             for seed in range(window, window + max(1, LEAST // (halls * CROWD)))

@@ -51,8 +51,8 @@ def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(prog="gazelle bench stage", description=__doc__)
     parser.add_argument("--threads", type=int, default=1, help="default 1")
-    parser.add_argument("--largest", type=int, default=100_000, help="most robots (100000)")
-    parser.add_argument("--windows", type=int, default=3, help="of which the best (default 3)")
+    parser.add_argument("--largest", type=int, default=10_000, help="most robots (10000)")
+    parser.add_argument("--windows", type=int, default=2, help="of which the best (default 2)")
     parser.add_argument("--worlds", type=Path, help="a folder with Stage's own worlds")
     parser.add_argument("--stage", type=Path, help="the program of Stage, else the one on PATH")
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
