@@ -137,9 +137,9 @@ def measure(case: Case, threads: int, goals: Goals) -> None:
         beams = sum(math.prod(sizes[k]) for k in seen)
         factor = sim.time_step / seconds_a_step(sim, seen)
         size = f"{each:>11,.0f}" if each else f"{'':>11}"
-        if len(sim.robots) == MANY and not beams:
-            goals.most(f"bytes a robot of {MANY:,}, from a Stage file", each, 4096.0)
-            goals.most(f"loading {MANY:,} from a Stage file [s]", loaded, 1.5)
+        if len(sim.robots) == MANY:
+            goals.most(f"{case.name}: bytes a robot", each, 4096.0)
+            goals.most(f"{case.name}: load [s]", loaded, 1.5)
         wanted = WANTED.get((len(sim.robots), beams // len(sim.robots)))
         if wanted is not None and case.name.startswith("office"):
             goals.least(f"{case.name}: times real time", factor, wanted)

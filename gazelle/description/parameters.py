@@ -22,6 +22,9 @@ _TRUE = {"true", "1", "yes", "on"}
 _FALSE = {"false", "0", "no", "off"}
 
 
+_NOTHING: Mapping[str, str] = MappingProxyType({})  # one for all, as there are many
+
+
 @dataclass(frozen=True, slots=True)
 class Parameters(HoldsMappings):
     """One XML element: its tag, attributes, text and children.
@@ -36,7 +39,7 @@ class Parameters(HoldsMappings):
 
     tag: str
     text: str = ""
-    attributes: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    attributes: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
     children: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)
 

@@ -29,7 +29,7 @@ class Names:
     def parameters(self, same: tuple[tuple[str, str], ...], **values: str) -> Parameters:
         """Of a plugin: its namespace, what is the same for all robots, and what is not."""
         own = {"robotNamespace": self.prefix, **values} if self.prefix else values
-        children = (*_shared(same), *(Parameters(tag, text) for tag, text in own.items()))
+        children = (*_shared(same), *(_parameter(tag, text) for tag, text in own.items()))
         return Parameters("plugin", children=children)
 
     def drive(self, rate: float) -> Plugin:
@@ -72,3 +72,9 @@ def without_stand_ins(model: Model) -> Model:
 @lru_cache(maxsize=64)
 def _shared(values: tuple[tuple[str, str], ...]) -> tuple[Parameters, ...]:
     return tuple(Parameters(tag, text) for tag, text in values)
+
+
+@lru_cache(maxsize=64)
+def _parameter(tag: str, text: str) -> Parameters:
+    """The same for all plugins of a robot: a file may have tens of thousands."""
+    return Parameters(tag, text)
