@@ -26,7 +26,6 @@ from gazelle.errors import FormatError, SimulationWarning
 from gazelle.training import portable
 from gazelle.training.export import export_actor
 from gazelle.training.learners import Learner
-from gazelle.training.vecenv import VectorEnvAdapter
 
 _COUNTERS = (
     "num_timesteps",
@@ -51,11 +50,8 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
     export_actor(learner.policy).save(folder / "policy.npz")
     state: dict[str, Any] = {
         "counters": {name: getattr(learner, name) for name in _COUNTERS if hasattr(learner, name)},
-        "last_obs": learner._last_obs,  # noqa: SLF001  # SB3 has no public name for it
-        "last_starts": learner._last_episode_starts,  # noqa: SLF001
         "generators": _generators(learner),
-        "stepper": learner.env.stepper.get_state(),
-        "environment": _environment_state(learner.env),
+        "environment": learner.env.get_state(),
         "extra": extra,
     }
     memory = getattr(learner, "replay_buffer", None)
@@ -95,33 +91,19 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
 
 
 def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:
-    adapter: VectorEnvAdapter = learner.env
-    setter = _method(adapter, "set_state")
-    if state["environment"] is None or setter is None:
+    env = learner.env
+    if state["environment"] is None:
         warnings.warn(
             "this environment cannot save its state: its episodes start anew, "
             "so the run goes on well but not bit for bit as without the break",
             SimulationWarning,
             stacklevel=2,
         )
-        learner._last_obs = adapter.reset()  # noqa: SLF001
-        learner._last_episode_starts = np.ones(adapter.num_envs, dtype=np.bool_)  # noqa: SLF001
-        return
-    adapter.reset()
-    setter(state["environment"]["value"])
-    adapter.stepper.set_state(state["stepper"])
-    learner._last_obs = state["last_obs"]  # noqa: SLF001
-    learner._last_episode_starts = state["last_starts"]  # noqa: SLF001
-
-
-def _environment_state(adapter: VectorEnvAdapter) -> dict[str, Any] | None:
-    getter = _method(adapter, "get_state")
-    return None if getter is None else {"value": getter()}
-
-
-def _method(adapter: VectorEnvAdapter, name: str) -> Any:
-    """A method of the environment below all wrappers, if it has one."""
-    return getattr(adapter.env.unwrapped, name, None)
+        env.reset()
+    else:
+        env.set_state(state["environment"])
+    # SB3 has no public names for what it acts on next.
+    learner._last_obs, learner._last_episode_starts = env.obs, env.starts  # noqa: SLF001
 
 
 def _generators(learner: Learner) -> dict[str, Any]:

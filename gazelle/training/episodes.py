@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from dataclasses import dataclass, field
 
@@ -72,6 +73,10 @@ class Episodes:
         """Goals that were tried, but for those that were left out."""
         failed = self.collisions | self.timeouts | self.others
         return self.goals + failed.astype(np.int64)
+
+    def moved(self, shift: int) -> Episodes:
+        """The same in copies so many further on."""
+        return dataclasses.replace(self, slots=self.slots + shift)
 
     def _told(self, name: str) -> Bools:
         return self.outcomes.get(name, np.zeros(len(self.slots), np.bool_))

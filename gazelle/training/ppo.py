@@ -23,8 +23,8 @@ from gazelle.array_types import Floats32
 from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, loss_of
+from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
-from gazelle.training.stepper import TrainingStep
 from gazelle.training.threads import products
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -96,36 +96,36 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         """
         callback.on_rollout_start()
         self.policy.set_training_mode(False)
-        rollout_buffer.reset()
-        rollout_buffer.valid = np.ones((n_rollout_steps, env.num_envs), dtype=np.bool_)
         actor = export_actor(self.policy)
-        outputs = np.empty((n_rollout_steps, env.num_envs, len(actor.biases[-1])), dtype=np.float32)
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]] = []
-        for row in range(n_rollout_steps):
-            obs, starts = self._last_obs, self._last_episode_starts
-            outputs[row] = actor.outputs(obs.reshape(env.num_envs, -1))
-            actions = actor.sample(outputs[row], self.action_rng)
-            step = env.advance(actor.to_env(actions))
+
+        def counted() -> bool:
             self.num_timesteps += env.num_envs
-            if not callback.on_step():
-                return False
-            rollout_buffer.observations[row] = obs
-            rollout_buffer.actions[row] = actions.reshape(env.num_envs, -1)
-            rollout_buffer.rewards[row] = step.taught * env.reward_scale
-            rollout_buffer.episode_starts[row] = starts
-            rollout_buffer.valid[row] = step.valid
-            self._note_cut_off(row, step, cut_off)
-            self._last_obs = step.obs
-            self._last_episode_starts = step.terminated | step.truncated
+            return bool(callback.on_step())
+
+        met = env.collect(actor, n_rollout_steps, rng=self.action_rng, on_step=counted)
+        if met is None:
+            return False
+        self._last_obs, self._last_episode_starts = met.last_obs, met.last_starts
+        outputs = met.outputs
         if not self.scale.decided and self.scale.refresh():
             # The first rollout shows how to scale: learn from it as if it had been known.
             actor = export_actor(self.policy)
-            flat = rollout_buffer.observations.reshape(n_rollout_steps * env.num_envs, -1)
+            flat = met.observations.reshape(n_rollout_steps * env.num_envs, -1)
             outputs = actor.outputs(flat).reshape(outputs.shape)
+        self._fill(rollout_buffer, met)
         rollout_buffer.log_probs[:] = _log_probs(actor, outputs, rollout_buffer.actions)
-        self._finish(rollout_buffer, cut_off)
+        self._finish(rollout_buffer, met.cut_off)
         callback.on_rollout_end()
         return True
+
+    @staticmethod
+    def _fill(buffer: MaskedRolloutBuffer, met: Rollout) -> None:
+        buffer.reset()
+        buffer.observations[:] = met.observations
+        buffer.actions[:] = met.actions
+        buffer.rewards[:] = met.rewards
+        buffer.episode_starts[:] = met.starts
+        buffer.valid = met.valid
 
     def train(self) -> None:
         """Learn from the rollout, then scale observations by all that were seen so far."""
@@ -165,34 +165,14 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
         self.logger.record("train/clip_range", weights.clip_range)
 
-    def _note_cut_off(
-        self,
-        row: int,
-        step: TrainingStep,
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]],
-    ) -> None:
-        """Remember the last observations of episodes that were cut off, to value them later."""
-        if step.ended is None or step.final_obs is None:
-            return
-        which = step.truncated[step.ended.slots]
-        if which.any():
-            cut_off.append((row, step.ended.slots[which], step.final_obs[which]))
-
-    def _finish(
-        self,
-        buffer: MaskedRolloutBuffer,
-        cut_off: list[tuple[int, npt.NDArray[np.intp], Floats32]],
-    ) -> None:
+    def _finish(self, buffer: MaskedRolloutBuffer, cut_off: CutOff) -> None:
         """Values, bootstrapped rewards of cut-off episodes (Pardo et al. 2018), advantages."""
         rows, copies = buffer.rewards.shape
         flat = buffer.observations.reshape(rows * copies, *buffer.obs_shape)
         buffer.values[:] = self._values(flat).reshape(rows, copies)
-        if cut_off:
-            values = self._values(np.concatenate([last for _, _, last in cut_off]))
-            start = 0
-            for row, slots, _ in cut_off:
-                buffer.rewards[row, slots] += self.gamma * values[start : start + len(slots)]
-                start += len(slots)
+        if len(cut_off.rows):
+            values = self._values(cut_off.final_obs)
+            buffer.rewards[cut_off.rows, cut_off.slots] += self.gamma * values
         buffer.pos, buffer.full = rows, True
         last_values = torch.as_tensor(self._values(self._last_obs))
         buffer.compute_returns_and_advantage(last_values, self._last_episode_starts)

@@ -22,7 +22,6 @@ from gazelle.training.recipes import Recipe, recipe_for
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
 from gazelle.training.tasks import (
-    control_period,
     find_task,
     make_task,
     plain_options,
@@ -209,7 +208,7 @@ class _Session:
                 self.learner.logger.close()
             seconds = time.perf_counter() - start
         new = self.learner.num_timesteps - before
-        period = control_period(self.env.env)
+        period = self.env.control_period
         return TrainResult(
             run=run,
             steps=self.learner.num_timesteps,

@@ -15,9 +15,13 @@ import numpy.typing as npt
 from gymnasium.vector import VectorEnv
 from stable_baselines3.common.vec_env import VecEnv
 
+from gazelle.array_types import Bools, Floats32
+from gazelle.training.actor import Actor
 from gazelle.training.episodes import Episodes
 from gazelle.training.goal_reward import GoalReward
+from gazelle.training.rollout import Rollout, play
 from gazelle.training.stepper import Stepper, TrainingStep
+from gazelle.training.tasks import control_period
 
 
 class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
@@ -35,6 +39,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         on_episodes: Called with the episodes that ended, at each step where some did.
 
     Attributes:
+        starts: Which copies begin an episode with `obs`, shape (N,).
         on_observations: Called with what is observed after each step, shape (N, ...), if set.
     """
 
@@ -55,6 +60,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self._actions: npt.NDArray[Any] = np.zeros(0)
         self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
         self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+        self.starts: Bools = np.ones(env.num_envs, dtype=np.bool_)
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
 
     def advance(self, actions: npt.NDArray[Any]) -> TrainingStep:
@@ -64,12 +70,50 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
             self.on_episodes(step.ended)
         if self.on_observations is not None:
             self.on_observations(step.obs)
+        self.starts = step.terminated | step.truncated
         return step
+
+    @property
+    def obs(self) -> Floats32:
+        """What is acted on next, shape (N, ...)."""
+        return self.stepper.obs
+
+    @property
+    def control_period(self) -> float | None:
+        """Simulated seconds of a control step; None if the environment does not tell."""
+        return control_period(self.env)
+
+    def collect(
+        self,
+        actor: Actor,
+        steps: int,
+        *,
+        rng: np.random.Generator,
+        on_step: Callable[[], bool] | None = None,
+    ) -> Rollout | None:
+        """Let a policy act, see `rollout.play`."""
+        return play(self, actor, steps, rng=rng, on_step=on_step)
+
+    def get_state(self) -> dict[str, Any] | None:
+        """What `set_state` needs to go on from here; None if the environment cannot save it."""
+        getter = getattr(self.env.unwrapped, "get_state", None)
+        if getter is None or not hasattr(self.env.unwrapped, "set_state"):
+            return None
+        stepper = self.stepper.get_state()
+        return {"environment": getter(), "stepper": stepper, "starts": self.starts}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Go on from a state that `get_state` of an equal environment returned."""
+        self.reset()
+        self.env.unwrapped.set_state(state["environment"])  # type: ignore[attr-defined]  # get_state asked
+        self.stepper.set_state(state["stepper"])
+        self.starts = np.array(state["starts"], dtype=np.bool_)
 
     def reset(self) -> npt.NDArray[np.float32]:
         """Start all episodes anew, with the seed given to `seed` if there is one."""
         obs = self.stepper.reset(seed=self._seed)
         self._seed = None
+        self.starts = np.ones(self.num_envs, dtype=np.bool_)
         return obs
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:

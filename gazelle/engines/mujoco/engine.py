@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -31,6 +30,7 @@ from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError, did_you_mean
+from gazelle.native.processors import processors
 
 _NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
 
@@ -67,7 +67,7 @@ class MujocoEngine(ForcedSteps):
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
         self._nworld = nworld
-        self._threads = min(threads or os.cpu_count() or 1, nworld)
+        self._threads = min(threads or processors(), nworld)
         self._parameters = ParameterStore(nworld)
         self._pending: CompilerInput | None = None
         self._run(CompilerInput(world, step), compile_world(CompilerInput(world, step)))

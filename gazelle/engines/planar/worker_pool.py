@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 import functools
-import os
 import threading
 import weakref
 from collections.abc import Callable
 from typing import Any
 
 from gazelle.errors import EngineError
-
-
-def processors() -> int:
-    """Processors this process may use; ``GAZELLE_NUM_THREADS`` says fewer."""
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    wanted = os.environ.get("GAZELLE_NUM_THREADS", "")
-    return min(available or 1, int(wanted)) if wanted.isdigit() and int(wanted) else available or 1
+from gazelle.native.processors import processors
 
 
 class _Worker:
