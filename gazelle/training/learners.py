@@ -37,7 +37,7 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
     learner = ALGORITHMS[recipe.algo](recipe, env, seed)
     learner.scale = learner.policy_kwargs["features_extractor_kwargs"]["scale"]
-    env.on_observations = learner.scale.observe
+    env.watch(learner.scale.observe)
     return learner
 
 

@@ -49,6 +49,8 @@ class RunConfig:
     """Control steps between two checkpoints."""
     imports: tuple[TaskModule, ...] = ()
     """Modules that register the task, where that is not one of Gazelle's."""
+    sharded: bool = False
+    """Whether workers play its rollouts, see `gazelle.training.workers`."""
 
 
 @dataclass(frozen=True)
@@ -192,6 +194,7 @@ def _config_to_dict(config: RunConfig) -> dict[str, Any]:
         "options": config.options,
         "checkpoint_every": config.checkpoint_every,
         "imports": modules_to_list(config.imports),
+        "sharded": config.sharded,
         "recipe": recipe_to_dict(config.recipe),
         "versions": versions(),
         "machine": platform.machine(),
@@ -208,6 +211,7 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
         options=dict(values["options"]),
         checkpoint_every=int(values["checkpoint_every"]),
         imports=modules_from_list(values.get("imports", [])),
+        sharded=bool(values.get("sharded", False)),
     )
 
 

@@ -29,6 +29,7 @@ from gazelle.training.tasks import (
 )
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter
+from gazelle.training.workers.joining import join_workers
 
 _CHECKPOINTS = 10
 
@@ -68,6 +69,8 @@ def train(
     progress: Progress | None = None,
     threads: int = 1,
     imports: Sequence[str] = (),
+    workers: int | None = None,
+    ray: str | None = None,
     **options: Any,
 ) -> TrainResult:
     """Train a policy from scratch.
@@ -84,6 +87,10 @@ def train(
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
         imports: Modules or files to import first, which register tasks; the run remembers them.
+        workers: Processes that play rollouts, see `gazelle.training.workers`; the result is the
+            same with any number of them, and another than without.
+        ray: They are on the Ray cluster at this address, ``local`` for one on this machine; by
+            default as many as it has processors.
         options: Options of the environment; those that the recipe sets are taken from it.
 
     Raises:
@@ -110,9 +117,10 @@ def train(
         options=plain_options({**recipe.training_options, **options}),
         checkpoint_every=checkpoint_every or max(1, recipe.steps // _CHECKPOINTS),
         imports=modules,
+        sharded=workers is not None or ray is not None,
     )
     limit_threads(threads)
-    session = _Session(config, progress or NoProgress())
+    session = _Session(config, progress or NoProgress(), workers, ray)
     try:
         run = Run.create(config, Path(out))
         save_contract(contract_of(session.env.env, config), run.folder)
@@ -128,6 +136,8 @@ def resume(
     progress: Progress | None = None,
     threads: int = 1,
     imports: Sequence[str] = (),
+    workers: int | None = None,
+    ray: str | None = None,
 ) -> TrainResult:
     """Go on with a run, until the number of steps it was started with or another.
 
@@ -141,6 +151,8 @@ def resume(
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
         imports: Modules or files that register the task, if not those that the run names.
+        workers: For a run that was begun with workers: how many, by default one.
+        ray: Where they are, see `train`.
 
     Raises:
         FormatError: There is no run, no checkpoint, or it is damaged.
@@ -159,8 +171,12 @@ def resume(
                 hint="--steps is the total, not how many more",
             )
         found = found.changed(recipe=dataclasses.replace(found.config.recipe, steps=steps))
+    if not found.config.sharded and (workers is not None or ray is not None):
+        raise TaskError(
+            "the run was begun without workers", hint="leave out --workers and --ray to go on"
+        )
     limit_threads(threads)
-    session = _Session(found.config, progress or NoProgress())
+    session = _Session(found.config, progress or NoProgress(), workers, ray)
     try:
         return session.go(found, checkpoint)
     finally:
@@ -170,16 +186,16 @@ def resume(
 class _Session:
     """The living parts of a run: environment and learner."""
 
-    def __init__(self, config: RunConfig, progress: Progress) -> None:
+    def __init__(
+        self, config: RunConfig, progress: Progress, workers: int | None, ray: str | None
+    ) -> None:
         self.progress = progress
         self.episodes = EpisodeLog()
         self.total = config.recipe.steps
-        env = make_task(config.task, config.recipe.num_envs, **config.options)
-        self.env = VectorEnvAdapter(
-            env,
-            reward_scale=config.recipe.reward_scale,
-            goal_reward=config.recipe.goal_reward,
-            on_episodes=self.episodes.add,
+        self.env = (
+            join_workers(config, workers, ray, self.episodes.add)
+            if config.sharded
+            else _alone(config, self.episodes)
         )
         try:
             self.learner: Learner = build_learner(config.recipe, self.env, config.seed)
@@ -247,3 +263,13 @@ class _Session:
             f"the weights became infinite within {self.learner.num_timesteps:,} steps",
             hint="lower the learning rate or the reward_scale; does the task give NaN?",
         ) from cause
+
+
+def _alone(config: RunConfig, episodes: EpisodeLog) -> VectorEnvAdapter:
+    """All copies in this process."""
+    return VectorEnvAdapter(
+        make_task(config.task, config.recipe.num_envs, **config.options),
+        reward_scale=config.recipe.reward_scale,
+        goal_reward=config.recipe.goal_reward,
+        on_episodes=episodes.add,
+    )

@@ -17,11 +17,10 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.array_types import Bools, Floats32
 from gazelle.training.actor import Actor
+from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.rollout import Rollout, play
-from gazelle.training.stepper import Stepper, TrainingStep
-from gazelle.training.tasks import control_period
 
 
 class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
@@ -39,8 +38,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         on_episodes: Called with the episodes that ended, at each step where some did.
 
     Attributes:
-        starts: Which copies begin an episode with `obs`, shape (N,).
-        on_observations: Called with what is observed after each step, shape (N, ...), if set.
+        copies: The copies of the task.
     """
 
     def __init__(
@@ -52,36 +50,33 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         on_episodes: Callable[[Episodes], None] | None = None,
     ) -> None:
         self.env = env
-        self.stepper = Stepper(env, goal_reward=goal_reward)
-        self.reward_scale = reward_scale
-        self.on_episodes = on_episodes
-        self.on_observations: Callable[[npt.NDArray[np.float32]], None] | None = None
+        self.copies = TaskCopies(
+            env, reward_scale=reward_scale, goal_reward=goal_reward, on_episodes=on_episodes
+        )
         self._seed: int | None = None
         self._actions: npt.NDArray[Any] = np.zeros(0)
         self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
         self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
-        self.starts: Bools = np.ones(env.num_envs, dtype=np.bool_)
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
-
-    def advance(self, actions: npt.NDArray[Any]) -> TrainingStep:
-        """One control step as a `TrainingStep`, without infos (rewards are not scaled)."""
-        step = self.stepper.step(actions)
-        if step.ended is not None and self.on_episodes is not None:
-            self.on_episodes(step.ended)
-        if self.on_observations is not None:
-            self.on_observations(step.obs)
-        self.starts = step.terminated | step.truncated
-        return step
 
     @property
     def obs(self) -> Floats32:
         """What is acted on next, shape (N, ...)."""
-        return self.stepper.obs
+        return self.copies.obs
+
+    @property
+    def starts(self) -> Bools:
+        """Which copies begin an episode with it, shape (N,)."""
+        return self.copies.starts
 
     @property
     def control_period(self) -> float | None:
         """Simulated seconds of a control step; None if the environment does not tell."""
-        return control_period(self.env)
+        return self.copies.control_period
+
+    def watch(self, on_observations: Callable[[Floats32], None]) -> None:
+        """Have something called with what is observed after each step, shape (N, ...)."""
+        self.copies.on_observations = on_observations
 
     def collect(
         self,
@@ -92,28 +87,20 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         on_step: Callable[[], bool] | None = None,
     ) -> Rollout | None:
         """Let a policy act, see `rollout.play`."""
-        return play(self, actor, steps, rng=rng, on_step=on_step)
+        return play(self.copies, actor, steps, rng=rng, on_step=on_step)
 
     def get_state(self) -> dict[str, Any] | None:
-        """What `set_state` needs to go on from here; None if the environment cannot save it."""
-        getter = getattr(self.env.unwrapped, "get_state", None)
-        if getter is None or not hasattr(self.env.unwrapped, "set_state"):
-            return None
-        stepper = self.stepper.get_state()
-        return {"environment": getter(), "stepper": stepper, "starts": self.starts}
+        """See `TaskCopies.get_state`."""
+        return self.copies.get_state()
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from a state that `get_state` of an equal environment returned."""
-        self.reset()
-        self.env.unwrapped.set_state(state["environment"])  # type: ignore[attr-defined]  # get_state asked
-        self.stepper.set_state(state["stepper"])
-        self.starts = np.array(state["starts"], dtype=np.bool_)
+        """See `TaskCopies.set_state`."""
+        self.copies.set_state(state)
 
-    def reset(self) -> npt.NDArray[np.float32]:
+    def reset(self) -> Floats32:
         """Start all episodes anew, with the seed given to `seed` if there is one."""
-        obs = self.stepper.reset(seed=self._seed)
+        obs = self.copies.reset(self._seed)
         self._seed = None
-        self.starts = np.ones(self.num_envs, dtype=np.bool_)
         return obs
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:
@@ -134,7 +121,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         list[dict[str, Any]],
     ]:
         """Do the step: observations, rewards, dones, infos."""
-        step = self.advance(self._actions)
+        step = self.copies.advance(self._actions)
         for slot in self._marked:
             self._infos[slot] = {}
         if step.ended is not None and step.final_obs is not None:
@@ -149,8 +136,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
             self._infos[slot]["reset_step"] = True
         ended = step.ended.slots if step.ended is not None else idle[:0]
         self._marked = np.concatenate([ended, idle])
-        rewards = (step.taught * self.reward_scale).astype(np.float32)
-        return step.obs, rewards, step.terminated | step.truncated, self._infos
+        return step.obs, self.copies.scaled(step), self.starts, self._infos
 
     def close(self) -> None:
         """Close the environment."""

@@ -1,0 +1,95 @@
+"""Workers as actors of a Ray cluster (https://docs.ray.io)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from gazelle.errors import MissingExtraError, TaskError
+from gazelle.native.processors import VARIABLE
+from gazelle.training.workers.shards import Blueprint, ShardHost
+from gazelle.training.workers.team import Link, WorkerLostError
+
+LOCAL = "local"
+"""The address of a cluster that is started on this machine and ends with the program."""
+
+
+class RayLink:
+    """A worker that is an actor of Ray's.
+
+    Args:
+        blueprint: What the shards are made from.
+        numbers: Those that it holds.
+
+    Attributes:
+        actor: Ray's handle.
+    """
+
+    def __init__(self, blueprint: Blueprint, numbers: Sequence[int]) -> None:
+        ray = connected()
+        alone = {"env_vars": {VARIABLE: "1", "OMP_NUM_THREADS": "1"}}
+        made = ray.remote(ShardHost).options(num_cpus=1, max_restarts=0, runtime_env=alone)
+        self.actor: Any = made.remote(blueprint, tuple(numbers))
+        self._answer: Any = None
+
+    def send(self, method: str, *arguments: Any) -> None:
+        """See `Link.send`."""
+        self._answer = getattr(self.actor, method).remote(*arguments)
+
+    def receive(self) -> Any:
+        """See `Link.receive`."""
+        ray = connected()
+        try:
+            return ray.get(self._answer)
+        except ray.exceptions.RayActorError as error:
+            raise WorkerLostError(str(error)) from error
+        except ray.exceptions.RayTaskError as error:
+            raise error.cause from error
+
+    def close(self) -> None:
+        """End the actor."""
+        connected().kill(self.actor)
+
+
+def connect(address: str | None) -> int:
+    """Join a cluster, or start one on this machine.
+
+    Args:
+        address: As ``ray.init`` takes it, ``auto`` for the one that this machine belongs to;
+            `LOCAL` starts one that only this machine can reach.
+
+    Returns:
+        How many processors it has.
+
+    Raises:
+        MissingExtraError: Ray is not installed.
+        TaskError: There is no cluster at this address.
+    """
+    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # it would tell its makers
+    try:
+        import ray
+    except ModuleNotFoundError as error:
+        raise MissingExtraError("ray", "distributed") from error
+    alone: dict[str, Any] = {}
+    if address in {None, LOCAL}:
+        alone = {"include_dashboard": False, "_node_ip_address": "127.0.0.1"}
+    try:
+        if not ray.is_initialized():
+            ray.init(address=address or LOCAL, log_to_driver=True, logging_level="ERROR", **alone)
+    except (ConnectionError, ValueError) as error:
+        hint = "'ray start --head' starts a cluster; --ray without an address uses this machine"
+        raise TaskError(f"no Ray cluster at {address}: {error}", hint=hint) from error
+    return int(ray.cluster_resources().get("CPU", 1))
+
+
+def connected() -> Any:
+    """Ray, which `connect` has joined to a cluster."""
+    import ray
+
+    return ray
+
+
+def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], Link]:
+    """What starts a worker, see `Team`."""
+    return lambda numbers: RayLink(blueprint, numbers)

@@ -1,0 +1,57 @@
+"""From a run's configuration to the workers that play its rollouts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gazelle.training.episodes import Episodes
+from gazelle.training.runs import RunConfig
+from gazelle.training.tasks import fitting_copies
+from gazelle.training.workers.clusters import connect, start_actors
+from gazelle.training.workers.processes import start_processes
+from gazelle.training.workers.shards import Blueprint, divided
+from gazelle.training.workers.team import Team
+from gazelle.training.workers.vecenv import WorkerVecEnv
+
+
+def join_workers(
+    config: RunConfig,
+    workers: int | None,
+    ray: str | None,
+    on_episodes: Callable[[Episodes], None],
+) -> WorkerVecEnv:
+    """Start workers for a run.
+
+    Args:
+        config: What shapes the run.
+        workers: How many; by default one, or as many as a cluster has processors.
+        ray: The address of a Ray cluster; None for processes on this machine.
+        on_episodes: Called with the episodes that ended.
+
+    Raises:
+        TaskError: There are more workers than parts, or the task cannot be divided so.
+        MissingExtraError: Ray is asked for and not installed.
+    """
+    recipe = config.recipe
+    sizes = divided(recipe.num_envs, fitting_copies(config.task, 1, config.options))
+    blueprint = Blueprint(
+        task=config.task,
+        sizes=sizes,
+        options=config.options,
+        imports=config.imports,
+        reward_scale=recipe.reward_scale,
+        goal_reward=recipe.goal_reward,
+    )
+    if ray is None:
+        count = workers or 1
+        start = start_processes(blueprint, count)
+    else:
+        count = workers or min(connect(ray), len(sizes))
+        connect(ray)
+        start = start_actors(blueprint)
+    team = Team(start, len(sizes), count)
+    try:
+        return WorkerVecEnv(team, sizes, on_episodes=on_episodes)
+    except BaseException:
+        team.close()
+        raise

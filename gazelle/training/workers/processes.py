@@ -1,0 +1,146 @@
+"""Workers as processes on this machine."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pickle
+import signal
+import struct
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from typing import IO, Any
+
+from gazelle.native.processors import VARIABLE, processors
+from gazelle.training.workers.shards import Blueprint, ShardHost
+from gazelle.training.workers.team import Link, WorkerLostError
+
+_LENGTH = struct.Struct("<Q")
+_PATIENCE = 10.0  # until a worker that was asked to end is killed [s]
+_LIBRARIES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class ProcessLink:
+    """A worker in a process of its own; it ends when this one does.
+
+    Args:
+        blueprint: What the shards are made from.
+        numbers: Those that it holds.
+        threads: How many threads its engine may use.
+    """
+
+    def __init__(self, blueprint: Blueprint, numbers: Sequence[int], *, threads: int) -> None:
+        few = {VARIABLE: str(threads), **dict.fromkeys(_LIBRARIES, "1")}
+        self._process = subprocess.Popen(  # this very Python and module
+            [sys.executable, "-m", "gazelle.training.workers.serve"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=os.environ
+            | few
+            | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
+        )
+        self._write((blueprint, tuple(numbers)))
+
+    @property
+    def pid(self) -> int:
+        """The process's number."""
+        return self._process.pid
+
+    def send(self, method: str, *arguments: Any) -> None:
+        """See `Link.send`."""
+        self._write((method, arguments))
+
+    def receive(self) -> Any:
+        """See `Link.receive`."""
+        try:
+            error, answer = read(_open(self._process.stdout))
+        except (EOFError, OSError) as gone:
+            raise WorkerLostError(f"it ended with code {self._process.poll()}") from gone
+        if error is not None:
+            raise error
+        return answer
+
+    def _write(self, value: Any) -> None:
+        try:
+            write(_open(self._process.stdin), value)
+        except OSError as error:
+            raise WorkerLostError(str(error)) from error
+
+    def close(self) -> None:
+        """End the process, by force if it does not."""
+        for pipe in (self._process.stdout, self._process.stdin):
+            with contextlib.suppress(OSError):
+                _open(pipe).close()
+        try:
+            self._process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+
+def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], Link]:
+    """What starts one of so many workers, see `Team`."""
+    threads = max(1, processors() // workers)
+    return lambda numbers: ProcessLink(blueprint, numbers, threads=threads)
+
+
+def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
+    """A worker's life: answer requests until there are no more."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver hears Ctrl-C, and ends its workers
+    with contextlib.suppress(EOFError, OSError):  # the driver needs it no more, or has gone
+        host = ShardHost(*read(requests))
+        try:
+            while True:
+                method, arguments = read(requests)
+                write(answers, _answer(host, method, arguments))
+        finally:
+            host.close()
+
+
+def write(pipe: IO[bytes], value: Any) -> None:
+    """Write a value to a process of our own."""
+    data = pickle.dumps(value, protocol=pickle.HIGHEST_PROTOCOL)
+    pipe.write(_LENGTH.pack(len(data)))
+    pipe.write(data)
+    pipe.flush()
+
+
+def read(pipe: IO[bytes]) -> Any:
+    """Read a value that such a process wrote.
+
+    Raises:
+        EOFError: It ended.
+    """
+    head = pipe.read(_LENGTH.size)
+    if len(head) < _LENGTH.size:
+        raise EOFError
+    data = pipe.read(*_LENGTH.unpack(head))
+    if len(data) < _LENGTH.unpack(head)[0]:
+        raise EOFError
+    return pickle.loads(data)  # noqa: S301  # of a process that this one started
+
+
+def _answer(
+    host: ShardHost, method: str, arguments: tuple[Any, ...]
+) -> tuple[Exception | None, Any]:
+    """An error or what was asked for."""
+    try:
+        return None, getattr(host, method)(*arguments)
+    except Exception as error:  # noqa: BLE001  # the driver raises it
+        return _portable(error), None
+
+
+def _portable(error: Exception) -> Exception:
+    """The error itself, if it can travel, else one with its text."""
+    try:
+        pickle.loads(pickle.dumps(error))  # noqa: S301  # our own
+    except Exception:  # noqa: BLE001  # whatever is wrong with it
+        return RuntimeError(f"{type(error).__name__}: {error}")
+    return error
+
+
+def _open(pipe: IO[bytes] | None) -> IO[bytes]:
+    if pipe is None:
+        raise WorkerLostError("the worker has no pipe")
+    return pipe

@@ -1,0 +1,177 @@
+"""Copies of a task in other processes or on other machines, as Stable-Baselines3 wants them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from stable_baselines3.common.vec_env import VecEnv
+
+from gazelle.array_types import Bools, Floats32
+from gazelle.training.actor import Actor
+from gazelle.training.episodes import Episodes
+from gazelle.training.rollout import Rollout, join
+from gazelle.training.workers.shards import ShardStep
+from gazelle.training.workers.team import Team
+
+
+class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
+    """All copies of a task that a team of workers holds.
+
+    Learners that can, such as `FastPPO`, have whole rollouts played by the workers (`collect`);
+    others go step by step, which suits tasks that are slow themselves: a real simulator, a robot.
+
+    Args:
+        team: The workers.
+        sizes: Copies in each shard.
+        on_episodes: Called with the episodes that ended.
+
+    Attributes:
+        obs: What is acted on next, shape (N, ...).
+        starts: Which copies begin an episode with it, shape (N,).
+        control_period: Simulated seconds of a control step; None if the task does not tell.
+    """
+
+    def __init__(
+        self,
+        team: Team,
+        sizes: Sequence[int],
+        *,
+        on_episodes: Callable[[Episodes], None] | None = None,
+    ) -> None:
+        self.team = team
+        self.on_episodes = on_episodes
+        self._on_observations: Callable[[Floats32], None] | None = None
+        self._ends = np.cumsum(sizes)[:-1]
+        self._seed: int | None = None
+        self._actions: npt.NDArray[Any] = np.zeros(0)
+        spaces = team.spaces()
+        self.control_period = spaces.control_period
+        super().__init__(sum(sizes), spaces.observation, spaces.action)
+        self.obs: Floats32 = np.zeros(
+            (self.num_envs, *(spaces.observation.shape or ())), np.float32
+        )
+        self.starts: Bools = np.ones(self.num_envs, np.bool_)
+
+    def watch(self, on_observations: Callable[[Floats32], None]) -> None:
+        """Have something called with what is observed after each step, shape (N, ...)."""
+        self._on_observations = on_observations
+
+    def seed(self, seed: int | None = None) -> Sequence[int | None]:
+        """Remember the seed for the next reset."""
+        self._seed = seed
+        return [seed] * self.num_envs
+
+    def reset(self) -> Floats32:
+        """Start all episodes anew, with the seed given to `seed` if there is one."""
+        self.obs = np.concatenate(list(self.team.call("reset", self._seed).values()))
+        self.starts = np.ones(self.num_envs, np.bool_)
+        self._seed = None
+        return self.obs
+
+    def collect(
+        self,
+        actor: Actor,
+        steps: int,
+        *,
+        rng: np.random.Generator,
+        on_step: Callable[[], bool] | None = None,
+    ) -> Rollout | None:
+        """Have the workers let a policy act, see `rollout.play`; they draw the chances themselves."""
+        del rng
+        met = join(list(self.team.call("collect", actor, steps).values()))
+        self.obs, self.starts = met.last_obs, met.last_starts
+        if self.on_episodes is not None:
+            for _, ended in met.ended:
+                self.on_episodes(ended)
+        for row in range(1, steps + 1):
+            if self._on_observations is not None:
+                self._on_observations(met.observations[row] if row < steps else met.last_obs)
+            if on_step is not None and not on_step():
+                return None
+        return met
+
+    def step_async(self, actions: npt.NDArray[Any]) -> None:
+        """Take the actions of the next step."""
+        self._actions = actions
+
+    def step_wait(self) -> tuple[Floats32, Floats32, Bools, list[dict[str, Any]]]:
+        """Do the step: observations, rewards, dones, infos."""
+        parts = dict(enumerate(np.split(self._actions, self._ends)))
+        answers = self.team.call("step", parts).values()
+        before = np.split(self.obs, self._ends)
+        steps = [
+            each if isinstance(each, ShardStep) else _cut_off(last, each)
+            for last, each in zip(before, answers, strict=True)
+        ]
+        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        for step, shift in zip(steps, [0, *self._ends], strict=True):
+            self._tell(step, int(shift), infos)
+        self.obs = np.concatenate([step.obs for step in steps])
+        self.starts = np.concatenate([step.terminated | step.truncated for step in steps])
+        if self._on_observations is not None:
+            self._on_observations(self.obs)
+        rewards = np.concatenate([step.rewards for step in steps])
+        return self.obs, rewards, self.starts, infos
+
+    def _tell(self, step: ShardStep, shift: int, infos: list[dict[str, Any]]) -> None:
+        """Infos of one shard's copies, as Stable-Baselines3 defines them."""
+        if step.ended is not None and self.on_episodes is not None:
+            self.on_episodes(step.ended.moved(shift))
+        if step.final_obs is not None:
+            slots = np.flatnonzero(step.terminated | step.truncated)
+            for slot, last in zip(slots, step.final_obs, strict=True):
+                cut = bool(step.truncated[slot])
+                infos[shift + slot] = {"terminal_observation": last, "TimeLimit.truncated": cut}
+        for slot in np.flatnonzero(~step.valid):
+            infos[shift + slot]["reset_step"] = True
+
+    def get_state(self) -> dict[str, Any] | None:
+        """What `set_state` needs to go on from here; None if the task cannot save it."""
+        self.team.call("get_state")
+        states = self.team.states
+        if states is None:
+            return None
+        shards = [states[number] for number in sorted(states)]
+        return {"shards": shards, "obs": self.obs, "starts": self.starts}
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Go on from a state that `get_state` returned, whatever the number of workers then."""
+        self.team.call("set_state", dict(enumerate(state["shards"])))
+        self.obs = np.array(state["obs"], np.float32)
+        self.starts = np.array(state["starts"], np.bool_)
+
+    def close(self) -> None:
+        """End the workers."""
+        self.team.close()
+
+    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
+        """An attribute of this environment, once for each copy: those of the workers stay there."""
+        return [getattr(self, attr_name, None) for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
+        """Set an attribute of this environment."""
+        del indices
+        setattr(self, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """Call a method of this environment once; the copies share the result."""
+        result = getattr(self, method_name)(*method_args, **method_kwargs)
+        return [result for _ in self._get_indices(indices)]
+
+    def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
+        """Whether the single copies are wrapped: they are not."""
+        del wrapper_class
+        return [False for _ in self._get_indices(indices)]
+
+
+def _cut_off(last: Floats32, first: Floats32) -> ShardStep:
+    """The step in which a worker was lost: its episodes are cut off where they were."""
+    copies = len(last)
+    nothing, all_of_them = np.zeros(copies, np.bool_), np.ones(copies, np.bool_)
+    rewards = np.zeros(copies, np.float32)
+    return ShardStep(first, rewards, nothing, all_of_them, all_of_them, last, None)

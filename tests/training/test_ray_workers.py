@@ -1,0 +1,70 @@
+"""Rollouts by actors of a Ray cluster on this machine."""
+
+from __future__ import annotations
+
+import os
+import signal
+
+import pytest
+from test_workers import curves, trained
+
+from gazelle.errors import TaskError
+from gazelle.training.progress import NoProgress
+from gazelle.training.workers.clusters import RayLink, connect
+
+ray = pytest.importorskip("ray", reason="Ray is not installed (pip install 'gazelle[distributed]')")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _cluster():
+    os.environ["RAY_USAGE_STATS_ENABLED"] = "0"
+    ray.init(address="local", num_cpus=2, include_dashboard=False, _node_ip_address="127.0.0.1")
+    yield
+    ray.shutdown()
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """Links to actors as they are started."""
+    links = []
+    begin = RayLink.__init__
+
+    def remembered(link, *arguments):
+        begin(link, *arguments)
+        links.append(link)
+
+    monkeypatch.setattr(RayLink, "__init__", remembered)
+    return links
+
+
+class KillAnActor(NoProgress):
+    """Kills the process of the first actor after some steps."""
+
+    def __init__(self, links, steps):
+        self.links = links
+        self.steps = steps
+
+    def update(self, done, summary):
+        if done >= self.steps:
+            self.steps = float("inf")
+            pid = ray.get(self.links[0].actor.__ray_call__.remote(lambda host: os.getpid()))
+            os.kill(pid, signal.SIGKILL)
+
+
+def test_a_cluster_gives_the_same_curve_as_processes_and_survives_a_death(tmp_path, tiny, started):
+    here = trained(tmp_path, tiny, 1)
+    there = trained(tmp_path, tiny, None, ray="auto")
+    assert curves(there) == curves(here)
+    started.clear()
+    killed = trained(tmp_path, tiny, 2, ray="auto", progress=KillAnActor(started, 256))
+    assert curves(killed) == curves(here)
+    assert len(started) == 3
+
+
+def test_an_error_of_the_task_is_told_as_it_is(tmp_path, tiny):
+    with pytest.raises(TaskError, match="does not take all of these options"):
+        trained(tmp_path, tiny, 2, ray="auto", nonsense=3)
+
+
+def test_processors_of_the_cluster_are_counted():
+    assert connect("auto") == 2
