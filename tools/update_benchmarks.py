@@ -1,7 +1,7 @@
 """Run benchmarks and put what they print into the docs.
 
 Without arguments all that docs/benchmarks.md has, else the ones named; ``contacts`` is the table of
-docs/physics.md, what contacts cost and how far off they are. All of physics, in two minutes:
+docs/physics.md, what contacts cost and how far off they are; ``workers`` is in docs/scale.md. All of physics, in two minutes:
 
     python tools/update_benchmarks.py physics contacts
 """
@@ -18,14 +18,17 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "benchmarks.md"
 BLOCK = r"(?ms)(<!-- {name} -->\n```text\n)(.*?)(^```$)"
+SCALE = ROOT / "docs" / "scale.md"
 PHYSICS = ROOT / "docs" / "physics.md"
 TABLE = r"(<!-- {name} -->\n)((?:\|.*\n)+)()"
 
 
 def main() -> None:
     """Refresh the pages."""
-    for name in sys.argv[1:] or re.findall(r"<!-- (\w+) -->", PAGE.read_text()):
-        if name == "contacts":
+    for name in sys.argv[1:] or [*re.findall(r"<!-- (\w+) -->", PAGE.read_text()), "workers"]:
+        if name == "workers":
+            refresh(SCALE, BLOCK, name, measured(name))
+        elif name == "contacts":
             refresh(PHYSICS, TABLE, name, printed("tools/contact_errors.py"))
         else:
             refresh(PAGE, BLOCK, name, measured(name))

@@ -46,6 +46,7 @@ COMMANDS = {
         Command("map", "the true map of a world, for map_server", "simulate", "map"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
+        Command("study", "many parameters and seeds, in one table", "learn", "study"),
         Command("export", "a run's policy as ONNX or numpy arrays", "learn", "export"),
         Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "deploy"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),

@@ -4,6 +4,7 @@ run that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
   gazelle train TurtleBot3Stage1
   gazelle train TurtleBot3Stage4 --steps 2e6 --seed 3
   gazelle train --resume runs/TurtleBot3Stage1-ppo-20261105-140302 [--steps 4e6]
+  gazelle train TurtleBot3Stage4 --workers 2     (or --ray auto, on a cluster)
   gazelle train my/Task-v0 --import my_tasks.py
   gazelle train my_package.tasks:my/Task-v0
 """  # noqa: D205  # this is the text of --help
@@ -48,6 +49,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
     )
+    parser.add_argument(
+        "--workers",
+        metavar="N",
+        type=positive_int,
+        help="processes that play rollouts; the result does not depend on their number",
+    )
+    parser.add_argument(
+        "--ray",
+        metavar="ADDRESS",
+        nargs="?",
+        const="local",
+        help="have the workers on a Ray cluster (default: one on this machine)",
+    )
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)
@@ -62,7 +76,12 @@ def run(args: argparse.Namespace) -> int:
 
     if args.resume is not None:
         result = resume(
-            args.resume, steps=args.steps, progress=choose_progress(), imports=args.imports
+            args.resume,
+            steps=args.steps,
+            progress=choose_progress(),
+            imports=args.imports,
+            workers=args.workers,
+            ray=args.ray,
         )
         return report(result)
     result = train(
@@ -75,6 +94,8 @@ def run(args: argparse.Namespace) -> int:
         checkpoint_every=args.checkpoint_every,
         progress=choose_progress(),
         imports=args.imports,
+        workers=args.workers,
+        ray=args.ray,
         **environment_options(args),
     )
     return report(result)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from gazelle.training.runs import Run, RunConfig
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import SuccessRate, wilson_interval
+    from gazelle.training.study import Study, StudyResult, conduct
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
     from gazelle.training.verified import VERIFIED, Verified
 
@@ -51,6 +52,8 @@ _HOMES = {
     "PolicyFiles": "policy_files",
     "Progress": "progress",
     "RECIPES": "recipes",
+    "Study": "study",
+    "StudyResult": "study",
     "SuccessRate": "statistics",
     "Recipe": "recipes",
     "Run": "runs",
@@ -60,6 +63,7 @@ _HOMES = {
     "VERIFIED": "verified",
     "Verified": "verified",
     "choose_progress": "progress",
+    "conduct": "study",
     "evaluate": "evaluation",
     "export_policy": "policy_files",
     "find_task": "tasks",
@@ -88,11 +92,14 @@ __all__ = [
     "Recipe",
     "Run",
     "RunConfig",
+    "Study",
+    "StudyResult",
     "SuccessRate",
     "Task",
     "TrainResult",
     "Verified",
     "choose_progress",
+    "conduct",
     "evaluate",
     "export_policy",
     "find_task",

@@ -18,15 +18,11 @@ from gazelle.training.tasks import control_period, make_task, told_by
 CONTRACT = "contract.json"
 
 
-def contract_of(env: VectorEnv[Any, Any, Any], config: RunConfig) -> PolicyContract:
-    """What a policy that is trained like this sees and does.
+def task_contract(env: VectorEnv[Any, Any, Any]) -> PolicyContract:
+    """What a task's policies see and do.
 
     A task says so by an attribute ``contract`` of its environment, a `PolicyContract`; of one
     without it, the spaces are told.
-
-    Args:
-        env: The environment.
-        config: Of the run.
     """
     told = told_by(env, "contract")
     if not isinstance(told, PolicyContract):
@@ -35,10 +31,19 @@ def contract_of(env: VectorEnv[Any, Any, Any], config: RunConfig) -> PolicyContr
     limit = told.time_limit
     if limit is None and told.control_period and env.spec and env.spec.max_episode_steps:
         limit = env.spec.max_episode_steps * told.control_period
+    return dataclasses.replace(told, time_limit=limit)
+
+
+def contract_of(told: PolicyContract, config: RunConfig) -> PolicyContract:
+    """What a policy that is trained like this sees and does.
+
+    Args:
+        told: By its task, see `task_contract`.
+        config: Of the run.
+    """
     return dataclasses.replace(
         told,
         task=config.task,
-        time_limit=limit,
         versions=versions(),
         training={
             "algorithm": config.recipe.algo,
@@ -84,6 +89,6 @@ def run_contract(run: Run) -> PolicyContract:
     load_all(run.config.imports)
     env = make_task(run.config.task, 1, **run.config.options)
     try:
-        return contract_of(env, run.config)
+        return contract_of(task_contract(env), run.config)
     finally:
         env.close()

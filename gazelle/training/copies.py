@@ -10,6 +10,8 @@ import numpy.typing as npt
 from gymnasium.vector import VectorEnv
 
 from gazelle.array_types import Bools, Floats32
+from gazelle.envs.contract import PolicyContract
+from gazelle.training.contracts import task_contract
 from gazelle.training.episodes import Episodes
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.stepper import Stepper, TrainingStep
@@ -61,6 +63,11 @@ class TaskCopies:
     def control_period(self) -> float | None:
         """Simulated seconds of a control step; None if the environment does not tell."""
         return control_period(self.env)
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What the task says of what its policies see and do."""
+        return task_contract(self.env)
 
     def reset(self, seed: int | None = None) -> Floats32:
         """Start all episodes anew; the first observations, shape (N, ...)."""

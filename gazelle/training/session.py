@@ -123,7 +123,7 @@ def train(
     session = _Session(config, progress or NoProgress(), workers, ray)
     try:
         run = Run.create(config, Path(out))
-        save_contract(contract_of(session.env.env, config), run.folder)
+        save_contract(contract_of(session.env.contract, config), run.folder)
         return session.go(run)
     finally:
         session.close()

@@ -16,6 +16,7 @@ from gymnasium.vector import VectorEnv
 from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.array_types import Bools, Floats32
+from gazelle.envs.contract import PolicyContract
 from gazelle.training.actor import Actor
 from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
@@ -73,6 +74,11 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
     def control_period(self) -> float | None:
         """Simulated seconds of a control step; None if the environment does not tell."""
         return self.copies.control_period
+
+    @property
+    def contract(self) -> PolicyContract:
+        """What the task says of what its policies see and do."""
+        return self.copies.contract
 
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
         """Have something called with what is observed after each step, shape (N, ...)."""

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import signal
 
 import pytest
+from missing import skip_or_fail
 from test_workers import curves, trained
 
 from gazelle.errors import TaskError
 from gazelle.training.progress import NoProgress
 from gazelle.training.workers.clusters import RayLink, connect
 
-ray = pytest.importorskip("ray", reason="Ray is not installed (pip install 'gazelle[distributed]')")
-
 
 @pytest.fixture(scope="module", autouse=True)
 def _cluster():
+    if importlib.util.find_spec("ray") is None:
+        skip_or_fail("Ray is not here (pip install 'gazelle[distributed]')")
+    import ray
+
     os.environ["RAY_USAGE_STATS_ENABLED"] = "0"
     ray.init(address="local", num_cpus=2, include_dashboard=False, _node_ip_address="127.0.0.1")
     yield
@@ -45,6 +49,8 @@ class KillAnActor(NoProgress):
         self.steps = steps
 
     def update(self, done, summary):
+        import ray
+
         if done >= self.steps:
             self.steps = float("inf")
             pid = ray.get(self.links[0].actor.__ray_call__.remote(lambda host: os.getpid()))

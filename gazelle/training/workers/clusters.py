@@ -19,18 +19,18 @@ class RayLink:
     """A worker that is an actor of Ray's.
 
     Args:
-        blueprint: What the shards are made from.
-        numbers: Those that it holds.
+        make: Makes what answers there, such as `ShardHost`.
+        arguments: Of ``make``.
 
     Attributes:
         actor: Ray's handle.
     """
 
-    def __init__(self, blueprint: Blueprint, numbers: Sequence[int]) -> None:
+    def __init__(self, make: Callable[..., Any], *arguments: Any) -> None:
         ray = connected()
         alone = {"env_vars": {VARIABLE: "1", "OMP_NUM_THREADS": "1"}}
-        made = ray.remote(ShardHost).options(num_cpus=1, max_restarts=0, runtime_env=alone)
-        self.actor: Any = made.remote(blueprint, tuple(numbers))
+        made = ray.remote(make).options(num_cpus=1, max_restarts=0, runtime_env=alone)
+        self.actor: Any = made.remote(*arguments)
         self._answer: Any = None
 
     def send(self, method: str, *arguments: Any) -> None:
@@ -92,4 +92,4 @@ def connected() -> Any:
 
 def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], Link]:
     """What starts a worker, see `Team`."""
-    return lambda numbers: RayLink(blueprint, numbers)
+    return lambda numbers: RayLink(ShardHost, blueprint, tuple(numbers))

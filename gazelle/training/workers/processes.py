@@ -25,12 +25,12 @@ class ProcessLink:
     """A worker in a process of its own; it ends when this one does.
 
     Args:
-        blueprint: What the shards are made from.
-        numbers: Those that it holds.
+        make: Makes what answers there, such as `ShardHost`; a name that can be imported.
+        arguments: Of ``make``.
         threads: How many threads its engine may use.
     """
 
-    def __init__(self, blueprint: Blueprint, numbers: Sequence[int], *, threads: int) -> None:
+    def __init__(self, make: Callable[..., Any], *arguments: Any, threads: int) -> None:
         few = {VARIABLE: str(threads), **dict.fromkeys(_LIBRARIES, "1")}
         self._process = subprocess.Popen(  # this very Python and module
             [sys.executable, "-m", "gazelle.training.workers.serve"],
@@ -40,7 +40,7 @@ class ProcessLink:
             | few
             | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
         )
-        self._write((blueprint, tuple(numbers)))
+        self._write((make, arguments))
 
     @property
     def pid(self) -> int:
@@ -82,14 +82,15 @@ class ProcessLink:
 def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], Link]:
     """What starts one of so many workers, see `Team`."""
     threads = max(1, processors() // workers)
-    return lambda numbers: ProcessLink(blueprint, numbers, threads=threads)
+    return lambda numbers: ProcessLink(ShardHost, blueprint, tuple(numbers), threads=threads)
 
 
 def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
     """A worker's life: answer requests until there are no more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver hears Ctrl-C, and ends its workers
     with contextlib.suppress(EOFError, OSError):  # the driver needs it no more, or has gone
-        host = ShardHost(*read(requests))
+        make, given = read(requests)
+        host = make(*given)
         try:
             while True:
                 method, arguments = read(requests)
@@ -121,9 +122,7 @@ def read(pipe: IO[bytes]) -> Any:
     return pickle.loads(data)  # noqa: S301  # of a process that this one started
 
 
-def _answer(
-    host: ShardHost, method: str, arguments: tuple[Any, ...]
-) -> tuple[Exception | None, Any]:
+def _answer(host: Any, method: str, arguments: tuple[Any, ...]) -> tuple[Exception | None, Any]:
     """An error or what was asked for."""
     try:
         return None, getattr(host, method)(*arguments)

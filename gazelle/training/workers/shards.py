@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gazelle.array_types import Bools, Floats32
+from gazelle.envs.contract import PolicyContract
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor
 from gazelle.training.copies import TaskCopies
@@ -74,6 +75,8 @@ class Spaces:
     """Of one copy."""
     control_period: float | None
     """Simulated seconds of a control step."""
+    contract: PolicyContract
+    """What its policies see and do."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +162,12 @@ class ShardHost:
         """What the task looks like."""
         copies = next(iter(self._shards.values())).copies
         env = copies.env
-        return Spaces(env.single_observation_space, env.single_action_space, copies.control_period)
+        return Spaces(
+            env.single_observation_space,
+            env.single_action_space,
+            copies.control_period,
+            copies.contract,
+        )
 
     def reset(self, seed: int | None) -> dict[int, tuple[Floats32, Any]]:
         """Start all episodes anew; first observations and states by shard."""

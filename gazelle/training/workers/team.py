@@ -17,10 +17,10 @@ class WorkerLostError(Exception):
 
 
 class Link(Protocol):
-    """A way to one worker. What it is given is done by a `ShardHost` in that worker."""
+    """A way to one worker, in which an object, such as a `ShardHost`, does what it is asked."""
 
     def send(self, method: str, *arguments: Any) -> None:
-        """Ask for something.
+        """Have a method of the object called.
 
         Raises:
             WorkerLostError: The worker is not there any more.

@@ -32,6 +32,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         obs: What is acted on next, shape (N, ...).
         starts: Which copies begin an episode with it, shape (N,).
         control_period: Simulated seconds of a control step; None if the task does not tell.
+        contract: What the task says of what its policies see and do.
     """
 
     def __init__(
@@ -49,6 +50,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         self._actions: npt.NDArray[Any] = np.zeros(0)
         spaces = team.spaces()
         self.control_period = spaces.control_period
+        self.contract = spaces.contract
         super().__init__(sum(sizes), spaces.observation, spaces.action)
         self.obs: Floats32 = np.zeros(
             (self.num_envs, *(spaces.observation.shape or ())), np.float32

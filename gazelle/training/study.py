@@ -1,0 +1,305 @@
+"""The same experiment with many parameters and seeds, on many processors, in one table.
+
+An experiment is a function of the user's::
+
+    def run(*, seed, robots=10, speed=0.5):
+        with gazelle.Simulation("hall.world", engine="planar", seed=seed) as sim:
+            ...
+        return {"stalls": ..., "mean_speed": ...}
+
+and a `Study` says with which values it is called. The table has a row a call and is complete up to
+the last row at any time, so that a study that was stopped goes on where it was.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import queue
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from gazelle.errors import FormatError, TaskError, did_you_mean
+from gazelle.native.processors import processors
+from gazelle.training.importing import TaskModule
+from gazelle.training.workers.clusters import RayLink, connect
+from gazelle.training.workers.processes import ProcessLink
+from gazelle.training.workers.team import Link, WorkerLostError
+
+_TRIES = 3
+_OWN = ("seed", "seconds", "error")
+"""Columns that a study adds to those of parameters and results."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """Which function is called, and with what."""
+
+    function: str
+    """``module:name`` or ``file.py:name``."""
+    vary: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    """Values of its parameters; all combinations are tried."""
+    seeds: int = 1
+    """Each combination is tried with the seeds from 0 on, so many."""
+
+    def __post_init__(self) -> None:
+        """Check that it can be done.
+
+        Raises:
+            TaskError: It cannot.
+        """
+        if self.seeds < 1:
+            raise TaskError(f"a study needs at least 1 seed, not {self.seeds}")
+        for name, values in self.vary.items():
+            if name in _OWN or not values:
+                raise TaskError(f"a study cannot vary '{name}' over {list(values)}")
+
+    def calls(self) -> list[dict[str, Any]]:
+        """The arguments of every call, in the table's order."""
+        combinations = itertools.product(*self.vary.values())
+        return [
+            dict(zip(self.vary, values, strict=True)) | {"seed": seed}
+            for values in combinations
+            for seed in range(self.seeds)
+        ]
+
+
+@dataclass(frozen=True, slots=True)
+class StudyResult:
+    """What became of a study."""
+
+    rows: list[dict[str, Any]]
+    """The whole table."""
+    new: int
+    """How many rows are new."""
+    failed: int
+    """How many of all calls ended in an error, which their rows tell."""
+
+
+class ExperimentHost:
+    """A worker's side of a study: calls the function.
+
+    Args:
+        module: Where it is.
+        name: What it is called there.
+    """
+
+    def __init__(self, module: TaskModule, name: str) -> None:
+        self._module = module
+        self._name = name
+
+    def call(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
+        """A row: the arguments, what came of them, how long it took, or the error."""
+        self._module.load()
+        function = getattr(sys.modules[self._module.name], self._name)
+        start = time.perf_counter()
+        try:
+            found = {key: _plain(key, value) for key, value in function(**arguments).items()}
+        except Exception as error:  # noqa: BLE001  # it is one row of many
+            found = {"error": " ".join(f"{type(error).__name__}: {error}".split())}
+        return {**arguments, **found, "seconds": round(time.perf_counter() - start, 3)}
+
+    def close(self) -> None:
+        """Nothing is left to do."""
+
+
+def conduct(
+    study: Study,
+    table: Path,
+    *,
+    workers: int | None = None,
+    ray: str | None = None,
+    on_row: Callable[[int, int], None] | None = None,
+) -> StudyResult:
+    """Call the function with all that the study says; what the table has already is left out.
+
+    Args:
+        study: What to do.
+        table: A ``.csv`` file, made or continued.
+        workers: Processes; by default as many as there are processors.
+        ray: They are on the Ray cluster at this address, ``local`` for one on this machine.
+        on_row: Called with how many rows there are and how many there will be.
+
+    Raises:
+        TaskError: There is no such function, or workers are lost again and again.
+        FormatError: The table is of another study.
+        MissingExtraError: Ray is asked for and not installed.
+    """
+    module, name = _found(study.function)
+    kept = _Table(table, study)
+    calls = [call for call in study.calls() if not kept.has(call)]
+    count = workers or (processors() if ray is None else connect(ray))
+    if ray is not None:
+        connect(ray)
+    threads = max(1, processors() // count)
+
+    def link() -> Link:
+        if ray is None:
+            return ProcessLink(ExperimentHost, module, name, threads=threads)
+        return RayLink(ExperimentHost, module, name)
+
+    def done(row: dict[str, Any]) -> None:
+        kept.add(row)
+        if on_row is not None:
+            on_row(len(kept.rows), len(kept.rows) + left.qsize())
+
+    left: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+    for call in calls:
+        left.put(call)
+    callers = [_Caller(link, left, done) for _ in range(min(count, len(calls)))]
+    try:
+        for caller in callers:
+            caller.wait()
+    finally:
+        for caller in callers:
+            caller.stop()
+        kept.close()
+    failed = sum(bool(row.get("error")) for row in kept.rows)
+    return StudyResult(kept.rows, len(calls), failed)
+
+
+class _Caller:
+    """A thread with a worker of its own, which takes calls until none are left."""
+
+    def __init__(
+        self,
+        link: Callable[[], Link],
+        left: queue.SimpleQueue[dict[str, Any]],
+        done: Callable[[dict[str, Any]], None],
+    ) -> None:
+        self._start, self._left, self._done = link, left, done
+        self._error: BaseException | None = None
+        self._stopped = threading.Event()
+        self._link: Link | None = None
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def wait(self) -> None:
+        """Return when it has finished; what went wrong is raised."""
+        self._thread.join()
+        if self._error is not None:
+            raise self._error
+
+    def stop(self) -> None:
+        """End the worker, whatever it is doing."""
+        self._stopped.set()
+        if self._link is not None:
+            self._link.close()
+
+    def _run(self) -> None:
+        try:
+            self._link = self._start()
+            while not self._stopped.is_set():
+                self._done(self._call(self._left.get_nowait()))
+        except queue.Empty:
+            return
+        except BaseException as error:  # noqa: BLE001  # whoever waits gets it
+            self._error = error
+
+    def _call(self, arguments: dict[str, Any]) -> dict[str, Any]:
+        for _ in range(_TRIES):
+            try:
+                if self._link is None:
+                    self._link = self._start()
+                self._link.send("call", arguments)
+                row: dict[str, Any] = self._link.receive()
+            except WorkerLostError:
+                if self._link is not None:
+                    self._link.close()
+                self._link = None
+                if self._stopped.is_set():
+                    raise
+            else:
+                return row
+        return {**arguments, "error": f"its worker was lost {_TRIES} times"}
+
+
+class _Table:
+    """The file that grows by a row at a time."""
+
+    def __init__(self, path: Path, study: Study) -> None:
+        self._path = path
+        self._names = [*study.vary, "seed"]
+        self._lock = threading.Lock()
+        self.rows: list[dict[str, Any]] = []
+        self._columns: list[str] = []
+        if path.exists():
+            self._read()
+        self._file = path.open("a", newline="", encoding="utf-8")
+        if self._columns:
+            self._rewrite([])  # without a line that was cut short
+
+    def has(self, call: Mapping[str, Any]) -> bool:
+        """Whether there is a row for these arguments."""
+        wanted = [str(call[name]) for name in self._names]
+        return any([str(row.get(name)) for name in self._names] == wanted for row in self.rows)
+
+    def add(self, row: dict[str, Any]) -> None:
+        """One more; with other columns than so far the file is written anew."""
+        with self._lock:
+            self.rows.append(row)
+            columns = [*self._names, *(key for key in row if key not in {*self._names, *_OWN})]
+            missing = [key for key in columns if key not in self._columns]
+            if missing or not self._columns:
+                self._rewrite(missing)
+            else:
+                csv.DictWriter(self._file, self._columns).writerow(row)
+                self._file.flush()
+
+    def close(self) -> None:
+        """Close the file."""
+        with self._lock:
+            self._file.close()
+
+    def _rewrite(self, more: list[str]) -> None:
+        known = [key for key in self._columns if key not in _OWN[1:]]
+        self._columns = [*known, *more, *_OWN[1:]]
+        draft = self._path.with_name(self._path.name + ".part")
+        with draft.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, self._columns)
+            writer.writeheader()
+            writer.writerows(self.rows)
+        self._file.close()
+        draft.replace(self._path)
+        self._file = self._path.open("a", newline="", encoding="utf-8")
+
+    def _read(self) -> None:
+        lines = self._path.read_text(encoding="utf-8").splitlines(keepends=True)
+        reader = csv.DictReader(line for line in lines if line.endswith("\n"))
+        self._columns = [*(reader.fieldnames or ())]
+        lacking = [name for name in self._names if name not in self._columns]
+        if lacking:
+            raise FormatError(
+                f"this table has no column '{lacking[0]}'",
+                file=str(self._path),
+                hint="it is of another study: give another file",
+            )
+        self.rows = [*reader]
+
+
+def _found(function: str) -> tuple[TaskModule, str]:
+    """Where a function is, and that it is there."""
+    place, colon, name = function.rpartition(":")
+    if not colon:
+        hint = "expected MODULE:FUNCTION or FILE.py:FUNCTION"
+        raise TaskError(f"'{function}' does not name a function", hint=hint)
+    module = TaskModule.find(place)
+    module.load()
+    there = vars(sys.modules[module.name])
+    if not callable(there.get(name)):
+        own = [key for key, value in there.items() if callable(value) and not key.startswith("_")]
+        raise TaskError(f"{place} has no function '{name}'", hint=did_you_mean(name, own))
+    return module, name
+
+
+def _plain(name: str, value: Any) -> float | int | str | bool:
+    """A result as a table takes it."""
+    value = value.item() if hasattr(value, "item") else value
+    if not isinstance(value, bool | int | float | str) or name in _OWN:
+        raise TaskError(f"'{name}' is a {type(value).__name__}: a table takes numbers and text")
+    return value
