@@ -101,14 +101,14 @@ def main() -> None:
     parser.add_argument("--windows", type=int, default=10, help="rollouts timed, the best counts")
     args = parser.parse_args()
     limit_threads(1)
-    costs = {engine: compared(engine, args.ray, args.windows) for engine in TASKS}
+    costs = {engine: compared(engine, ray=args.ray, windows=args.windows) for engine in TASKS}
     rate, megabytes, packing = costs["planar"]
     update = updated(*TASKS["planar"])
     print(f"one update of the learner from such a rollout: {1e3 * update:.0f} ms")
     machine_room(rate, megabytes, packing, update)
 
 
-def compared(engine: str, ray: bool, windows: int) -> tuple[float, float, float]:
+def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, float]:
     """One worker and two; steps a second of two processes, megabytes, seconds to pack and unpack."""
     task, copies = TASKS[engine]
     blueprint = Blueprint(task=task, sizes=divided(copies), options={"engine": engine})
