@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import warnings
+import xml.etree.ElementTree as ET
 
 import corpus_table
 import pytest
@@ -88,7 +89,7 @@ def oracle(path, roots=()):
         ["ign", "sdf", "-p", str(path)],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
         env={**os.environ, "SDF_PATH": ":".join(map(str, roots))},
     )
@@ -98,7 +99,7 @@ def oracle(path, roots=()):
 def complaints(path):
     """What libsdformat says against a file."""
     command = ["ign", "sdf", "-k", str(path)]
-    run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     said = [*run.stdout.splitlines(), *run.stderr.splitlines()]
     return [line for line in said if "rror" in line and "Library error" not in line]
 
@@ -161,6 +162,7 @@ def robots(corpus):
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(3600)
 @pytest.mark.corpus
 @pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
 def test_every_robot_of_the_corpus_is_what_libsdformat_makes_of_it(corpus, tmp_path):
@@ -175,6 +177,8 @@ def test_every_robot_of_the_corpus_is_what_libsdformat_makes_of_it(corpus, tmp_p
             found = compared(converted(file), theirs)
         except Error:
             continue  # refused by Gazelle
+        except ET.ParseError:
+            continue  # libsdformat printed what is no XML
         except KeyError as error:
             found = [f"libsdformat names a frame that is not there: {error}"]
         same += not found
@@ -189,6 +193,7 @@ def unexpected(found):
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(3600)
 @pytest.mark.corpus
 def test_every_sdf_file_of_the_corpus_is_what_libsdformat_reads(corpus, monkeypatch):
     roots = sorted({str(config.parent.parent) for config in corpus.rglob("model.config")})
