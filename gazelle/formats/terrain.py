@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from gazelle.array_types import Bytes, Floats
 from gazelle.description import Heightmap, Image, Source
 from gazelle.errors import FormatError
-from gazelle.formats.picture import read_elevations, read_picture
+from gazelle.formats.elevations import READERS
+from gazelle.formats.picture import read_picture
 
 T = TypeVar("T")
 
-_ELEVATION_FILES = {".tif", ".tiff"}
 _LEAST = 1e-6
 """Elevation that counts as none."""
 
@@ -26,16 +26,17 @@ def load_heights(shape: Heightmap) -> Floats:
 
     Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
     ``size``. As in Gazebo Classic the brightest pixel has the height ``size[2]`` and black
-    none; where that is negative, heights h become 1 - h. A TIFF holds elevations: as in Gazebo
-    built with GDAL the highest is scaled to ``size[2]`` and 0 stays the sea, below which nothing
+    none; where that is negative, heights h become 1 - h. A TIFF, an SRTM tile (``.hgt``) and an
+    ESRI grid (``.asc``) hold elevations: as in Gazebo built with GDAL the highest is scaled to ``size[2]`` and 0 stays the sea, below which nothing
     lies; the lowest is put to height 0.
 
     Raises:
         FormatError: The picture was not found or cannot be read; it names the place in the
             description.
     """
-    if shape.path is not None and shape.path.suffix.lower() in _ELEVATION_FILES:
-        heights = _above_ground(_named(shape, read_elevations), shape.size[2])
+    read = None if shape.path is None else READERS.get(shape.path.suffix.lower())
+    if read is not None:
+        heights = _above_ground(_named(shape, read), shape.size[2])
     else:
         grey = _grey(_named(shape, read_picture))
         brightest = float(grey.max())

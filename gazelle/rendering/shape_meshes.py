@@ -24,9 +24,8 @@ from gazelle.description import (
     Polyline,
     Sphere,
 )
+from gazelle.formats.elevations import UNREADABLE
 from gazelle.rendering import tessellation as t
-
-_ELEVATION_FILES = frozenset([".dem", ".asc", ".hgt"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +77,7 @@ def _mesh(shape: Mesh) -> t.TriangleMesh:
 
 
 def _heightmap(shape: Heightmap) -> t.TriangleMesh:
-    if shape.path is None or shape.path.suffix.lower() in _ELEVATION_FILES:
+    if shape.path is None or shape.path.suffix.lower() in UNREADABLE:
         return _nothing(shape)
     from gazelle.formats.terrain import load_heights
 

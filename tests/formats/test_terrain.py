@@ -168,3 +168,72 @@ def test_pictures_of_elevations_are_no_boxes(tmp_path):
     with pytest.raises(FormatError, match="elevations") as caught:
         load_boxes(Image("dem.tif", file))
     assert "grey PNG" in caught.value.hint
+
+
+def grid_text(values, **head):
+    rows, columns = values.shape
+    head = {
+        "ncols": columns,
+        "nrows": rows,
+        "xllcorner": 7.5,
+        "yllcorner": 47,
+        "cellsize": 1,
+    } | head
+    lines = [f"{name} {value}" for name, value in head.items()]
+    return "\n".join([*lines, *(" ".join(map(repr, row)) for row in values.tolist()), ""])
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(2, 9), st.integers(2, 9))
+def test_a_grid_of_text_is_as_high_as_the_tiff_of_the_same(tmp_path_factory, seed, rows, columns):
+    folder = tmp_path_factory.mktemp("grid")
+    values = np.random.default_rng(seed).uniform(-20.0, 90.0, (rows, columns)).astype(np.float32)
+    wanted = dem(tiff(folder, values))
+    (folder / "grid.ASC").write_text(grid_text(values))
+    np.testing.assert_allclose(dem(folder / "grid.ASC"), wanted, rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (5, 5), (1201, 1201), (3601, 1801)])
+def test_a_tile_of_srtm_is_as_high_as_the_tiff_of_the_same(tmp_path, shape):
+    values = np.random.default_rng(1).integers(-100, 3000, shape).astype(np.int16)
+    (tmp_path / "N47E007.hgt").write_bytes(values.astype(">i2").tobytes())
+    wanted = dem(tiff(tmp_path, values.astype(np.int32)))
+    np.testing.assert_array_equal(dem(tmp_path / "N47E007.hgt"), wanted)
+
+
+def test_what_is_not_known_is_at_the_sea_in_tiles_and_grids(tmp_path):
+    values = np.array([[-32768, 4], [2, 8]], np.int16)
+    (tmp_path / "a.hgt").write_bytes(values.astype(">i2").tobytes())
+    np.testing.assert_allclose(dem(tmp_path / "a.hgt"), [[2.5, 10.0], [0.0, 5.0]])
+    for missing, head in ((-9999, {}), (-1, {"NODATA_value": -1})):
+        text = grid_text(np.where(values < -999, missing, values), **head)
+        (tmp_path / "a.asc").write_text(text.replace("ncols", "NCOLS"))
+        np.testing.assert_allclose(dem(tmp_path / "a.asc"), [[2.5, 10.0], [0.0, 5.0]])
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "said"),
+    [
+        ("a.hgt", b"", "0 bytes"),
+        ("a.hgt", b"123456789", "9 bytes"),
+        ("a.hgt", b"123456", "6 bytes"),
+        ("a.asc", b"", "'ncols'"),
+        ("a.asc", b"ncols 2\n1 2 3 4", "'nrows'"),
+        ("a.asc", b"ncols 2 nrows -2 1 2 3 4", "'nrows'"),
+        ("a.asc", b"ncols 2 nrows 2 1 2 3", "3 values, expected 2 x 2"),
+        ("a.asc", b"ncols 2 nrows 2 1 2 3 x", "no number"),
+        ("a.asc", b"ncols 2 nrows 2 nodata_value x 1 2 3 4", "no number"),
+        ("a.asc", b"ncols 99999999999 nrows 2 1", "'ncols'"),
+        ("a.asc", b"\x00\xff\xfe", "'ncols'"),
+    ],
+)
+def test_damaged_elevations_are_errors(tmp_path, name, data, said):
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(FormatError, match=said):
+        dem(tmp_path / name)
+
+
+def test_missing_elevations_are_errors(tmp_path):
+    for name in ("none.hgt", "none.asc"):
+        with pytest.raises(FormatError, match="No such file"):
+            dem(tmp_path / name)

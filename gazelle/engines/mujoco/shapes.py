@@ -33,6 +33,7 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.errors import EngineWarning, located
+from gazelle.formats.elevations import UNREADABLE
 from gazelle.formats.ground import Ground
 
 if TYPE_CHECKING:
@@ -47,7 +48,6 @@ OPEN_GROUP = 4
 """Of meshes that only rays meet, and that have none."""
 
 _SIDES = 24
-_ELEVATION_FILES = {".asc", ".dem", ".hgt"}
 _GROUND = 1.0
 """Depth of the ground below the lowest point of a heightmap [m]."""
 _LARGE = 60_000
@@ -326,7 +326,7 @@ def _heightmap(
 ) -> list[dict[str, Any]]:
     if shape.path is None:
         return []
-    if shape.path.suffix.lower() in _ELEVATION_FILES:
+    if shape.path.suffix.lower() in UNREADABLE:
         return _left_out(f"a heightmap of kind '{shape.path.suffix}' is not supported", source)
     from gazelle.formats.terrain import load_heights
 
