@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from gazelle.description import Frame, Model, Parameters, Transmission
 from gazelle.errors import FormatError
 from gazelle.formats.sdf.own import TRANSMISSION
@@ -26,13 +28,33 @@ def write_model(model: Model, writing: Writing) -> Parameters:
             *(write_link(link, writing, static=model.static) for link in model.links),
             *(write_joint(joint, writing) for joint in model.joints),
             *map(write_frame, model.frames),
-            *(write_model(nested, writing) for nested in model.models),
+            *(write_part(nested, writing) for nested in model.models),
             *model.extras,
             *map(write_plugin, model.plugins),
             *(write_transmission(each, TRANSMISSION) for each in model.transmissions),
             name=model.name,
             canonical_link=model.canonical_link,
         )
+
+
+def write_part(model: Model, writing: Writing) -> Parameters:
+    """A model of a world or of a model.
+
+    One without links is saved as static, as which readers take it: nothing moves it anyway.
+    """
+    if not _is_complete(model):
+        writing.note(
+            f"the model '{model.name}' has no link and is saved as static",
+            model.source,
+            hint="perhaps what it includes was not found",
+        )
+        model = replace(model, static=True)
+    return write_model(model, writing)
+
+
+def _is_complete(model: Model) -> bool:
+    """Whether readers take the model: it has a link, or stands."""
+    return any(placed.model.static or placed.model.links for placed in model.walk())
 
 
 def _refuse_unreadable(model: Model) -> None:
@@ -43,7 +65,7 @@ def _refuse_unreadable(model: Model) -> None:
         ("model", model.models),
     ):
         distinct(tag, parts)
-    if not any(placed.model.static or placed.model.links for placed in model.walk()):
+    if not _is_complete(model):
         raise FormatError(
             f"the model '{model.name}' has no link",
             hint="give it one, or make it static; perhaps what it includes was not found",

@@ -18,7 +18,7 @@ from gazelle.formats.sdf.world import USER_CAMERA
 from gazelle.formats.write.element import distinct, element, group, inside, leaf, overlay, pose_leaf
 from gazelle.formats.write.sdf.joint import write_joint
 from gazelle.formats.write.sdf.link import write_light
-from gazelle.formats.write.sdf.model import write_frame, write_model
+from gazelle.formats.write.sdf.model import write_frame, write_part
 from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.writing import Writing
 
@@ -39,7 +39,7 @@ def write_world(world: World, writing: Writing) -> Parameters:
             write_scene(world.scene),
             *_extras(world),
             *map(write_light, world.lights),
-            *(write_model(model, writing) for model in world.models),
+            *(write_part(model, writing) for model in world.models),
             *map(write_frame, world.frames),
             *(write_joint(joint, writing) for joint in world.joints),
             *map(write_plugin, world.plugins),
