@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Vector3
 from gazelle.description.source import Source
 
@@ -97,6 +98,7 @@ class Heightmap:
         size: Extent along x, y and the height of full white [m].
         position: Offset of the centre [m].
         sampling: Samples per pixel.
+        extras: What it looks like: ``<texture>``, ``<blend>`` and the like, kept whole.
     """
 
     uri: str
@@ -104,6 +106,7 @@ class Heightmap:
     size: Vector3 = (1.0, 1.0, 1.0)
     position: Vector3 = (0.0, 0.0, 0.0)
     sampling: int = 1
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
 

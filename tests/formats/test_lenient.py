@@ -511,3 +511,55 @@ def test_sensors_in_gazebo_elements_are_mended_too():
     sensor = found.links[0].sensors[0]
     assert sensor.pose.position == (0, 0, 1)
     assert (sensor.lidar.range_min, sensor.lidar.range_max) == (1, 3)
+
+
+MOMENTS = "<inertia ixx='1' iyy='2' izz='2.5' ixy='.1' ixz='.2' iyz='.3'/>"
+
+
+@pytest.mark.parametrize(
+    ("inertial", "moments", "said"),
+    [
+        ("<mass value='2'/>", None, "needs <inertia>: zero was taken"),
+        (
+            "<mass value='2'/><inertia ixx='1' iyy='2' izz='2.5'/>",
+            (1, 2, 2.5, 0, 0, 0),
+            "0 was taken for ixy, ixz, iyz",
+        ),
+        (
+            f"<mass value='2'/>{MOMENTS.replace('.2', 'x', 1)}",
+            (1, 2, 2.5, 0.1, 0, 0.3),
+            "found 'x': 0 was taken for ixz",
+        ),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+def test_moments_that_a_urdf_lacks_are_zero(inertial, moments, said):
+    """libsdformat goes on with zeros; moments that are there are kept."""
+    text = robot(f"<link name='a'>\n<inertial>{inertial}</inertial></link>")
+    with pytest.warns(FormatWarning, match=said):
+        found = formats.load_model_string(text, name="robot.urdf").links[0].inertial
+    assert found.mass == 2.0
+    assert physical(found)
+    if moments is not None:
+        inertia = found.inertia
+        kept = (inertia.ixx, inertia.iyy, inertia.izz, inertia.ixy, inertia.ixz, inertia.iyz)
+        assert kept == moments
+
+
+@pytest.mark.parametrize("mass", ["", "<mass/>", "<mass value='heavy'/>"])
+@pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+def test_a_link_of_a_urdf_without_a_readable_mass_has_none(tmp_path, mass):
+    """So libsdformat leaves it out with all that hangs on it."""
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        robot(
+            f"<link name='base'>{INERTIAL}</link>\n<link name='a'>"
+            f"<inertial>{mass}{MOMENTS}</inertial></link>"
+            "<joint name='j' type='continuous'><parent link='base'/><child link='a'/></joint>"
+        )
+    )
+    with pytest.warns(FormatWarning, match="the link has no mass"):
+        found = formats.load_model(file)
+    assert [each.name for each in found.links] == ["base"]
+    errors = [each for each in formats.check(file) if each.rule == "tolerated"]
+    assert [each.line for each in errors] == [3]

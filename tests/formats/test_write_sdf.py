@@ -235,6 +235,39 @@ def test_a_state_that_no_longer_fits_is_left_out_with_a_warning():
         assert again(moved).models[0].pose == Pose(2.0)
 
 
+@pytest.mark.parametrize("kind", ["ray", "gpu_ray", "lidar", "gpu_lidar"])
+@pytest.mark.parametrize("tag", ["ray", "lidar"])
+def test_the_rays_of_a_sensor_keep_the_name_of_their_element(kind, tag):
+    """Both are legal in both families, and readers look for one first."""
+    world = formats.load_string(
+        "<sdf version='1.7'><world name='w'><model name='m'><link name='l'>"
+        f"<sensor name='s' type='{kind}'><{tag}><range><min>0.3</min><max>7</max></range>"
+        f"<scan><horizontal><samples>5</samples></horizontal></scan></{tag}></sensor>"
+        "</link></model></world></sdf>"
+    )
+    assert again(world) == world
+    sensor = ET.fromstring(formats.to_string(world, "sdf")).find("world/model/link/sensor")
+    assert {"ray", "lidar"} & {child.tag for child in sensor} == {tag}
+    assert sensor.findtext(f"{tag}/range/max") == "7"
+
+
+@quiet
+def test_a_heightmap_keeps_what_it_looks_like():
+    looks = (
+        "<texture><size>10</size><diffuse>a.png</diffuse><normal>b.png</normal></texture>" * 2
+        + "<blend><min_height>2</min_height><fade_dist>5</fade_dist></blend>"
+    )
+    world = formats.load_string(
+        "<sdf version='1.7'><world name='w'><model name='m'><static>1</static><link name='l'>"
+        "<visual name='v'><geometry><heightmap><uri>file://none.png</uri><size>1 2 3</size>"
+        f"{looks}</heightmap></geometry></visual></link></model></world></sdf>",
+        name="w.world",
+    )
+    written = ET.fromstring(formats.to_string(world, "sdf")).find(".//heightmap")
+    assert [each.findtext("diffuse") for each in written.findall("texture")] == ["a.png"] * 2
+    assert written.findtext("blend/min_height") == "2"
+
+
 def test_what_has_lost_its_links_is_saved_as_static():
     """A world around includes that were not found is saved; Gazebo, too, goes on with it."""
     lost = Model("lost", Pose(1.0, yaw=0.5), source=Source("a.world", 7, "model"))

@@ -113,8 +113,11 @@ def read_mesh(node: Parameters, reading: Reading) -> Mesh:
     )
 
 
+_LOOKS = {"texture", "blend", "use_terrain_paging"}
+
+
 def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
-    """``<heightmap><uri><size><pos><sampling>``."""
+    """``<heightmap><uri><size><pos><sampling>``; what it looks like is kept as it is."""
     uri = values.word(node, "uri")
     return Heightmap(
         uri=uri,
@@ -122,6 +125,7 @@ def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
         size=values.vector(node, "size", (1.0, 1.0, 1.0)),
         position=values.vector(node, "pos", (0.0, 0.0, 0.0)),
         sampling=values.whole(node, "sampling", 1),
+        extras=tuple(child for child in node.children if child.tag in _LOOKS),
         source=node.source,
     )
 

@@ -46,7 +46,7 @@ def read_settings(node: Parameters, kind: str) -> Parameters:
     """What of the element has no field of its own."""
     family = FAMILIES.get(kind)
     pattern = {**_COMMON, **({} if family is None else _PATTERNS[family])}
-    settings = leftover(node, pattern)
+    settings = _with_lidar_tag(leftover(node, pattern), node, kind)
     cameras = [c for c in node.children if c.tag == "camera"] if "camera" in pattern else []
     if len(cameras) < 2 or settings.find("camera") is None:
         return settings
@@ -54,6 +54,20 @@ def read_settings(node: Parameters, kind: str) -> Parameters:
     kept = (leftover(camera, CAMERA) for camera in cameras)
     others = (child for child in settings.children if child.tag != "camera")
     return replace(settings, children=(*kept, *others))
+
+
+def lidar_tag(kind: str) -> str:
+    """The element that holds the rays of a sensor of a type: Gazebo Classic's, or the later one."""
+    return "lidar" if "lidar" in kind else "ray"
+
+
+def _with_lidar_tag(settings: Parameters, node: Parameters, kind: str) -> Parameters:
+    """The settings with the element of the rays, empty, where it has the other name than usual."""
+    other = {"lidar": "ray", "ray": "lidar"}[lidar_tag(kind)]
+    read = FAMILIES.get(kind) is read_lidar_sensor and other in node
+    if not read or lidar_tag(kind) in node or other in settings:
+        return settings
+    return replace(settings, children=(*settings.children, Parameters(other)))
 
 
 def _topic(node: Parameters) -> str:

@@ -20,7 +20,7 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.errors import did_you_mean
+from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
 from gazelle.formats.extent import extent
 from gazelle.formats.reading import Reading
@@ -44,25 +44,51 @@ def read_origin(node: Parameters | None) -> Pose:
     return pose
 
 
-def read_inertial(node: Parameters | None) -> Inertial | None:
+def read_inertial(node: Parameters | None, reading: Reading) -> Inertial | None:
     """``<inertial>``; a mass of zero is allowed here and means "no body of its own".
 
+    So it is where the mass is missing or no number, as libsdformat has it; moments that are
+    missing or no numbers are zero.
+
     Raises:
-        FormatError: The mass is missing, negative or not a number.
+        FormatError: The mass is negative or not finite.
     """
     if node is None:
         return None
-    mass_node = node.find("mass")
-    if mass_node is None:
-        raise values.fail(node, "an <inertial> needs a <mass>")
-    mass = values.attribute_real(mass_node, "value")
+    try:
+        mass_node = _required(node, "mass")
+        mass = values.attribute_real(mass_node, "value")
+    except FormatError as error:
+        reading.tolerate(error, "the link has no mass")
+        return None
     if not (mass >= 0.0 and math.isfinite(mass)):
         raise values.fail(mass_node, f"the mass must not be negative, found {mass:g}")
-    inertia = node.find("inertia")
-    if inertia is None:
-        raise values.fail(node, "an <inertial> needs an <inertia>")
-    moments = (values.attribute_real(inertia, name) for name in _MOMENTS)
-    return Inertial(mass, read_origin(node.find("origin")), Inertia(*moments), node.source)
+    origin = read_origin(node.find("origin"))
+    return Inertial(mass, origin, _read_moments(node, reading), node.source)
+
+
+def _read_moments(node: Parameters, reading: Reading) -> Inertia:
+    try:
+        inertia = _required(node, "inertia")
+    except FormatError as error:
+        reading.tolerate(error, "zero was taken")
+        return Inertia(0.0, 0.0, 0.0)
+    moments, errors = dict.fromkeys(_MOMENTS, 0.0), {}
+    for name in _MOMENTS:
+        try:
+            moments[name] = values.attribute_real(inertia, name)
+        except FormatError as error:
+            errors[name] = error
+    if errors:
+        reading.tolerate(next(iter(errors.values())), f"0 was taken for {', '.join(errors)}")
+    return Inertia(**moments)
+
+
+def _required(node: Parameters, tag: str) -> Parameters:
+    child = node.find(tag)
+    if child is None:
+        raise values.fail(node, f"an <{node.tag}> needs <{tag}>")
+    return child
 
 
 def _size(node: Parameters, name: str, reading: Reading) -> float:

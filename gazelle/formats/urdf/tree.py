@@ -91,7 +91,7 @@ def read_tree(root: Parameters, reading: Reading) -> UrdfTree:
     for node in root.find_all("link"):
         name = values.attribute(node, "name")
         _refuse_twice(node, name, links)
-        links[name] = UrdfLink(name, read_inertial(node.find("inertial")), node)
+        links[name] = UrdfLink(name, read_inertial(node.find("inertial"), reading), node)
     if not links:
         raise values.fail(root, "a <robot> needs a <link>", hint=ONLY_MACROS)
     joints: dict[str, UrdfJoint] = {}

@@ -87,6 +87,7 @@ def _heightmap(shape: Heightmap, writing: Writing) -> list[Parameters]:
             leaf("size", shape.size),
             leaf("pos", shape.position),
             leaf("sampling", shape.sampling, 1),
+            *shape.extras,
         )
     ]
 

@@ -15,7 +15,7 @@ from gazelle.description import (
     Scan,
     Sensor,
 )
-from gazelle.formats.sdf.sensor import QUANTIZE
+from gazelle.formats.sdf.sensor import QUANTIZE, lidar_tag
 from gazelle.formats.write.element import (
     element,
     group,
@@ -60,7 +60,7 @@ def _lidar_tag(sensor: Sensor) -> str:
     for tag in ("ray", "lidar"):
         if tag in sensor.settings:
             return tag
-    return "lidar" if "lidar" in sensor.type else "ray"
+    return lidar_tag(sensor.type)
 
 
 def write_noise(noise: Noise) -> Parameters | None:
