@@ -23,11 +23,12 @@ class LiveGraph:
     Args:
         node: On the graph.
         manager: Of the robot's controllers.
+        period_ns: Of control [ns].
     """
 
-    def __init__(self, node: Node, manager: ControllerManager) -> None:
+    def __init__(self, node: Node, manager: ControllerManager, period_ns: int) -> None:
         self.node, self.world = node, 0
-        self._call = manager.call
+        self._call, self._manager, self._period_ns = manager.call, manager, period_ns
 
     def now(self) -> Time:
         """The time."""
@@ -38,8 +39,14 @@ class LiveGraph:
         return Time(nsecs=nanoseconds)
 
     def own_ns(self, time: Time) -> int:
-        """A time of the graph [ns]."""
-        return time.to_nsec()
+        """A time of the graph as controllers count it [ns].
+
+        Their now is that of their next period. A loop that is late has not seen it yet: what is over by
+        the node's clock would still be to come for them, such as a trajectory that ends just now.
+        """
+        last = self._manager.now_ns
+        late = self.node.clock.now() - (last + self._period_ns) if last else 0
+        return time.to_nsec() - max(0, late)
 
     def post(self, work: Callable[[], Any]) -> None:
         """Do something between two control periods."""
@@ -72,7 +79,7 @@ class HardwareLoop(Closeable):
         self._last_ns = 0
         self._over = threading.Event()
         self._thread: threading.Thread | None = None
-        self.graph = LiveGraph(node, manager)
+        self.graph = LiveGraph(node, manager, self._period_ns)
         self._binding = ManagerBinding(self.graph, manager)
         node.on_shutdown.append(lambda _reason: self._over.set())
 
