@@ -30,9 +30,12 @@ def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -
     """Where a trajectory's joints are among the controller's, shape (n,).
 
     Raises:
-        TrajectoryRefusedError: A name is unknown or there twice, or some are missing that must not be.
+        TrajectoryRefusedError: There are no names, one is unknown or there twice, or some are missing
+            that must not be.
     """
     wanted = tuple(names) if given.names is None else given.names
+    if not wanted:
+        raise TrajectoryRefusedError("the goal names no joints", INVALID_JOINTS)
     unknown = [name for name in wanted if name not in names]
     if unknown:
         raise TrajectoryRefusedError(

@@ -204,6 +204,9 @@ def test_some_joints_may_move_alone_if_that_is_allowed():
     assert position(manager)[0] == pytest.approx(0.9, abs=0.03)
     spin(manager, 100)
     assert position(manager) == pytest.approx([0.0, 3.0])
+    # Some is not none.
+    for goal in (give(controller, path(names=())), give(controller, path((1.0, ()), names=()))):
+        assert (goal.state, goal.result.error_code) == (GoalState.REJECTED, INVALID_JOINTS)
 
 
 def test_endless_joints_take_the_shorter_way():

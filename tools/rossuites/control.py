@@ -87,9 +87,9 @@ CONTROL = (
         "joint_trajectory_controller",
         "joint_trajectory_controller",
         {
-            "test/joint_trajectory_controller.test": 28,
+            "test/joint_trajectory_controller.test": 27,
             "test/joint_trajectory_controller_vel.test": 28,
-            "test/joint_trajectory_controller_stopramp.test": 28,
+            "test/joint_trajectory_controller_stopramp.test": 27,
             "test/joint_trajectory_controller_wrapping.test": 1,
         },
         only=_ALONE,
@@ -99,7 +99,9 @@ CONTROL = (
     Suite(
         "joint_trajectory_controller, partial",
         "joint_trajectory_controller",
-        {"test/joint_partial_trajectory_controller.test": 12},
+        # ros_controllers does not build this one: nine of its twelve send two values for one joint,
+        # which its own check of messages refuses.
+        {"test/joint_partial_trajectory_controller.test": 3},
         only=_ALONE,
         robots=_ARM,
         compiled=True,
