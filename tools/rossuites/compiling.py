@@ -47,7 +47,7 @@ def clients_of(package: Path, files: Container[str]) -> Iterator[Client]:
         sources = [word for word in body[1:] if word.endswith(".cpp")]
         if any(word.endswith(".test") and word not in files for word in body):
             continue
-        # Robots are programs in src or test; cm_test alone is a client that is declared as one.
+        # cm_test is a client that is declared as a plain program; so are robots, which have stand-ins.
         if sources and (kind == "add_rostest_gtest" or sources[0] == f"test/{name}.cpp"):
             yield Client(name, tuple(sources), defines.get(body[0], ()))
 

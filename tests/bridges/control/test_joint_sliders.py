@@ -17,7 +17,7 @@ FOLLOW = "JointTrajectoryController"
 GAINS = {name: {"p": 600.0, "i": 100.0, "d": 60.0, "i_clamp": 50.0} for name in JOINTS}
 
 
-@pytest.fixture(params=["Position", "Effort"])
+@pytest.fixture(params=["Position", pytest.param("Effort", marks=pytest.mark.slow)])
 def uri(request):
     """A running arm with a controller that follows trajectories, and one that does not."""
     kind = request.param

@@ -176,7 +176,9 @@ def test_ten_thousand_switches():
 
 
 @pytest.mark.parametrize("running", [["arm"], ["shoulder", "turn"], ["push"]], ids=" ".join)
-@pytest.mark.parametrize("service", ["reset_world", "reset_simulation"])
+@pytest.mark.parametrize(
+    "service", ["reset_world", pytest.param("reset_simulation", marks=pytest.mark.slow)]
+)
 def test_no_limb_explodes_at_a_reset(running, service):
     parameters = {f"/arm/{name}": value for name, value in PARAMETERS.items()}
     with (
