@@ -1,15 +1,50 @@
-"""Marks on pictures that show what is in no world: the goal."""
+"""Pictures of environments, and marks on them that show what is in no world: the goal."""
 
 from __future__ import annotations
+
+from functools import lru_cache
 
 import numpy as np
 
 from gazelle.array_types import Floats, Picture
+from gazelle.rendering import PinholeLens
 from gazelle.sensors import View
 from gazelle.sensors.rendering import directions_of_view
+from gazelle.simulation import Simulation
 
 GOAL_COLOUR = (220, 30, 30)
 _THICK = 0.005  # what is nearer to the ground than this does not hide a mark on it [m]
+
+
+def take(simulation: Simulation, view: View, world: int) -> tuple[Picture, Floats]:
+    """A picture by the rasteriser, fast enough for every step of an episode.
+
+    Args:
+        simulation: Of the environment; the caller owns its state.
+        view: From where; of its samples there is one a pixel.
+        world: Which world.
+
+    Returns:
+        The picture, shape (height, width, 3), and the distances to what the middles of pixels
+        show [m], shape (height, width), infinite where nothing is.
+    """
+    lens = PinholeLens(view.width, view.height, view.horizontal_fov)
+    frames = simulation.live_scene.render(
+        lens,
+        np.array([view.pose.position]),
+        np.array([view.pose.quaternion]),
+        np.array([world]),
+        want=("color", "depth"),
+    )
+    return frames.color[0], frames.depth[0] * _slants(lens)
+
+
+@lru_cache(maxsize=8)
+def _slants(lens: PinholeLens) -> Floats:
+    """How much longer the ways through pixels are than their depths, shape (height, width)."""
+    across = (np.arange(lens.width) + 0.5 - lens.width / 2.0) / lens.focal
+    down = (np.arange(lens.height) + 0.5 - lens.height / 2.0) / lens.focal
+    return np.sqrt(1.0 + across[None] ** 2 + down[:, None] ** 2)
 
 
 def mark_square(
@@ -37,15 +72,18 @@ def mark_square(
     return marked
 
 
+@lru_cache(maxsize=8)
 def ground_points(view: View) -> tuple[Floats, Floats]:
     """Where the ray through each pixel's middle meets the ground z = 0.
 
     Returns:
         x and y in the world frame [m], shape (height, width, 2), and the distance to there [m],
-        shape (height, width); NaN above the horizon.
+        shape (height, width); NaN above the horizon. Both are kept, and cannot be written to.
     """
     rays = directions_of_view(view, samples=1).reshape(view.height, view.width, 3)
     eye = np.asarray(view.pose.position)
     drop = np.where(rays[..., 2] < 0.0, rays[..., 2], np.nan)
     away: Floats = -eye[2] / drop
-    return eye[:2] + away[..., None] * rays[..., :2], away
+    points: Floats = eye[:2] + away[..., None] * rays[..., :2]
+    points.flags.writeable = away.flags.writeable = False
+    return points, away

@@ -16,10 +16,11 @@ class LiveScene:
 
     Args:
         engine: Knows where the links are.
+        gamma: See ``Renderer``.
     """
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    def __init__(self, engine: Engine, *, gamma: float = 1.0) -> None:
+        self._engine, self._gamma = engine, gamma
         self._models: tuple[Model, ...] = ()
         self._links: tuple[str, ...] = ()
         self._renderer: Renderer | None = None
@@ -30,7 +31,7 @@ class LiveScene:
         world = self._engine.world
         if self._renderer is None or self._models is not world.models:
             self._models = world.models
-            self._renderer = Renderer(world, nworld=self._engine.nworld)
+            self._renderer = Renderer(world, nworld=self._engine.nworld, gamma=self._gamma)
             known = set(self._engine.link_names)
             self._links = tuple(link for link in self._renderer.links if link in known)
         return self._renderer

@@ -11,7 +11,7 @@ from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
 from gazelle.engines import DivergenceError, changes_of
 from gazelle.errors import EngineError, SimulationError
-from gazelle.simulation.encoding import decode
+from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
 
@@ -62,8 +62,11 @@ class Replay(Closeable):
         """Whether there is nothing more to do."""
         return self._next >= len(self._events)
 
-    def step(self) -> bool:
+    def step(self, most: int | None = None) -> bool:
         """Go on to the end of the next recorded run of steps; False when there is none.
+
+        Args:
+            most: Make so many of its steps at most; the state is compared at its end.
 
         Raises:
             SimulationError: The state is not the recorded one, or the recording is damaged.
@@ -71,6 +74,8 @@ class Replay(Closeable):
         """
         while not self.done:
             event = self._events[self._next]
+            if most is not None and self._step_into(event, most):
+                return True
             self._next += 1
             try:
                 name, time_ns = str(event["call"]), int(event["time"])
@@ -94,6 +99,19 @@ class Replay(Closeable):
         while self.step():
             count += 1
         return count
+
+    def _step_into(self, event: dict[str, Any], most: int) -> bool:
+        """Make the first of a run of steps, if there are more; whether it was so."""
+        try:
+            count = decode(event["arguments"])[0] if event["call"] == "step" else 0
+        except _DAMAGE as error:
+            raise self._damaged(error) from error
+        if count <= most or "diverged" in event:
+            return False
+        self.simulation.engine.step(most)
+        self.simulation.clock.advance(most)
+        self._events[self._next] = {**event, "arguments": encode((count - most,))}
+        return True
 
     def _do(self, event: dict[str, Any]) -> None:
         name, arguments = event["call"], decode(event["arguments"])

@@ -131,7 +131,7 @@ def evaluate(
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
-    actor, task, options = _resolve(run_or_policy, task, load_all(imports), options)
+    actor, task, options = resolve_policy(run_or_policy, task, load_all(imports), options)
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
     env = make_task(task, copies, **options)
     try:
@@ -195,7 +195,7 @@ def _check_fit(actor: Actor, stepper: Stepper) -> None:
         )
 
 
-def _resolve(
+def resolve_policy(
     run_or_policy: str | Path | Actor,
     task: str | None,
     modules: tuple[TaskModule, ...],

@@ -1,22 +1,43 @@
 """Look instead of read: pictures and films of a simulation."""
 
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
+
 from gazelle.viewer.picture import take_picture
 
-__all__ = ["LiveView", "TopView", "film_plan", "take_picture", "take_plan"]
+if TYPE_CHECKING:
+    from gazelle.viewer.film_files import write_film
+    from gazelle.viewer.filming import film, film_plan, take_plan
+    from gazelle.viewer.live import LiveView
+    from gazelle.viewer.plan import TopView
+    from gazelle.viewer.scene_camera import SceneCamera
+
+_HOMES = {
+    "LiveView": "live",
+    "SceneCamera": "scene_camera",
+    "TopView": "plan",
+    "film": "filming",
+    "film_plan": "filming",
+    "take_plan": "filming",
+    "write_film": "film_files",
+}
+
+__all__ = [
+    "LiveView",
+    "SceneCamera",
+    "TopView",
+    "film",
+    "film_plan",
+    "take_picture",
+    "take_plan",
+    "write_film",
+]
 
 
 def __getattr__(name: str) -> object:
-    """What draws worlds in the plane, imported with the planar engine when it is used."""
-    if name in {"film_plan", "take_plan"}:
-        from gazelle.viewer import film
-
-        return getattr(film, name)
-    if name == "LiveView":
-        from gazelle.viewer.live import LiveView
-
-        return LiveView
-    if name == "TopView":
-        from gazelle.viewer.plan import TopView
-
-        return TopView
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    """What is imported when it is used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"gazelle.viewer.{_HOMES[name]}"), name)

@@ -12,6 +12,7 @@ import numpy as np
 
 from gazelle.closing import Closeable
 from gazelle.errors import Error, SimulationError, SimulationWarning
+from gazelle.rendering import PinholeLens
 from gazelle.simulation import Robot, Simulation
 from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, Layer, OptionalLayer, PageContext, spots_of
@@ -24,6 +25,7 @@ from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
 from gazelle.viewer.page.world_layer import ShapeLayer
+from gazelle.viewer.scene_camera import distance_to_see
 
 _BESIDE = 4  # worlds of a batch that are shown if nobody says
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
@@ -142,10 +144,11 @@ class LiveView(Closeable):
         low, high = extent_of_world(self._simulation.world)
         high = high + spots.max(axis=0)
         low = low + spots.min(axis=0)
-        middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low))
+        middle, aside = (low + high) / 2.0, np.array([-0.45, -0.75, 0.75])
+        away = aside * distance_to_see((high - low) / 2.0, aside, PinholeLens())
         camera = self._server.viser.initial_camera
         camera.look_at = tuple(middle.tolist())
-        camera.position = tuple((middle + np.array([-0.35, -0.55, 0.6]) * size).tolist())
+        camera.position = tuple((middle + away).tolist())
 
     def _note(self, _robot: Robot) -> None:
         """Models came or went; between two steps."""

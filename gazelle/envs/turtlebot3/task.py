@@ -15,7 +15,7 @@ from gazelle.envs.decimals import round2
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.options import NavigationSettings, check_name
-from gazelle.envs.pictures import mark_square
+from gazelle.envs.pictures import mark_square, take
 from gazelle.envs.polar import distance_to
 from gazelle.envs.turtlebot3.actions import (
     ACTIONS,
@@ -32,7 +32,6 @@ from gazelle.envs.turtlebot3.scene import COMMAND, TaskScene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.errors import TaskError
 from gazelle.sensors import SensorModel, View, look_at
-from gazelle.simulation.scene_renderer import SceneRenderer
 from gazelle.streams import Stream
 
 _GOAL_BOX = 0.5
@@ -73,7 +72,6 @@ class TurtleBot3Task(BatchedTask):
             distance_max=_distance_max(self.rules, settings, self.goals),
         )
         self.action_space = _action_space(continuous=continuous)
-        self._renderer = SceneRenderer()
         self._goal = np.full(nworld, NO_GOAL, dtype=np.intp)
         self._start_distance = np.ones(nworld)
         self._goals_reached = np.zeros(nworld, dtype=np.int64)
@@ -87,8 +85,7 @@ class TurtleBot3Task(BatchedTask):
         size = self.rules.arena_diagonal
         pose = look_at((-0.5 * size, 0.0, 0.85 * size), (-0.05 * size, 0.0, 0.0))
         view = View(pose, width=480, height=400, horizontal_fov=0.95, samples=1)
-        picture = self._renderer.picture(self.scene.simulation, view, world)
-        ranges = self._renderer.ranges(self.scene.simulation, view, world)
+        picture, ranges = take(self.scene.simulation, view, world)
         x, y = self.goals.points[self._goal[world]]
         return mark_square(picture, view, ranges, (float(x), float(y)), _GOAL_BOX)
 

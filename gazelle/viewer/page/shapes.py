@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -42,8 +43,8 @@ class _Tables:
     uv: Floats
     faces: Ints32
     meshes: Ints64
-    spheres: Floats
     parts: Ints64
+    local: Floats
     color: Floats32
     glow: Floats32
     textures: Ints64
@@ -209,17 +210,30 @@ def rest_of(world: World, links: tuple[str, ...]) -> tuple[Floats, Floats]:
 def extent_of_world(world: World) -> tuple[Floats, Floats]:
     """Least and greatest corner of what is seen, but for grounds and the like [m], shape (3,)."""
     seen = visible_world(world)
-    tables, (at, _) = _Tables.of(seen), rest_of(world, seen.links)
+    tables, (at, turned) = _Tables.of(seen), rest_of(world, seen.links)
+    boxes = [_box(tables, mesh) for mesh in tables.meshes]
     points = [np.zeros((0, 3))]
-    for part in tables.parts:
-        *middle, radius = tables.spheres[int(part[c.MESH_OF_PART])].tolist()
-        place = at[int(part[c.LINK_OF_PART])] + middle
-        if radius < _FAR:
-            points.append(np.array([place - radius, place + radius]))
+    for part, local in zip(tables.parts, tables.local, strict=True):
+        corners = boxes[int(part[c.MESH_OF_PART])]
+        if len(corners) and np.ptp(corners, axis=0).max() < _FAR:
+            link = int(part[c.LINK_OF_PART])
+            placed = corners @ local[:9].reshape(3, 3).T + local[9:]
+            points.append(at[link] + rotate(turned[link][None], placed))
     corners = np.vstack(points)
     if not len(corners):
         return np.full(3, -1.0), np.full(3, 1.0)
     return corners.min(axis=0), corners.max(axis=0)
+
+
+def _box(tables: _Tables, mesh: Ints64) -> Floats:
+    """Corners of the box around a mesh [m], shape (8, 3); none of one without vertices."""
+    vertices = tables.vertices[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
+    if not len(vertices):
+        return np.zeros((0, 3))
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    which = np.array(list(itertools.product((False, True), repeat=3)))
+    corners: Floats = np.where(which, high, low)
+    return corners
 
 
 def _alike(tables: _Tables) -> list[Ints64]:

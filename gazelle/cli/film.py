@@ -1,0 +1,56 @@
+r"""Make a film: of a world that runs, a recording, a bag or a trained policy; GIF,
+or MP4 with the extra film; needs no graphics card and no screen.
+
+  gazelle film fleet fleet.mp4 --for 10
+  gazelle film turtlebot3_world burger.gif --spawn turtlebot3_burger@-2,-0.5 \
+      --drive 0.2,0.3 --follow turtlebot3_burger --for 5 --fps 10
+  gazelle film run.jsonl run.mp4 --speed 4
+  gazelle film drive.bag camera.mp4 --topic /camera/image_raw
+  gazelle film runs/TurtleBot3Stage1-ppo-20261105-140302 policy.mp4 --for 20
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from gazelle.argument_types import positive_float
+from gazelle.cli.filming import add_source, opened
+
+_SECONDS = 10.0
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    add_source(parser)
+    parser.add_argument(
+        "--for",
+        dest="seconds",
+        metavar="SECONDS",
+        type=positive_float,
+        help=f"simulated time (default {_SECONDS:g}; recordings and bags to their end)",
+    )
+    parser.add_argument("--fps", metavar="N", type=positive_float, default=25.0, help="default 25")
+    parser.add_argument(
+        "--speed",
+        metavar="X",
+        type=positive_float,
+        default=1.0,
+        help="simulated seconds a second of film (default 1)",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from gazelle.viewer.film_files import FILMS, writable, write_film
+    from gazelle.viewer.sources import BagSource, RecordingSource, pictures_of
+
+    file = writable(args.out, FILMS)
+    with opened(args) as source:
+        seconds = args.seconds
+        if seconds is None and not isinstance(source, BagSource | RecordingSource):
+            seconds = _SECONDS
+        period = args.speed / args.fps
+        count = write_film(file, pictures_of(source, seconds, period), args.fps)
+    sys.stdout.write(f"{file}: {count} pictures, {count / args.fps:.1f} s\n")
+    return 0

@@ -1,0 +1,158 @@
+"""What ``gazelle picture`` and ``gazelle film`` have in common: of what, and from where."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.cli.parsing import (
+    add_environment_options,
+    add_file_options,
+    add_import_option,
+    add_scenario_options,
+    environment_options,
+)
+from gazelle.cli.spawning import spawn, wanted
+
+if TYPE_CHECKING:
+    from gazelle.simulation import Simulation
+    from gazelle.viewer.filming import FilmCamera
+    from gazelle.viewer.sources import FilmSource
+
+_LEAST, _MOST = 16, 8192
+
+
+def add_source(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "source",
+        metavar="SOURCE",
+        help="a world or robot file or its bundled name, a recording (.jsonl), a bag, or the "
+        "folder of a training run",
+    )
+    parser.add_argument("out", metavar="OUT", type=Path, help="the file to write")
+    parser.add_argument("--seed", metavar="N", type=int, help="of what runs")
+    look = parser.add_argument_group("from where (of worlds and recordings)")
+    look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="where the camera is [m]")
+    look.add_argument("--target", metavar="X,Y,Z", type=_triple, help="what it looks at [m]")
+    look.add_argument("--follow", metavar="MODEL", default="", help="go along with a model")
+    look.add_argument("--top", action="store_true", help="a world in the plane, from above")
+    look.add_argument(
+        "--size", metavar="WxH", type=_size, default=(960, 600), help="pixels (default 960x600)"
+    )
+    look.add_argument(
+        "--spawn",
+        metavar="ROBOT[@X,Y[,YAW]]",
+        type=wanted,
+        action="append",
+        default=[],
+        help="also put a robot there (repeatable)",
+    )
+    look.add_argument(
+        "--drive",
+        metavar="V,W",
+        type=_pair,
+        help="command every robot's cmd_vel: forward [m/s], turning [rad/s]",
+    )
+    parser.add_argument("--topic", metavar="NAME", help="of a bag: the images to show")
+    policy = parser.add_argument_group("of a training run")
+    policy.add_argument("--task", metavar="TASK", help="another task than the run's")
+    add_import_option(parser)
+    add_file_options(parser)
+    add_scenario_options(parser)
+    add_environment_options(parser)
+
+
+def opened(args: argparse.Namespace) -> FilmSource:
+    """What the arguments name.
+
+    Raises:
+        Error: It cannot be read.
+    """
+    from gazelle.viewer import sources
+
+    path = Path(args.source)
+    if sources.is_run(path):
+        return sources.PolicySource(
+            path,
+            seed=10_000 if args.seed is None else args.seed,
+            task=args.task,
+            imports=args.imports,
+            **environment_options(args),
+        )
+    if path.suffix == ".bag":
+        return sources.BagSource(path, args.topic)
+    if path.suffix == ".jsonl":
+        return sources.RecordingSource(path, lambda simulation: _camera(simulation, args))
+    return _running(args)
+
+
+def _running(args: argparse.Namespace) -> FilmSource:
+    """A file that runs."""
+    from gazelle import formats
+    from gazelle.simulation import Simulation
+    from gazelle.viewer.sources import SimulationSource
+
+    world = formats.load(args.source)
+    engine = args.engine or ("planar" if world.stage is not None or args.top else "mujoco")
+    simulation = Simulation(world, engine, seed=args.seed or 0)
+    try:
+        for robot in args.spawn:
+            spawn(simulation, robot)
+        _drive(simulation, args)
+        return SimulationSource(simulation, _camera(simulation, args))
+    except BaseException:
+        simulation.close()
+        raise
+
+
+def _drive(simulation: Simulation, args: argparse.Namespace) -> None:
+    if args.drive is None:
+        return
+    for robot in simulation.robots.values():
+        if "cmd_vel" in robot.inputs:
+            robot.inputs["cmd_vel"].send(*args.drive)
+
+
+def _camera(simulation: Simulation, args: argparse.Namespace) -> FilmCamera:
+    from gazelle.viewer.plan import TopView
+    from gazelle.viewer.scene_camera import SceneCamera
+
+    if args.top:
+        return TopView(simulation, size=args.size)
+    return SceneCamera(
+        simulation, eye=args.eye, target=args.target, follow=args.follow, size=args.size
+    )
+
+
+def _triple(text: str) -> tuple[float, float, float]:
+    x, y, z = _numbers(text, 3)
+    return x, y, z
+
+
+def _pair(text: str) -> tuple[float, float]:
+    forward, turn = _numbers(text, 2)
+    return forward, turn
+
+
+def _numbers(text: str, count: int) -> list[float]:
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != count or not all(map(math.isfinite, values)):
+        raise argparse.ArgumentTypeError(f"expected {count} numbers with commas, not '{text}'")
+    return values
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.lower().partition("x")
+    if not (width.isdigit() and height.isdigit()) or not all(
+        _LEAST <= int(side) <= _MOST for side in (width, height)
+    ):
+        raise argparse.ArgumentTypeError(
+            f"expected WIDTHxHEIGHT, {_LEAST} to {_MOST} pixels each, not '{text}'"
+        )
+    return int(width), int(height)

@@ -1,0 +1,41 @@
+"""Draw a picture: of a world, a recording, a bag or a trained policy; needs no
+graphics card and no screen.
+
+  gazelle picture turtlebot3_world world.png --spawn turtlebot3_burger@-2,-0.5
+  gazelle picture my.world --at 5 --eye 2,-3,1.5 --target 0,0,0.2 five_seconds.png
+  gazelle picture fleet fleet.png --top
+  gazelle picture run.jsonl --at 3 crash.png
+  gazelle picture runs/TurtleBot3Stage1-ppo-20261105-140302 --at 4 policy.png
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from gazelle.argument_types import positive_float
+from gazelle.cli.filming import add_source, opened
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    add_source(parser)
+    parser.add_argument(
+        "--at", metavar="SECONDS", type=positive_float, help="after so much time (default 0)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    from PIL import Image
+
+    from gazelle.viewer.film_files import STILLS, writable
+
+    file = writable(args.out, STILLS)
+    with opened(args) as source:
+        if args.at is not None:
+            source.advance(args.at)
+        picture = source.look()
+    Image.fromarray(picture).save(file)
+    sys.stdout.write(f"{file}: {picture.shape[1]} x {picture.shape[0]}\n")
+    return 0

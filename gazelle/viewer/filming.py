@@ -1,0 +1,130 @@
+"""Pictures and films of running simulations as files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Protocol
+
+from PIL import Image
+
+from gazelle.array_types import Picture
+from gazelle.errors import Error
+from gazelle.simulation import Simulation
+from gazelle.viewer.film_files import FILMS, STILLS, writable, write_film
+from gazelle.viewer.plan import TopView
+from gazelle.viewer.scene_camera import SceneCamera
+
+
+class FilmCamera(Protocol):
+    """What draws a simulation: a ``SceneCamera`` or a ``TopView``."""
+
+    def look(self) -> Picture:
+        """The simulation now, shape (height, width, 3)."""
+
+
+def film(
+    simulation: Simulation,
+    path: str | Path,
+    seconds: float,
+    *,
+    camera: FilmCamera | None = None,
+    rate: float = 25.0,
+    speed: float = 1.0,
+) -> int:
+    """Run a simulation and film it; needs no screen.
+
+    Args:
+        simulation: Runs, and is ``seconds`` later at the end.
+        path: ``.gif``, or ``.mp4`` with the extra ``film``.
+        seconds: Simulated time.
+        camera: Draws the pictures; by default a ``SceneCamera`` that sees everything.
+        rate: Pictures a second of film.
+        speed: Simulated seconds a second of film.
+
+    Returns:
+        The number of pictures.
+
+    Raises:
+        Error: The suffix is not a film's, or a number cannot be.
+        MissingExtraError: MP4 is wanted, and what writes it is not installed.
+    """
+    file = writable(path, FILMS)
+    if not (seconds > 0.0 and rate > 0.0 and speed > 0.0):
+        raise Error("a film needs seconds, a rate and a speed above zero")
+    drawn = camera or SceneCamera(simulation)
+    count = max(1, round(seconds * rate / speed))
+    return write_film(file, shots(simulation, drawn, count, seconds / count), rate)
+
+
+def take_plan(
+    simulation: Simulation,
+    path: str | Path,
+    *,
+    world: int = 0,
+    size: tuple[int, int] = (960, 720),
+    scans: bool = True,
+) -> Picture:
+    """Draw a world of the planar engine from above into a file; needs no screen.
+
+    Args:
+        simulation: Of a world with ``engine="planar"``.
+        path: ``.png``, ``.jpg`` or ``.webp``.
+        world: Which world of a batch.
+        size: Width and height [pixel].
+        scans: Whether to show what rangers and lidars meet.
+
+    Returns:
+        The picture, shape (height, width, 3).
+
+    Raises:
+        Error: The simulation is not in the plane, the suffix is not a picture's, or there is no
+            such folder.
+    """
+    file = writable(path, STILLS)
+    picture = TopView(simulation, world=world, size=size, scans=scans).look()
+    Image.fromarray(picture).save(file)
+    return picture
+
+
+def film_plan(
+    simulation: Simulation,
+    path: str | Path,
+    seconds: float,
+    *,
+    view: TopView | None = None,
+    rate: float = 10.0,
+    speed: float = 1.0,
+) -> int:
+    """Run a world of the planar engine and film it from above; see ``film``.
+
+    Args:
+        simulation: Runs, and is ``seconds`` later at the end.
+        path: ``.gif``, or ``.mp4`` with the extra ``film``.
+        seconds: Simulated time.
+        view: Draws the pictures; with scans and trails by default.
+        rate: Pictures a second of film.
+        speed: Simulated seconds a second of film.
+
+    Returns:
+        The number of pictures.
+
+    Raises:
+        Error: The simulation is not in the plane, or as ``film``.
+    """
+    camera = view or TopView(simulation)
+    return film(simulation, path, seconds, camera=camera, rate=rate, speed=speed)
+
+
+def shots(
+    simulation: Simulation, camera: FilmCamera, count: int, period: float
+) -> Iterator[Picture]:
+    """The first picture, and one after each period of simulated time [s]."""
+    start = simulation.time
+    yield camera.look()
+    for number in range(1, count + 1):
+        # Towards a time of its own, so that no rounding adds up.
+        ahead = start + number * period - simulation.time
+        if ahead > 0.0:
+            simulation.run(ahead)
+        yield camera.look()

@@ -1,0 +1,122 @@
+"""A camera that looks at a running simulation, for pictures and films."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from PIL import Image
+
+from gazelle.array_types import Floats, Picture
+from gazelle.errors import Error
+from gazelle.rendering import LiveScene, PinholeLens
+from gazelle.sensors import look_at
+from gazelle.simulation import Simulation
+from gazelle.viewer.page.shapes import extent_of_world
+
+Place = tuple[float, float, float]
+
+_GAMMA = 1.35  # lifts the shadows to what a screen shows well
+_FINER = 2  # drawn so many times larger, and made smaller: smooth edges
+_FOV = 0.9  # horizontal [rad]
+_MARGIN = 1.06
+_ASIDE = np.array([-0.45, -0.75, 0.75])  # from where a whole world is looked at
+_BEHIND = np.array([-1.6, -1.0, 1.1])  # from where a model is followed [m]
+
+
+class SceneCamera:
+    """Draws what is seen of a simulation from somewhere, by the rasteriser.
+
+    Args:
+        simulation: What to look at.
+        eye: Where the camera is [m]; by default where it sees the whole world, or behind the
+            model that it follows. While it follows, in the frame that moves with the model.
+        target: What it looks at [m], likewise.
+        follow: Name of a model that the camera goes along with, without turning.
+        world: Which world of a batch.
+        size: Width and height of pictures [pixel].
+        fov: Horizontal field of view [rad].
+
+    Raises:
+        Error: There is no such model or world.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        *,
+        eye: Place | None = None,
+        target: Place | None = None,
+        follow: str = "",
+        world: int = 0,
+        size: tuple[int, int] = (960, 600),
+        fov: float = _FOV,
+    ) -> None:
+        if not 0 <= world < simulation.nworld:
+            raise Error(f"there is no world {world}; there are {simulation.nworld}")
+        if follow:
+            _ = simulation.robots[follow]
+        self._simulation, self._follow = simulation, follow
+        self._world, self._size = np.array([world]), size
+        self._lens = PinholeLens(size[0] * _FINER, size[1] * _FINER, fov)
+        self._scene: tuple[object, LiveScene | None] = (None, None)
+        self._eye, self._target = self._usual(eye, target)
+
+    def look(self) -> Picture:
+        """What is seen now, shape (height, width, 3)."""
+        return self._simulation.requests.call(self._draw)
+
+    def _draw(self) -> Picture:
+        simulation = self._simulation
+        engine, scene = self._scene
+        if scene is None or engine is not simulation.engine:
+            engine = simulation.engine
+            scene = LiveScene(simulation.engine, gamma=_GAMMA)
+            self._scene = engine, scene
+        shift = np.zeros(3)
+        if self._follow:
+            shift = simulation.robots[self._follow].placement(self._world).position[0]
+        eye, target = self._eye + shift, self._target + shift
+        pose = look_at(_triple(eye), _triple(target))
+        frames = scene.render(
+            self._lens,
+            np.array([pose.position]),
+            np.array([pose.quaternion]),
+            self._world,
+            want=("color",),
+        )
+        fine = Image.fromarray(frames.color[0])
+        return np.asarray(fine.reduce(_FINER), np.uint8)
+
+    def _usual(self, eye: Place | None, target: Place | None) -> tuple[Floats, Floats]:
+        """Eye and target, where they are not given from the size of what there is to see."""
+        if self._follow:
+            middle, away = np.array([0.0, 0.0, 0.1]), _BEHIND
+        else:
+            low, high = extent_of_world(self._simulation.world)
+            middle = (low + high) / 2.0
+            away = _ASIDE * distance_to_see((high - low) / 2.0, _ASIDE, self._lens)
+        seen = middle if target is None else np.array(target)
+        return (seen + away if eye is None else np.array(eye)), seen
+
+
+def distance_to_see(half: Floats, away: Floats, lens: PinholeLens) -> float:
+    """From how far a camera sees a whole box in whose middle it looks, in lengths of a vector.
+
+    Args:
+        half: Half of the box's sides [m], shape (3,).
+        away: From the middle to the camera, shape (3,).
+        lens: Of the camera.
+    """
+    length = float(np.linalg.norm(away))
+    corners = np.array(list(itertools.product(*((-side, side) for side in half.tolist()))))
+    pose = look_at(_triple(away), (0.0, 0.0, 0.0))
+    forward, left, up = (corners @ np.array(pose.matrix())[:3, :3]).T
+    wide, high = lens.width / 2.0 / lens.focal, lens.height / 2.0 / lens.focal
+    needed = np.maximum(np.abs(left) / wide, np.abs(up) / high) - forward
+    return max(_MARGIN * float(needed.max()), 4.0 * lens.near) / length
+
+
+def _triple(point: Floats) -> Place:
+    x, y, z = point.tolist()
+    return x, y, z
