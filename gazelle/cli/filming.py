@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.parsing import (
     add_environment_options,
@@ -18,8 +18,6 @@ from gazelle.cli.spawning import spawn, wanted
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation
-    from gazelle.viewer.filming import FilmCamera
-    from gazelle.viewer.sources import FilmSource
 
 _LEAST, _MOST = 16, 8192
 
@@ -65,8 +63,8 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     add_environment_options(parser)
 
 
-def opened(args: argparse.Namespace) -> FilmSource:
-    """What the arguments name.
+def opened(args: argparse.Namespace) -> Any:
+    """What the arguments name: a ``gazelle.viewer.sources.FilmSource``.
 
     Raises:
         Error: It cannot be read.
@@ -89,7 +87,7 @@ def opened(args: argparse.Namespace) -> FilmSource:
     return _running(args)
 
 
-def _running(args: argparse.Namespace) -> FilmSource:
+def _running(args: argparse.Namespace) -> Any:
     """A file that runs."""
     from gazelle import formats
     from gazelle.simulation import Simulation
@@ -116,7 +114,7 @@ def _drive(simulation: Simulation, args: argparse.Namespace) -> None:
             robot.inputs["cmd_vel"].send(*args.drive)
 
 
-def _camera(simulation: Simulation, args: argparse.Namespace) -> FilmCamera:
+def _camera(simulation: Simulation, args: argparse.Namespace) -> Any:
     from gazelle.viewer.plan import TopView
     from gazelle.viewer.scene_camera import SceneCamera
 
