@@ -186,7 +186,7 @@ def bytes_each(file: Path) -> float:
     gc.collect()
     used, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    shared = sum(m.bitmap.cells.nbytes for m in sim.stage.models if m.bitmap is not None)
+    shared = sum(m.bitmap.cells.nbytes for m in sim.description.models if m.bitmap is not None)
     count = len(sim.robots)
     sim.close()
     return (used - shared) / count

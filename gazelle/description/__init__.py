@@ -37,7 +37,7 @@ from gazelle.description.noise import Noise, NoiseType
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.description.parameters import Parameters
 from gazelle.description.physics import Ode, Physics
-from gazelle.description.plugin import Plugin
+from gazelle.description.plugin import Plugin, StagePlugin
 from gazelle.description.pose import Pose, Quaternion, Vector3
 from gazelle.description.sensor import Camera, ContactSensor, Imu, Lidar, Scan, Sensor
 from gazelle.description.source import Source
@@ -153,6 +153,7 @@ __all__ = [
     "StageGui",
     "StageLightIndicator",
     "StageModel",
+    "StagePlugin",
     "StagePose",
     "StagePosition",
     "StagePower",

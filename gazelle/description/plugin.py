@@ -22,3 +22,11 @@ class Plugin:
     filename: str
     parameters: Parameters = field(default_factory=lambda: Parameters("plugin"))
     source: Source | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class StagePlugin(Plugin):
+    """Drives or sees for one of Stage's models where nobody runs that as Stage does.
+
+    One of the same kind that somebody else gave the model is no ``StagePlugin``, and runs everywhere.
+    """

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, cast
 
 from gazelle import description
-from gazelle.description import Link, Model
+from gazelle.description import Link, Model, StagePlugin
 from gazelle.errors import SimulationWarning, located
-from gazelle.formats.stage.plugins import STAND_INS, without_stand_ins
+from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
 from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
 from gazelle.simulation.plugin_errors import warn_of_fault
@@ -47,7 +47,7 @@ def run_stage(simulation: Simulation) -> StageFleet | None:
 def is_plain(model: Model) -> bool:
     """Whether a model is all of a Stage file, without plugins of its own."""
     return model.stage is not None and not any(
-        plugin.filename not in STAND_INS
+        not isinstance(plugin, StagePlugin)
         for plugin in (*model.plugins, *(p for link in model.links for p in _plugins_on(link)))
     )
 
@@ -71,11 +71,13 @@ def adopt(
         stage: Moves it, and lets it see; plugins that do so in other engines are left out.
     """
     if stage is not None:
+        from gazelle.simulation.stage.device_ports import open_devices
         from gazelle.simulation.stage.handles import inputs_of, open_outputs
 
         robot.inputs.update(inputs_of(stage, model.name))
         open_outputs(stage, robot)
-        model = without_stand_ins(model)
+        open_devices(stage, robot)
+        model = without_stage_plugins(model)
     for placed in model.walk():
         for plugin in placed.model.plugins:
             _start(simulation, ModelPlugin, robot, plugin, robot)
@@ -84,7 +86,7 @@ def adopt(
                 _start(simulation, VisualPlugin, robot, plugin, robot)
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
-            if stage is None or plugin.filename not in STAND_INS:
+            if stage is None or not isinstance(plugin, StagePlugin):
                 _start(simulation, SensorPlugin, unit, plugin, robot)
 
 

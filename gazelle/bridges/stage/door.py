@@ -56,7 +56,7 @@ class StageDoor(Closeable):
         self._simulation, self._node, self._world = simulation, node, world
         self.rate = rate
         self._stage = stage = stage_of(simulation)
-        if stage.stage.paused and simulation.time == 0.0:
+        if stage.description.paused and simulation.time == 0.0:
             simulation.pause()
         self._stop = threading.Event()
         self._make_time()
@@ -163,7 +163,7 @@ class StageDoor(Closeable):
         Args:
             seconds: Simulated time at which to end; None for the file's ``quit_time``.
         """
-        end = self._stage.stage.quit_time if seconds is None else seconds
+        end = self._stage.description.quit_time if seconds is None else seconds
         while not self._stop.is_set():
             if self._simulation.paused:
                 self._stop.wait(_SLICE)

@@ -22,7 +22,7 @@ def main(arguments: Sequence[str]) -> int:
     options = _options(found.plain)
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
     with found.start() as node, Simulation(options.world, "planar") as sim:
-        speedup = stage_of(sim).stage.speedup
+        speedup = stage_of(sim).description.speedup
         door = StageDoor(
             sim, node, rate=speedup if speedup > 0.0 else None, model_names=options.model_names
         )

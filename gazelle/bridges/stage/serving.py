@@ -77,7 +77,7 @@ def serve_stage(
             simulation,
             node,
             world=world,
-            rate=_pace(stage_of(simulation).stage.speedup) if isinstance(rate, str) else rate,
+            rate=_pace(stage_of(simulation).description.speedup) if isinstance(rate, str) else rate,
             model_names=model_names,
         )
     except BaseException:

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from gazelle.description import Model, Parameters, Plugin, Sensor
+from gazelle.description import Model, Parameters, Sensor, StagePlugin
 
 _DRIVE = "libgazebo_ros_planar_move.so"
 _LASER = "libgazebo_ros_laser.so"
-STAND_INS = frozenset((_DRIVE, _LASER))
-"""Plugins that drive and see for Stage's models where nobody runs these as Stage does."""
-
 _TIMEOUT = 0.2
 """After which a robot without a command stands, as in stage_ros [s]."""
 
@@ -32,9 +29,9 @@ class Names:
         children = (*_shared(same), *(_parameter(tag, text) for tag, text in own.items()))
         return Parameters("plugin", children=children)
 
-    def drive(self, rate: float) -> Plugin:
+    def drive(self, rate: float) -> StagePlugin:
         """What moves it as ``cmd_vel`` says, and publishes ``odom`` at a rate [Hz]."""
-        return Plugin(
+        return StagePlugin(
             "drive",
             _DRIVE,
             self.parameters(
@@ -52,7 +49,7 @@ class Names:
     def published(self, sensor: Sensor, index: int, count: int) -> Sensor:
         """A lidar, of so many on the robot, with its topic."""
         suffix = f"_{index}" if count > 1 else ""
-        plugin = Plugin(
+        plugin = StagePlugin(
             "laser",
             _LASER,
             self.parameters(
@@ -63,9 +60,9 @@ class Names:
         return replace(sensor, plugins=(plugin,))
 
 
-def without_stand_ins(model: Model) -> Model:
-    """A model without those of ``STAND_INS`` that are its own."""
-    kept = tuple(plugin for plugin in model.plugins if plugin.filename not in STAND_INS)
+def without_stage_plugins(model: Model) -> Model:
+    """A model without those that are its own."""
+    kept = tuple(plugin for plugin in model.plugins if not isinstance(plugin, StagePlugin))
     return replace(model, plugins=kept)
 
 

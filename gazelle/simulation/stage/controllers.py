@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar.stage_layout import Ranger, StageRobot
 from gazelle.engines.planar.wandering import Wandering
 from gazelle.errors import SimulationError, SimulationWarning
@@ -45,8 +45,8 @@ class FleetController(Protocol):
         """What ``update`` does in native code, step by step; None if it does more."""
         return None
 
-    def reset(self) -> None:
-        """Start over."""
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Start over in some worlds, all if None."""
 
     def rebind(self) -> None:
         """Other models came or went; the robots are the same."""
@@ -139,9 +139,10 @@ class Wander(FleetController):
         looking = self._simulation.scan_system(self._scanner)
         return None if looking is None else [looking[0], self._law(looking[1])]
 
-    def reset(self) -> None:
-        """Start over."""
-        self._mood[:] = 0
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Turn no longer."""
+        rows = slice(None) if worlds is None else worlds
+        self._mood.reshape(self._simulation.nworld, -1, 2)[rows] = 0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """For how long each still turns."""
@@ -195,7 +196,7 @@ class LaserNoise(FleetController):
         """None: as ``update``."""
         return []
 
-    def reset(self) -> None:
+    def reset(self, worlds: Worlds | None = None) -> None:
         """Nothing to start over."""
 
 

@@ -90,7 +90,7 @@ class Surroundings:
     @property
     def resolution(self) -> float:
         """Side of a cell of Stage's grid [m]."""
-        return self._simulation.stage.resolution
+        return self._simulation.description.resolution
 
     def model(self, robot: int) -> StageModel:
         """What the file says of a robot."""

@@ -94,7 +94,7 @@ class StageFleet(Senses):
         self.forget_views()
 
     @property
-    def stage(self) -> StageWorld:
+    def description(self) -> StageWorld:
         """What the file says of the world."""
         return self.engine.world.stage or StageWorld()
 

@@ -115,8 +115,8 @@ class StageRunner(WorldPlugin):
         fleet.start_over(worlds)
         if worlds is None:
             fleet.rangers.rewind()
-            for controller in fleet.controllers:
-                controller.reset()
+        for controller in fleet.controllers:
+            controller.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Everything that changes but bodies."""

@@ -41,7 +41,7 @@ class Senses(ABC):
 
     @property
     @abstractmethod
-    def stage(self) -> StageWorld:
+    def description(self) -> StageWorld:
         """What the file says of the world."""
 
     @property

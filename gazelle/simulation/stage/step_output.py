@@ -1,0 +1,51 @@
+"""Outputs of Stage's robots: what is true after a step, while somebody listens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from gazelle.simulation.ports import Output
+from gazelle.simulation.requests import between_steps
+from gazelle.simulation.robot import Robot
+
+T = TypeVar("T")
+
+
+class StepOutput(Output[T]):
+    """Published after every step while somebody listens.
+
+    Args:
+        robot: Whose it is.
+        topic: Topic name.
+        kind: Type of the values.
+        produce: Computes the value now.
+        namespace: Whose frames they are.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        topic: str,
+        kind: type[T],
+        produce: Callable[[], T],
+        namespace: str | None = None,
+    ) -> None:
+        super().__init__(topic, kind, produce, namespace=namespace)
+        self._robot = robot
+        self._stop_telling: Callable[[], None] | None = None
+
+    @between_steps
+    def subscribe(self, listener: Callable[[T], None]) -> Callable[[], None]:
+        """Call a function with every value published; returns what ends it."""
+        end = super().subscribe(listener)
+        if self._stop_telling is None:
+            self._stop_telling = self._robot.simulation.subscribe(self.publish)
+
+        def finish() -> None:
+            end()
+            if not self.wanted and self._stop_telling is not None:
+                self._stop_telling()
+                self._stop_telling = None
+
+        return finish
