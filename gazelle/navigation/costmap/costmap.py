@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Bytes, Floats
 from gazelle.errors import Error
 from gazelle.navigation.costmap.footprint import radii_of
-from gazelle.navigation.costmap.values import FREE_SPACE, NO_INFORMATION, Region, Window
+from gazelle.navigation.costmap.values import FREE_SPACE, NO_INFORMATION, CostmapBounds, Window
 from gazelle.navigation.following import Pose2
 
 _MOST_CELLS = 16_384
@@ -39,7 +39,7 @@ class Layer(ABC):
         """The robot has another outline."""
 
     @abstractmethod
-    def update_bounds(self, costmap: Costmap, pose: Pose2, region: Region) -> None:
+    def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
         """Widen the region by what has changed."""
 
     @abstractmethod
@@ -49,7 +49,7 @@ class Layer(ABC):
     def reset(self) -> None:  # noqa: B027  # most need not
         """Forget what was seen."""
 
-    def clear_area(self, costmap: Costmap, area: Region, *, outside: bool) -> None:  # noqa: B027  # most need not
+    def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:  # noqa: B027  # most need not
         """Forget what was seen within an area, or outside of it."""
 
 
@@ -155,7 +155,7 @@ class Costmap:
         cell = self.cell_of(x, y)
         return NO_INFORMATION if cell is None else int(self.cells[cell[1], cell[0]])
 
-    def window_of(self, region: Region) -> Window:
+    def window_of(self, region: CostmapBounds) -> Window:
         """The cells of a region that are on the map."""
         rows, columns = self.cells.shape
         if not region.x0 <= region.x1 or not region.y0 <= region.y1:
@@ -185,7 +185,7 @@ class Costmap:
         """
         if self.rolling:
             self._follow(pose)
-        region = Region()
+        region = CostmapBounds()
         enabled = [layer for layer in self.layers if layer.enabled]
         for layer in enabled:
             layer.update_bounds(self, pose, region)
@@ -215,7 +215,7 @@ class Costmap:
             outside: Forget what is outside; else what is within.
         """
         half = side / 2.0
-        area = Region(pose[0] - half, pose[1] - half, pose[0] + half, pose[1] + half)
+        area = CostmapBounds(pose[0] - half, pose[1] - half, pose[0] + half, pose[1] + half)
         for layer in self.layers:
             if layer.name in names:
                 layer.clear_area(self, area, outside=outside)

@@ -14,7 +14,7 @@ from gazelle.navigation.costmap.values import (
     INSCRIBED,
     LETHAL,
     NO_INFORMATION,
-    Region,
+    CostmapBounds,
     Window,
 )
 from gazelle.navigation.following import Pose2
@@ -82,7 +82,7 @@ class InflationLayer(Layer):
         """There is nothing to forget; all is to be drawn again."""
         self._all = True
 
-    def update_bounds(self, costmap: Costmap, pose: Pose2, region: Region) -> None:
+    def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
         """What is next to what has changed changes, too."""
         del pose
         if self._all:

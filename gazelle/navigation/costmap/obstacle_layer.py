@@ -16,7 +16,7 @@ from gazelle.navigation.costmap.values import (
     FREE_SPACE,
     LETHAL,
     NO_INFORMATION,
-    Region,
+    CostmapBounds,
     Window,
 )
 from gazelle.navigation.following import Pose2
@@ -132,7 +132,7 @@ class ObstacleLayer(Layer):
             source.observations.clear()
         self._all = True
 
-    def clear_area(self, costmap: Costmap, area: Region, *, outside: bool) -> None:
+    def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:
         """Forget what was seen within an area, or outside of it."""
         window = costmap.window_of(area)
         if outside:
@@ -143,7 +143,7 @@ class ObstacleLayer(Layer):
             self.cells[window.slices] = costmap.default
         self._all = True
 
-    def update_bounds(self, costmap: Costmap, pose: Pose2, region: Region) -> None:
+    def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
         """Draw all observations onto the layer."""
         seen = [(source, each) for source in self.sources.values() for each in source.observations]
         for source, each in seen:
@@ -172,7 +172,7 @@ class ObstacleLayer(Layer):
             raise_to(target, layer)
 
     def _clear(
-        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
         """Free what is between a sensor and what it saw."""
         start = costmap.cell_of(float(seen.origin[0]), float(seen.origin[1]))
@@ -184,7 +184,7 @@ class ObstacleLayer(Layer):
         self._touch(seen, source.raytrace_range, region)
 
     def _mark(
-        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
         """Make obstacles of what a sensor saw."""
         away = ((seen.points - seen.origin) ** 2).sum(axis=1)
@@ -198,7 +198,7 @@ class ObstacleLayer(Layer):
         self._touch(seen, source.obstacle_range, region)
 
     @staticmethod
-    def _touch(seen: Observation, reach: float, region: Region) -> None:
+    def _touch(seen: Observation, reach: float, region: CostmapBounds) -> None:
         """Widen the region by what was seen, as far as it counts."""
         origin = seen.origin[:2]
         ends = seen.points[:, :2] - origin
@@ -211,7 +211,7 @@ class ObstacleLayer(Layer):
 def _fill(cells: Bytes, costmap: Costmap, outline: Floats, cost: int) -> None:
     """Give all cells whose middles are within an outline a cost."""
     low, high = outline.min(axis=0), outline.max(axis=0)
-    window = costmap.window_of(Region(low[0], low[1], high[0], high[1]))
+    window = costmap.window_of(CostmapBounds(low[0], low[1], high[0], high[1]))
     side = costmap.resolution
     x = costmap.origin[0] + (np.arange(window.x0, window.x1, dtype=np.float64) + 0.5) * side
     y = costmap.origin[1] + (np.arange(window.y0, window.y1, dtype=np.float64) + 0.5) * side

@@ -13,7 +13,7 @@ from gazelle.navigation.costmap.values import (
     FREE_SPACE,
     LETHAL,
     NO_INFORMATION,
-    Region,
+    CostmapBounds,
     Window,
 )
 from gazelle.navigation.following import Pose2
@@ -47,7 +47,7 @@ class StaticLayer(Layer):
         self._trinary, self._use_maximum = trinary, use_maximum
         self._map: OccupancyMap | None = None
         self._costs: Bytes = np.zeros((0, 0), np.uint8)
-        self._changed: Region | None = None
+        self._changed: CostmapBounds | None = None
         self.to_map: Pose2 = (0.0, 0.0, 0.0)
 
     @property
@@ -92,13 +92,13 @@ class StaticLayer(Layer):
         costs: Bytes = table.astype(np.uint8)[grid.data.view(np.uint8)]
         return costs
 
-    def _extent(self) -> Region:
+    def _extent(self) -> CostmapBounds:
         grid = self._map
         if grid is None:
-            return Region()
+            return CostmapBounds()
         wide, high = grid.size
         x, y = grid.origin.x, grid.origin.y
-        return Region(x, y, x + wide, y + high)
+        return CostmapBounds(x, y, x + wide, y + high)
 
     def resized(self, costmap: Costmap) -> None:
         """All of it is to be drawn again."""
@@ -109,7 +109,7 @@ class StaticLayer(Layer):
         """Keep the map, and draw it again."""
         self._changed = self._extent()
 
-    def update_bounds(self, costmap: Costmap, pose: Pose2, region: Region) -> None:
+    def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
         """All of it, when the map is new or the window moves."""
         del pose
         if self._map is None:

@@ -26,7 +26,7 @@ def shown(cells: Bytes) -> NDArray[np.int8]:
 
 
 @dataclass(slots=True)
-class Region:
+class CostmapBounds:
     """A rectangle that grows: what of a map is to be updated, in the map's frame [m]."""
 
     x0: float = np.inf

@@ -10,7 +10,7 @@ from gazelle.array_types import Floats, Ints32
 from gazelle.errors import Error
 from gazelle.navigation.costmap.costmap import Costmap
 from gazelle.navigation.costmap.obstacle_layer import Observation, ObservationSource, ObstacleLayer
-from gazelle.navigation.costmap.values import LETHAL, Region
+from gazelle.navigation.costmap.values import LETHAL, CostmapBounds
 from gazelle.navigation.costmap.voxel_rays import clear_voxels
 
 _MOST_LAYERS = 16
@@ -93,7 +93,7 @@ class VoxelLayer(ObstacleLayer):
         super().reset()
         self._forget()
 
-    def clear_area(self, costmap: Costmap, area: Region, *, outside: bool) -> None:
+    def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:
         """Forget what was seen within an area, or outside of it."""
         super().clear_area(costmap, area, outside=outside)
         gone = np.full(self.cells.shape, outside)
@@ -108,7 +108,7 @@ class VoxelLayer(ObstacleLayer):
         return np.ascontiguousarray((points - corner) / sides)
 
     def _clear(
-        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
         if not len(seen.points) or costmap.cell_of(*seen.origin[:2].tolist()) is None:
             return
@@ -126,7 +126,7 @@ class VoxelLayer(ObstacleLayer):
         self._touch(seen, source.raytrace_range, region)
 
     def _mark(
-        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: Region
+        self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
         away = ((seen.points - seen.origin) ** 2).sum(axis=1)
         kept = (away < source.obstacle_range**2) & (seen.points[:, 2] <= self._max_height)

@@ -1,4 +1,4 @@
-"""Kernels."""
+"""Localisation on a map that is known: the law of ROS's ``amcl``."""
 
 from __future__ import annotations
 
@@ -7,3 +7,8 @@ from pathlib import Path
 from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
+
+from gazelle.navigation.localization.localizer import AmclSettings, Localizer, PlanarScan
+from gazelle.navigation.localization.particle_filter import ParticleFilter, PoseEstimate
+
+__all__ = ["AmclSettings", "Localizer", "ParticleFilter", "PlanarScan", "PoseEstimate"]
