@@ -19,7 +19,7 @@ from gazelle.navigation.localization.particle_filter import ParticleFilter, Pose
 from gazelle.navigation.localization.scan_likelihood import BeamModel, LikelihoodField
 from gazelle.navigation.planners.planar import composed, inverse
 
-_LASERS = ("likelihood_field", "beam", "likelihood_field_prob")
+LASER_MODELS = ("likelihood_field", "beam", "likelihood_field_prob")
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +67,10 @@ class AmclSettings:
         }
         check_model(found["odom_model_type"])
         laser = found["laser_model_type"]
-        if laser not in _LASERS:
-            raise Error(f"the laser model '{laser}' is unknown", hint=did_you_mean(laser, _LASERS))
+        if laser not in LASER_MODELS:
+            raise Error(
+                f"the laser model '{laser}' is unknown", hint=did_you_mean(laser, LASER_MODELS)
+            )
         return cls(**found)
 
 

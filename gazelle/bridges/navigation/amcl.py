@@ -1,0 +1,297 @@
+"""The node ``amcl``: where a robot is on a map (http://wiki.ros.org/amcl)."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.navigation.diagnosis import StartDiagnosis
+from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
+from gazelle.bridges.navigation.maps import MapListener, map_of_service
+from gazelle.bridges.navigation.messages import beam_angles, fill_pose, is_upside_down, pose_of
+from gazelle.bridges.navigation.scan_queue import ScanQueue
+from gazelle.bridges.reconfigure import ReconfigureServer
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.errors import Error
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
+from gazelle.navigation.localization.localizer import LASER_MODELS
+from gazelle.navigation.localization.odometry_models import MODELS
+from gazelle.navigation.planners.planar import between, composed
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.builtin.map_server import grid_of_message
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+from gazelle.ros.time import Time
+from gazelle.simulation import Tunable
+
+SECOND = 1_000_000_000
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Localise until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "amcl")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        AmclNode(node).run(stop)
+    return 0
+
+
+class AmclNode:
+    """A `Localizer` on a graph.
+
+    Args:
+        node: On the graph; parameters are those of ``amcl``.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self.settings = AmclSettings.read(self._values)
+        self._odom = value_of(self._values, "odom_frame_id", "odom").strip("/")
+        self._base = value_of(self._values, "base_frame_id", "base_link").strip("/")
+        self._whole = value_of(self._values, "global_frame_id", "map").strip("/")
+        self._tolerance_ns = round(value_of(self._values, "transform_tolerance", 0.1) * SECOND)
+        self._broadcast = value_of(self._values, "tf_broadcast", True)
+        self._lock = threading.RLock()
+        self._localizer: Localizer | None = None
+        self._saved_at = 0
+        self.frames = GraphFrames(node)
+        self._scans = ScanQueue(node, "scan", load_message("sensor_msgs/LaserScan"))
+        self.frames.tree.on_change(self._scans.wake)
+        covariant = load_message("geometry_msgs/PoseWithCovarianceStamped")
+        self._poses = node.advertise("amcl_pose", covariant, queue_size=2, latch=True)
+        self._clouds = node.advertise(
+            "particlecloud", load_message("geometry_msgs/PoseArray"), queue_size=2, latch=True
+        )
+        node.subscribe("initialpose", covariant, self._begin)
+        empty = load_service("std_srvs/Empty")
+        node.serve("global_localization", empty, self._begin_anywhere)
+        node.serve("request_nomotion_update", empty, self._force)
+        node.serve("set_map", load_service("nav_msgs/SetMap"), self._set_map)
+        self._tuning = ReconfigureServer(node, node.name, _Tuning(self))
+        self._diagnosis = StartDiagnosis(node, self._missing)
+
+    # The life of it -----------------------------------------------------------------------
+
+    def run(self, stop: threading.Event) -> None:
+        """Get a map, then take scans until told to end."""
+        maps = None
+        if value_of(self._values, "use_map_topic", False):
+            once = value_of(self._values, "first_map_only", False)
+            maps = MapListener(self._node, "map", once=once)
+        else:
+            grid = map_of_service(self._node, stop.is_set)
+            if grid is not None:
+                self._take_map(grid)
+        while not stop.is_set() and not self._node.closed:
+            fresh = maps.take() if maps is not None else None
+            if fresh is not None:
+                self._take_map(fresh)
+            self._scans.work(self._use)
+            localizer = self._localizer
+            lost = localizer is None or localizer.map_to_odom is None
+            self._diagnosis.look(waiting=lost)
+        self._save()
+
+    def _missing(self) -> list[str]:
+        found = missing_links(self.frames.tree, "", self._odom, self._base, self._scans.frame)
+        if not self._scans.seen:
+            topic = self._node.resolve("scan")
+            found.append(f"scans on {topic} (a laser sends them)")
+        if self._localizer is None:
+            found.append("a map (map_server serves it)")
+        return found
+
+    def _take_map(self, grid: OccupancyMap) -> None:
+        with self._lock:
+            localizer = Localizer(self.settings, grid)
+            localizer.begin(*self._initial())
+            self._localizer = localizer
+
+    def _initial(self) -> tuple[Pose2, Floats]:
+        """Where the parameters say that it begins."""
+        node = self._node
+
+        def number(name: str, default: float) -> float:
+            value = node.get_param(f"~{name}", default)
+            good = isinstance(value, int | float) and math.isfinite(value)
+            return float(value) if good else default
+
+        pose = tuple(number(f"initial_pose_{axis}", 0.0) for axis in "xya")
+        spread = [
+            number("initial_cov_xx", 0.25),
+            number("initial_cov_yy", 0.25),
+            number("initial_cov_aa", (math.pi / 12.0) ** 2),
+        ]
+        return (pose[0], pose[1], pose[2]), np.diag(spread)
+
+    def apply(self, settings: AmclSettings) -> None:
+        """Take other settings while it runs."""
+        with self._lock:
+            self.settings = settings
+            if self._localizer is not None:
+                self._localizer.configure(settings)
+
+    # Topics and services ------------------------------------------------------------------
+
+    def _begin(self, message: Any) -> None:
+        """Take an initial pose; it is moved on by what odometry says happened since its time."""
+        frame = message.header.frame_id.strip("/")
+        if frame not in {"", self._whole}:
+            return
+        pose = pose_of(message.pose.pose)
+        then = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
+        now = self.frames.pose(self._odom, self._base)
+        if then is not None and now is not None:
+            pose = composed(pose, between(then, now))
+        cov = np.array(message.pose.covariance, np.float64).reshape(6, 6)[
+            np.ix_([0, 1, 5], [0, 1, 5])
+        ]
+        with self._lock:
+            if self._localizer is not None:
+                self._localizer.begin(pose, cov)
+
+    def _begin_anywhere(self, request: Any) -> list[Any]:
+        del request
+        with self._lock:
+            if self._localizer is not None:
+                self._localizer.begin_anywhere()
+        return []
+
+    def _force(self, request: Any) -> list[Any]:
+        del request
+        with self._lock:
+            if self._localizer is not None:
+                self._localizer.force_update()
+        return []
+
+    def _set_map(self, request: Any) -> list[Any]:
+        self._take_map(grid_of_message(request.map))
+        self._begin(request.initial_pose)
+        return [True]
+
+    def _use(self, message: Any) -> bool:
+        """Take a scan; False if its transforms are not there yet."""
+        if self._localizer is None:
+            return False
+        stamp = message.header.stamp.to_nsec()
+        frame = message.header.frame_id.strip("/")
+        mounted = self.frames.find(self._base, frame)
+        odom = self.frames.pose(self._odom, self._base, stamp)
+        if mounted is None or odom is None:
+            return False
+        sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
+        scan = PlanarScan(
+            np.array(message.ranges, np.float64),
+            sign * beam_angles(message),
+            float(message.range_max),
+            float(message.range_min),
+            flat(mounted),
+        )
+        with self._lock:
+            localizer = self._localizer
+            estimate = localizer.update(odom, scan)
+            if estimate is not None:
+                self._publish(localizer, stamp)
+            if localizer.map_to_odom is not None and self._broadcast:
+                later = stamp + self._tolerance_ns
+                self.frames.send(self._whole, self._odom, later, localizer.map_to_odom)
+        rate = value_of(self._values, "save_pose_rate", 0.5)
+        if rate > 0.0 and abs(stamp - self._saved_at) >= SECOND / rate:
+            self._saved_at = stamp
+            self._save()
+        return True
+
+    def _publish(self, localizer: Localizer, stamp: int) -> None:
+        estimate = localizer.estimate
+        if estimate is None:
+            return
+        message: Any = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+        message.header.frame_id, message.header.stamp = self._whole, Time(nsecs=stamp)
+        x, y, yaw = estimate.pose.tolist()
+        fill_pose(message.pose.pose, (x, y, yaw))
+        covariance = np.zeros((6, 6))
+        covariance[:2, :2] = estimate.covariance[:2, :2]
+        covariance[5, 5] = estimate.covariance[2, 2]
+        message.pose.covariance = covariance.ravel().tolist()
+        self._poses.publish(message)
+        if self._clouds.num_connections:
+            self._clouds.publish(self._cloud(localizer, stamp))
+
+    def _cloud(self, localizer: Localizer, stamp: int) -> Any:
+        kind: Any = load_message("geometry_msgs/Pose")
+        message: Any = load_message("geometry_msgs/PoseArray")()
+        message.header.frame_id, message.header.stamp = self._whole, Time(nsecs=stamp)
+        poses = []
+        for x, y, yaw in localizer.filter.poses.tolist():
+            pose = kind()
+            fill_pose(pose, (x, y, yaw))
+            poses.append(pose)
+        message.poses = poses
+        return message
+
+    def _save(self) -> None:
+        """Write the pose to the parameters, where the next one begins."""
+        localizer = self._localizer
+        if localizer is None or localizer.estimate is None or self._node.closed:
+            return
+        estimate = localizer.estimate
+        for axis, value in zip("xya", estimate.pose.tolist(), strict=True):
+            self._node.set_param(f"~initial_pose_{axis}", value)
+        for axis, value in zip(("xx", "yy", "aa"), np.diag(estimate.covariance), strict=True):
+            self._node.set_param(f"~initial_cov_{axis}", float(value))
+
+
+class _Tuning:
+    """What dynamic_reconfigure changes: all settings."""
+
+    def __init__(self, owner: AmclNode) -> None:
+        self._owner = owner
+        self._tunables = {
+            each.name: _tunable(each.name, getattr(AmclSettings(), each.name))
+            for each in dataclasses.fields(AmclSettings)
+        }
+
+    @property
+    def tunables(self) -> Mapping[str, Tunable]:
+        """What can be changed."""
+        return self._tunables
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """What holds now."""
+        return dataclasses.asdict(self._owner.settings)
+
+    def send(self, /, **wanted: Any) -> dict[str, Any]:
+        """Change some; what cannot be is left as it is."""
+        try:
+            self._owner.apply(AmclSettings.read({**self.values, **wanted}))
+        except Error:
+            return self.values
+        return self.values
+
+
+def _tunable(name: str, default: Any) -> Tunable:
+    """A setting with its limits."""
+    text = name.replace("_", " ")
+    if isinstance(default, bool):
+        return Tunable(name, default, False, True, text)
+    if isinstance(default, str):
+        choices = MODELS if name == "odom_model_type" else LASER_MODELS
+        return Tunable(name, default, "", "", f"{text}: one of {', '.join(choices)}")
+    if isinstance(default, int):
+        return Tunable(name, default, 0, 100_000, text)
+    least = -1.0 if default < 0.0 else 0.0
+    return Tunable(name, default, least, 1000.0, text)

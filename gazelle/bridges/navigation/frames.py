@@ -1,0 +1,121 @@
+"""The frames of a graph, as a navigation node sees them, and what of them is missing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.navigation.following import Pose2
+from gazelle.ros.messages import load_message
+from gazelle.ros.node import Node
+from gazelle.ros.tf import FrameTree, StampedTransform, TransformException
+from gazelle.ros.time import Time
+from gazelle.rotations import from_yaw, rotate, yaw_of
+
+_BACK_NS = 1_000_000_000
+"""A jump back that is longer than this begins time anew [ns]."""
+
+
+class GraphFrames:
+    """Listens to ``/tf`` and ``/tf_static``, and sends transforms of its own.
+
+    Args:
+        node: On the graph.
+
+    Attributes:
+        tree: All that is known.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self.tree = FrameTree()
+        self._kind = load_message("tf2_msgs/TFMessage")
+        self._stamped = load_message("geometry_msgs/TransformStamped")
+        self._sender = node.advertise("/tf", self._kind, queue_size=100)
+        self._latest = 0
+        node.subscribe("/tf", self._kind, lambda message: self._take(message, static=False))
+        node.subscribe("/tf_static", self._kind, lambda message: self._take(message, static=True))
+
+    def _take(self, message: Any, *, static: bool) -> None:
+        now = self._node.clock.now()
+        if now < self._latest - _BACK_NS:
+            self.tree.clear()
+            self._latest = now
+        self._latest = max(self._latest, now)
+        for each in message.transforms:
+            place, turn = each.transform.translation, each.transform.rotation
+            self.tree.place(
+                each.header.frame_id,
+                each.child_frame_id,
+                each.header.stamp.to_nsec(),
+                (place.x, place.y, place.z),
+                (turn.x, turn.y, turn.z, turn.w),
+                authority="navigation",
+                static=static,
+            )
+
+    def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
+        """Say where a frame is in its parent, from a time on [ns]."""
+        message: Any = self._stamped()
+        message.header.frame_id, message.child_frame_id = parent, child
+        message.header.stamp = Time(nsecs=stamp)
+        place, turn = message.transform.translation, message.transform.rotation
+        place.x, place.y = pose[0], pose[1]
+        turn.x, turn.y, turn.z, turn.w = from_yaw(np.array(pose[2])).tolist()
+        self._sender.publish(self._kind(transforms=[message]))
+
+    def find(self, target: str, source: str, stamp: int = 0) -> StampedTransform | None:
+        """From a frame to another at a time [ns], or the newest; None if it is not known."""
+        try:
+            return self.tree.lookup(target, source, stamp)
+        except TransformException:
+            return None
+
+    def pose(self, target: str, source: str, stamp: int = 0) -> Pose2 | None:
+        """The pose of a frame in another, seen from above; None if it is not known."""
+        found = self.find(target, source, stamp)
+        return None if found is None else flat(found)
+
+
+def flat(transform: StampedTransform) -> Pose2:
+    """A transform seen from above."""
+    x, y, _ = transform.translation
+    return x, y, float(yaw_of(np.array(transform.rotation)))
+
+
+def applied(transform: StampedTransform, points: Floats) -> Floats:
+    """Points, shape (n, 3), through a transform."""
+    moved: Floats = rotate(np.array(transform.rotation), points) + np.array(transform.translation)
+    return moved
+
+
+def missing_links(tree: FrameTree, whole: str, odom: str, base: str, sensor: str = "") -> list[str]:
+    """What of the chain from map to odometry to base to sensor is missing, and who should send it.
+
+    Args:
+        tree: What is known.
+        whole: Frame of the map; empty if it is not needed.
+        odom: Frame of the odometry.
+        base: Frame of the robot.
+        sensor: Frame of the laser; empty if it is not needed or not known yet.
+    """
+    links = (
+        (whole, odom, "amcl or a SLAM node such as slam_gmapping sends it, once it has scans and odometry"),
+        (odom, base, "the robot's drive sends it (in a simulation its drive plugin; is the simulation paused?)"),
+        (base, sensor, "robot_state_publisher sends it from robot_description, or a static_transform_publisher"),
+    )  # fmt: skip
+    found = []
+    for parent, child, who in links:
+        if parent and child and not _connected(tree, parent, child):
+            found.append(f"'{parent}' to '{child}' ({who})")
+    return found
+
+
+def _connected(tree: FrameTree, parent: str, child: str) -> bool:
+    try:
+        tree.lookup(parent, child, 0)
+    except TransformException:
+        return False
+    return True

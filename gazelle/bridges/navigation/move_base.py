@@ -1,0 +1,243 @@
+"""The node ``move_base``: to goals (http://wiki.ros.org/move_base)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.navigation.costmap_topics import CostmapTopics
+from gazelle.bridges.navigation.diagnosis import StartDiagnosis
+from gazelle.bridges.navigation.frames import GraphFrames, missing_links
+from gazelle.bridges.navigation.messages import (
+    path_message,
+    pose_of,
+    stamped,
+    twist_message,
+    wrong_quaternion,
+)
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_stack
+from gazelle.navigation.move_base.state_machine import MoveStep
+from gazelle.navigation.planners.planar import composed
+from gazelle.navigation.planners.plugins import STOP, Velocity
+from gazelle.ros.actions import SimpleActionServer
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.clock import Rate
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+from gazelle.ros.time import Time
+
+SECOND = 1_000_000_000
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Take goals until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "move_base")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        MoveBaseNode(node).run(stop)
+    return 0
+
+
+class MoveBaseNode:
+    """A `NavigationStack` on a graph.
+
+    All is done by the thread that calls `run`, once a cycle of the controller: maps and scans are
+    taken, costmaps updated when due, then a step of the state machine. Services wait for a lock.
+
+    Args:
+        node: On the graph; parameters are those of ``move_base``.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self.stack = navigation_stack(values)
+        self._law = self.stack.move_base
+        self._lock = threading.RLock()
+        self._velocity: Velocity = STOP
+        self.frames = GraphFrames(node)
+        self.whole = CostmapTopics(node, "global_costmap", self.stack.whole, self.frames)
+        self.local = CostmapTopics(node, "local_costmap", self.stack.local, self.frames)
+        self._commands = node.advertise(
+            "cmd_vel", load_message("geometry_msgs/Twist"), queue_size=1
+        )
+        pose, path = load_message("geometry_msgs/PoseStamped"), load_message("nav_msgs/Path")
+        self._current = node.advertise("~current_goal", pose, queue_size=1)
+        self._recovery = node.advertise(
+            "~recovery_status", load_message("move_base_msgs/RecoveryStatus")
+        )
+        planner, controller = self._law.planner.name, self._law.controller.name
+        self._plans = node.advertise(f"~{planner}/plan", path, queue_size=1)
+        self._whole_plans = node.advertise(f"~{controller}/global_plan", path, queue_size=1)
+        self._local_plans = node.advertise(f"~{controller}/local_plan", path, queue_size=1)
+        self._goals = node.advertise(
+            "move_base/goal", load_message("move_base_msgs/MoveBaseActionGoal"), queue_size=1
+        )
+        node.subscribe("move_base_simple/goal", pose, self._forward)
+        node.subscribe("odom", load_message("nav_msgs/Odometry"), self._hear)
+        node.serve("~make_plan", load_service("nav_msgs/GetPlan"), self._make_plan)
+        node.serve("~clear_costmaps", load_service("std_srvs/Empty"), self._clear)
+        self._server = SimpleActionServer(
+            node, "move_base", load_message("move_base_msgs/MoveBaseAction"), auto_start=False
+        )
+        self._diagnosis = StartDiagnosis(node, self._missing)
+        self._started = False
+
+    # Cycles -------------------------------------------------------------------------------
+
+    def run(self, stop: threading.Event) -> None:
+        """Work until told to end; the robot stands then."""
+        rate = Rate(self._node.clock, self.stack.settings.controller_frequency, reset=True)
+        try:
+            while not stop.is_set() and not self._node.closed:
+                self.cycle()
+                rate.sleep(stop.is_set)
+        finally:
+            if not self._node.closed:
+                self._drive(STOP)
+            with self._lock:
+                if self._server.is_active() and not self._node.closed:
+                    self._server.set_aborted(
+                        None, "Aborting on the goal because the node has been killed"
+                    )
+
+    def cycle(self) -> None:
+        """Take what came, update what is due, and take a step towards the goal."""
+        now = self._node.clock.now()
+        with self._lock:
+            ready = [costmap.cycle(now) for costmap in (self.whole, self.local)]
+            self._diagnosis.look(waiting=not all(ready))
+            if not all(ready):
+                return
+            if not self._started:
+                self._started = True
+                self._server.start()
+            self._take_goal(now)
+            state = self._state()
+            if state is None or self._law.goal is None:
+                return
+            self._tell(self._law.update(now / SECOND, state), state, now)
+
+    def _missing(self) -> list[str]:
+        whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
+        base = self.stack.local.base_frame
+        found = missing_links(
+            self.frames.tree, whole if whole != local else "", local, base, self.local.sensor_frame
+        )
+        return found + self.whole.missing() + self.local.missing()
+
+    def _state(self) -> RobotState | None:
+        whole, local = self.whole.pose, self.local.pose
+        if whole is None or local is None:
+            return None
+        return RobotState(whole, local, self._velocity)
+
+    def _hear(self, message: Any) -> None:
+        twist = message.twist.twist
+        self._velocity = twist.linear.x, twist.linear.y, twist.angular.z
+
+    # Goals --------------------------------------------------------------------------------
+
+    def _forward(self, message: Any) -> None:
+        """A simple goal becomes one of the action."""
+        goal: Any = load_message("move_base_msgs/MoveBaseActionGoal")()
+        goal.header.stamp = Time(nsecs=self._node.clock.now())
+        goal.goal.target_pose = message
+        self._goals.publish(goal)
+
+    def _take_goal(self, now: int) -> None:
+        server = self._server
+        if server.is_new_goal_available():
+            goal = server.accept_new_goal()
+            if goal is None:
+                return
+            fault = wrong_quaternion(goal.target_pose.pose.orientation)
+            if fault is not None:
+                self._law.cancel()
+                server.set_aborted(
+                    None, "Aborting on goal because it was sent with an invalid quaternion"
+                )
+                self._drive(STOP)
+                return
+            found = self._in_whole(goal.target_pose)
+            if found is None:
+                self._law.cancel()
+                server.set_aborted(None, "Aborting on goal because its frame is not known")
+                self._drive(STOP)
+                return
+            self._law.set_goal(found, now / SECOND)
+            self._current.publish(stamped(found, self.stack.whole.costmap.frame, now))
+        if server.is_active() and server.is_preempt_requested():
+            self._law.cancel()
+            server.set_preempted()
+            self._drive(STOP)
+
+    def _in_whole(self, target: Any) -> Pose2 | None:
+        """A ``PoseStamped`` in the frame of the global costmap; None if its frame is not known."""
+        frame = target.header.frame_id.strip("/") or self.stack.whole.costmap.frame
+        to_whole = self.frames.pose(self.stack.whole.costmap.frame, frame)
+        return None if to_whole is None else composed(to_whole, pose_of(target.pose))
+
+    def _tell(self, step: MoveStep, state: RobotState, now: int) -> None:
+        """Do what a step says, and say it."""
+        whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
+        feedback: Any = load_message("move_base_msgs/MoveBaseFeedback")()
+        feedback.base_position = stamped(state.in_whole, whole, now)
+        self._server.publish_feedback(feedback)
+        if step.velocity is not None:
+            self._drive(step.velocity)
+        if step.plan is not None:
+            message = path_message(step.plan, whole, now)
+            self._plans.publish(message)
+            self._whole_plans.publish(message)
+        ahead = self._law.controller.local_plan
+        if ahead is not None and self._local_plans.num_connections:
+            self._local_plans.publish(path_message(ahead, local, now))
+        if step.recovery is not None:
+            self._recovery.publish(self._status(step.recovery, feedback.base_position))
+        if step.outcome is GoalOutcome.SUCCEEDED:
+            self._server.set_succeeded(None, step.text)
+        elif step.outcome is GoalOutcome.ABORTED:
+            self._server.set_aborted(None, step.text)
+
+    def _status(self, recovery: tuple[int, str], pose: Any) -> Any:
+        status: Any = load_message("move_base_msgs/RecoveryStatus")()
+        status.pose_stamped = pose
+        status.current_recovery_number, status.recovery_behavior_name = recovery
+        status.total_number_of_recoveries = len(self._law.recoveries)
+        return status
+
+    def _drive(self, velocity: Velocity) -> None:
+        self._commands.publish(twist_message(velocity))
+
+    # Services -----------------------------------------------------------------------------
+
+    def _make_plan(self, request: Any) -> list[Any]:
+        """A plan from a start, or from where the robot is; nothing while it has a goal."""
+        now, frame = self._node.clock.now(), self.stack.whole.costmap.frame
+        with self._lock:
+            start = None
+            if request.start.header.frame_id:
+                start = self._in_whole(request.start)
+            elif self.whole.pose is not None:
+                start = self.whole.pose
+            goal = self._in_whole(request.goal)
+            if start is None or goal is None or self._law.goal is not None:
+                return [path_message(np.zeros((0, 3)), frame, now)]
+            plan = self._law.make_plan(start, goal, float(request.tolerance))
+        return [path_message(plan, frame, now)]
+
+    def _clear(self, request: Any) -> list[Any]:
+        del request
+        with self._lock:
+            self.stack.whole.costmap.reset()
+            self.stack.local.costmap.reset()
+        return []

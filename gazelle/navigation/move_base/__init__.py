@@ -1,0 +1,19 @@
+"""To a goal and no further: the law of ROS's ``move_base``."""
+
+from __future__ import annotations
+
+from gazelle.navigation.move_base.assembly import NavigationStack, navigation_stack
+from gazelle.navigation.move_base.recovery import RecoveryBehavior, register_recovery
+from gazelle.navigation.move_base.settings import MoveBaseSettings
+from gazelle.navigation.move_base.state_machine import GoalOutcome, MoveBase, RobotState
+
+__all__ = [
+    "GoalOutcome",
+    "MoveBase",
+    "MoveBaseSettings",
+    "NavigationStack",
+    "RecoveryBehavior",
+    "RobotState",
+    "navigation_stack",
+    "register_recovery",
+]

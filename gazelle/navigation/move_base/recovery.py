@@ -1,0 +1,150 @@
+"""What to do when there is no way on: forget obstacles, or look around."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from gazelle.errors import Error, did_you_mean
+from gazelle.navigation.costmap import Costmap
+from gazelle.navigation.costmap.parameters import Values, value_of
+from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.planners.plugins import Velocity
+from gazelle.navigation.planners.rollout import Rollout
+
+
+class RecoveryBehavior(ABC):
+    """Something a robot does when it has no plan or no velocity.
+
+    Args:
+        name: Of the behaviour.
+        whole: The global costmap.
+        local: The local one.
+        parameters: What stands below its name on the parameter server.
+    """
+
+    def __init__(self, name: str, whole: Costmap, local: Costmap, parameters: Values) -> None:
+        self.name, self.whole, self.local, self.parameters = name, whole, local, parameters
+
+    @abstractmethod
+    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+        """Begin, with the robot at a pose in each costmap's frame."""
+
+    @abstractmethod
+    def update(self, in_local: Pose2) -> Velocity | None:
+        """The velocity to have now; None when it is done."""
+
+
+class ClearCostmapRecovery(RecoveryBehavior):
+    """Forgets obstacles outside a square about the robot, or within.
+
+    Parameters: ``reset_distance`` 3, ``layer_names``, ``affected_maps`` both,
+    ``invert_area_to_clear`` false.
+    """
+
+    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+        """Forget, at once."""
+        side = value_of(self.parameters, "reset_distance", 3.0)
+        # "obstacles" is the original's; flat parameters make a layer of the other name.
+        names = self.parameters.get("layer_names", ["obstacles", "obstacle_layer", "voxel_layer"])
+        maps = value_of(self.parameters, "affected_maps", "both")
+        outside = not value_of(self.parameters, "invert_area_to_clear", False)
+        for which, costmap, pose in (
+            ("global", self.whole, in_whole),
+            ("local", self.local, in_local),
+        ):
+            if maps in {which, "both"}:
+                costmap.clear(pose, side, names, outside=outside)
+
+    def update(self, in_local: Pose2) -> Velocity | None:
+        """It is done."""
+        del in_local
+        return None
+
+
+class RotateRecovery(RecoveryBehavior):
+    """Turns once around, if there is room.
+
+    Parameters: ``sim_granularity`` 0.017 rad, ``acc_lim_th`` 3.2, ``max_rotational_vel`` 1.0,
+    ``min_in_place_rotational_vel`` 0.4, ``yaw_goal_tolerance`` 0.1.
+    """
+
+    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+        """Turn, counter-clockwise."""
+        del in_whole
+        self._last = in_local[2]
+        self._left = 2.0 * math.pi
+
+    def update(self, in_local: Pose2) -> Velocity | None:
+        """Go on turning."""
+        self._left -= wrapped(in_local[2] - self._last)
+        self._last = in_local[2]
+        values = self.parameters
+        if self._left < value_of(values, "yaw_goal_tolerance", 0.1) or not self._has_room(in_local):
+            return None
+        rate = math.sqrt(2.0 * value_of(values, "acc_lim_th", 3.2) * self._left)
+        least = value_of(values, "min_in_place_rotational_vel", 0.4)
+        most = value_of(values, "max_rotational_vel", 1.0)
+        return 0.0, 0.0, min(max(rate, least), most)
+
+    def _has_room(self, pose: Pose2) -> bool:
+        """Whether it hits nothing in what is left to turn."""
+        costs = self.local.cells
+        grids = np.zeros((4, *costs.shape), np.int32)
+        rollout = Rollout(
+            costs,
+            self.local.origin,
+            self.local.resolution,
+            self.local.footprint,
+            grids,
+            np.zeros(6),
+            0.0,
+        )
+        step = max(value_of(self.parameters, "sim_granularity", 0.017), 1e-3)
+        turns = np.arange(0.0, min(self._left, 2.0 * math.pi), step)
+        return all(
+            rollout.footprint_cost(pose[0], pose[1], pose[2] + turn) >= 0.0 for turn in turns
+        )
+
+
+MakeRecovery = Callable[[str, Costmap, Costmap, Values], RecoveryBehavior]
+_KINDS: dict[str, MakeRecovery] = {
+    "clear_costmap_recovery/ClearCostmapRecovery": ClearCostmapRecovery,
+    "rotate_recovery/RotateRecovery": RotateRecovery,
+}
+
+
+def register_recovery(kind: str, make: MakeRecovery) -> None:
+    """Give a type's name to a recovery behaviour, in this process."""
+    _KINDS[kind] = make
+
+
+def make_recovery(
+    entry: Mapping[str, Any], whole: Costmap, local: Costmap, values: Values, *, conservative: float
+) -> RecoveryBehavior:
+    """The behaviour of an entry ``{name, type}``.
+
+    Args:
+        entry: Name and type.
+        whole: The global costmap.
+        local: The local one.
+        values: Parameters of ``move_base``; its own stand below its name.
+        conservative: ``conservative_reset_dist`` [m].
+
+    Raises:
+        Error: The type is unknown.
+    """
+    name, kind = str(entry["name"]), str(entry["type"])
+    if kind not in _KINDS:
+        raise Error(f"the recovery type '{kind}' is unknown", hint=did_you_mean(kind, _KINDS))
+    own = values.get(name)
+    given: dict[str, Any] = dict(own) if isinstance(own, Mapping) else {}
+    if name == "conservative_reset":
+        given.setdefault("reset_distance", conservative)
+    elif name == "aggressive_reset":
+        given.setdefault("reset_distance", 4.0 * local.circumscribed)
+    return _KINDS[kind](name, whole, local, given)

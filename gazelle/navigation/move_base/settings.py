@@ -1,0 +1,78 @@
+"""Parameters of ``move_base``, and what it was made of from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+from gazelle.errors import Error
+from gazelle.navigation.costmap.parameters import Values, value_of
+
+DEFAULT_RECOVERY = (
+    {"name": "conservative_reset", "type": "clear_costmap_recovery/ClearCostmapRecovery"},
+    {"name": "rotate_recovery", "type": "rotate_recovery/RotateRecovery"},
+    {"name": "aggressive_reset", "type": "clear_costmap_recovery/ClearCostmapRecovery"},
+    {"name": "rotate_recovery", "type": "rotate_recovery/RotateRecovery"},
+)
+
+
+@dataclass(frozen=True, slots=True)
+class MoveBaseSettings:
+    """Names and defaults are those of ``move_base``."""
+
+    base_global_planner: str = "navfn/NavfnROS"
+    base_local_planner: str = "base_local_planner/TrajectoryPlannerROS"
+    planner_frequency: float = 0.0
+    controller_frequency: float = 20.0
+    planner_patience: float = 5.0
+    controller_patience: float = 15.0
+    max_planning_retries: int = -1
+    oscillation_timeout: float = 0.0
+    oscillation_distance: float = 0.5
+    conservative_reset_dist: float = 3.0
+    recovery_behavior_enabled: bool = True
+    clearing_rotation_allowed: bool = True
+    shutdown_costmaps: bool = False
+    make_plan_clear_costmap: bool = True
+    make_plan_add_unreachable_goal: bool = True
+
+    @classmethod
+    def read(cls, values: Values) -> MoveBaseSettings:
+        """From parameters.
+
+        Raises:
+            Error: One is of the wrong kind, or the controller would never run.
+        """
+        found: dict[str, Any] = {
+            each.name: value_of(values, each.name, getattr(cls(), each.name))
+            for each in fields(cls)
+        }
+        if not found["controller_frequency"] > 0.0:
+            raise Error("'controller_frequency' must be greater than zero")
+        return cls(**found)
+
+
+def recoveries_of(values: Values, settings: MoveBaseSettings) -> list[Mapping[str, Any]]:
+    """Names and types of recovery behaviours, in their order.
+
+    Raises:
+        Error: An entry of ``recovery_behaviors`` is none, or a name stands there twice.
+    """
+    given = values.get("recovery_behaviors")
+    if given is None:
+        return [
+            each
+            for each in DEFAULT_RECOVERY
+            if settings.clearing_rotation_allowed or "Rotate" not in each["type"]
+        ]
+    if not isinstance(given, list):
+        raise Error("'recovery_behaviors' is a list of entries {name: ..., type: ...}")
+    names = set()
+    for each in given:
+        if not isinstance(each, Mapping) or not {"name", "type"} <= set(each):
+            raise Error(f"an entry of 'recovery_behaviors' has a name and a type, not {each!r}")
+        if each["name"] in names:
+            raise Error(f"the recovery behaviour '{each['name']}' is there twice")
+        names.add(each["name"])
+    return list(given)
