@@ -1,0 +1,251 @@
+"""Map and place at once, by particles with a map each: what ``gmapping`` does."""
+
+# ruff: noqa: N815  # the parameters are called so
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import Pose
+from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
+from gazelle.errors import Error
+from gazelle.navigation.costmap.parameters import Values, value_of
+from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
+from gazelle.navigation.planners.planar import between, composed, inverse
+
+
+@dataclass(frozen=True, slots=True)
+class GmappingSettings:
+    """Parameters; names and defaults are those of ``slam_gmapping``."""
+
+    maxUrange: float = 0.0
+    maxRange: float = 0.0
+    sigma: float = 0.05
+    kernelSize: int = 1
+    lstep: float = 0.05
+    astep: float = 0.05
+    iterations: int = 5
+    lsigma: float = 0.075
+    ogain: float = 3.0
+    lskip: int = 0
+    minimumScore: float = 0.0
+    srr: float = 0.1
+    srt: float = 0.2
+    str: float = 0.1
+    stt: float = 0.2
+    linearUpdate: float = 1.0
+    angularUpdate: float = 0.5
+    temporalUpdate: float = -1.0
+    resampleThreshold: float = 0.5
+    particles: int = 30
+    xmin: float = -100.0
+    ymin: float = -100.0
+    xmax: float = 100.0
+    ymax: float = 100.0
+    delta: float = 0.05
+    occ_thresh: float = 0.25
+
+    @classmethod
+    def read(cls, values: Values) -> GmappingSettings:
+        """From parameters.
+
+        Raises:
+            Error: One is of the wrong kind, or the map would be none.
+        """
+        found: dict[str, Any] = {
+            each.name: value_of(values, each.name, getattr(cls(), each.name))
+            for each in fields(cls)
+        }
+        settings = cls(**found)
+        if (
+            not settings.delta > 0.0
+            or settings.xmax <= settings.xmin
+            or settings.ymax <= settings.ymin
+        ):
+            raise Error(
+                "a map needs a positive 'delta', and 'xmin' below 'xmax', 'ymin' below 'ymax'"
+            )
+        if settings.particles < 1:
+            raise Error("'particles' is 1 or more")
+        return settings
+
+
+class GridSlam:
+    """Particles with a pose and a map each.
+
+    Args:
+        settings: As of ``gmapping``.
+        seed: Of all that is drawn.
+
+    Attributes:
+        poses: Of the robot on each particle's map, shape (n, 3).
+        map_to_odom: Where the frame of the odometry is on the best map; None before the first scan.
+    """
+
+    def __init__(self, settings: GmappingSettings, seed: int = 0) -> None:
+        self.settings = settings
+        s = settings
+        self._random = np.random.default_rng(seed)
+        side = s.delta * SIDE
+        columns = math.ceil((s.xmax - s.xmin) / side)
+        rows = math.ceil((s.ymax - s.ymin) / side)
+        # As in the original, sigma divides squares of distances.
+        self._maps = TiledMaps(
+            s.particles, rows, columns, (s.xmin, s.ymin), s.delta, s.sigma, s.lsigma, s.kernelSize
+        )
+        self.poses: Floats = np.zeros((s.particles, 3))
+        self._scores: Floats = np.zeros(s.particles)
+        self._sums: Floats = np.zeros(s.particles)
+        self.weights: Floats = np.full(s.particles, 1.0 / s.particles)
+        self.map_to_odom: Pose2 | None = None
+        self._odom: Pose2 | None = None
+        self._way = self._turn = 0.0
+        self._time = -math.inf
+
+    @property
+    def best(self) -> int:
+        """The particle with the greatest weight over all scans."""
+        return int(self._sums.argmax())
+
+    def entropy(self) -> float:
+        """Of the particles' weights, as ``~entropy`` publishes it."""
+        weights = self.weights[self.weights > 0.0]
+        return float(-(weights * np.log(weights)).sum())
+
+    def update(
+        self,
+        time: float,
+        odom: Pose2,
+        ranges: Floats,
+        angles: Floats,
+        range_max: float,
+        laser: Pose2,
+    ) -> bool:
+        """Take a scan, if the robot has moved or some time has gone.
+
+        Args:
+            time: Of the scan [s].
+            odom: Pose of the robot by odometry then.
+            ranges: [m], shape (n,).
+            angles: Of beams in the laser's frame [rad], shape (n,).
+            range_max: Greatest range of the laser [m].
+            laser: Its pose in the robot's frame.
+
+        Returns:
+            Whether the maps have changed.
+        """
+        s = self.settings
+        first = self._odom is None
+        before = odom if self._odom is None else self._odom
+        self._move(before, odom)
+        self._odom = odom
+        step = between(before, odom)
+        self._way += math.hypot(step[0], step[1])
+        self._turn += abs(step[2])
+        late = s.temporalUpdate >= 0.0 and time - self._time > s.temporalUpdate
+        if not (first or late or self._way >= s.linearUpdate or self._turn >= s.angularUpdate):
+            self._place(odom)
+            return False
+        self._way = self._turn = 0.0
+        self._time = time
+        most = s.maxRange if s.maxRange > 0.0 else range_max
+        usable = s.maxUrange if s.maxUrange > 0.0 else most
+        good = np.isfinite(ranges) & (ranges > 0.0) & (ranges < most)
+        beams = np.stack(
+            (ranges[good] * np.cos(angles[good]), ranges[good] * np.sin(angles[good])), axis=1
+        )
+        if first:
+            self._register(beams, usable, laser)
+        else:
+            self._match(beams[ranges[good] < usable], laser)
+            self._weigh()
+            self._resample()
+            self._register(beams, usable, laser)
+        self._place(odom)
+        return True
+
+    def _move(self, before: Pose2, after: Pose2) -> None:
+        """Move particles as odometry did, with noise (gmapping's motion model)."""
+        s = self.settings
+        x, y, turn = between(before, after)
+        length = math.hypot(x, y)
+        sxy = 0.3 * s.srr
+        sigmas = (
+            s.srr * abs(x) + s.str * abs(turn) + sxy * abs(y),
+            s.srr * abs(y) + s.str * abs(turn) + sxy * abs(x),
+            s.stt * abs(turn) + s.srt * length,
+        )
+        noise = self._random.standard_normal((3, len(self.poses)))
+        dx, dy = x + sigmas[0] * noise[0], y + sigmas[1] * noise[1]
+        cos, sin = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
+        self.poses[:, 0] += cos * dx - sin * dy
+        self.poses[:, 1] += sin * dx + cos * dy
+        self.poses[:, 2] += turn + sigmas[2] * noise[2]
+
+    def _match(self, beams: Floats, laser: Pose2) -> None:
+        """Move each particle to where the scan fits its map, and weigh it."""
+        s = self.settings
+        used = np.ascontiguousarray(beams[:: s.lskip + 1])
+        logs = np.zeros(len(self.poses))
+        back = inverse(laser)
+        for particle, pose in enumerate(self.poses):
+            x, y, heading = pose.tolist()
+            seen = np.array(composed((x, y, heading), laser))
+            found = seen.copy()
+            score, likelihood = self._maps.match(
+                particle, found, used, s.lstep, s.astep, s.iterations
+            )
+            if score <= s.minimumScore:
+                found = seen
+                # It stays where odometry says, with the likelihood that it has there.
+                _, likelihood = self._maps.match(particle, seen.copy(), used, 0.0, 0.0, 0)
+            x, y, heading = found.tolist()
+            self.poses[particle] = composed((x, y, heading), back)
+            logs[particle] = likelihood
+        self._scores, self._sums = self._scores + logs, self._sums + logs
+
+    def _weigh(self) -> None:
+        """Weights of the likelihoods since the last resampling, flattened by ``ogain``."""
+        s = self.settings
+        gain = 1.0 / (s.ogain * len(self.poses))
+        weights = np.exp(gain * (self._scores - self._scores.max()))
+        self.weights = weights / weights.sum()
+
+    def _resample(self) -> None:
+        """Draw particles anew when few of them count."""
+        count = len(self.poses)
+        if 1.0 / (self.weights**2).sum() >= self.settings.resampleThreshold * count:
+            return
+        start = self._random.random() / count
+        places = np.searchsorted(np.cumsum(self.weights), start + np.arange(count) / count)
+        chosen = np.minimum(places, count - 1)
+        self.poses, self._scores = self.poses[chosen].copy(), np.zeros(count)
+        self._sums = self._sums[chosen]
+        self._maps.copy_particles(chosen)
+        self.weights = np.full(count, 1.0 / count)
+
+    def _register(self, beams: Floats, usable: float, laser: Pose2) -> None:
+        for particle, pose in enumerate(self.poses):
+            x, y, heading = pose.tolist()
+            seen = np.array(composed((x, y, heading), laser))
+            self._maps.register(particle, seen, beams, usable)
+
+    def _place(self, odom: Pose2) -> None:
+        x, y, heading = self.poses[self.best].tolist()
+        self.map_to_odom = composed((x, y, wrapped(heading)), inverse(odom))
+
+    def map(self) -> OccupancyMap:
+        """The best particle's map, of all that it may hold."""
+        s = self.settings
+        _, _, hits, visits = self._maps.cells(self.best)
+        data = np.full(hits.shape, UNKNOWN, np.int8)
+        seen = visits > 0
+        share = hits[seen] / visits[seen]
+        data[seen] = np.where(share > s.occ_thresh, OCCUPIED, FREE)
+        return OccupancyMap(data, s.delta, Pose(s.xmin, s.ymin))
