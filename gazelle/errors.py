@@ -122,6 +122,10 @@ class ControlWarning(GazelleWarning):
     """A controller, or something it was told, is ignored or done differently."""
 
 
+class PlanningWarning(GazelleWarning):
+    """A planner, or something it was told, is replaced or ignored."""
+
+
 class PluginWarning(SimulationWarning):
     """A plugin failed; the simulation goes on without it."""
 

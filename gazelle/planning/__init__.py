@@ -12,26 +12,52 @@ from gazelle.native import search_path
 __path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.planning.allowed_collisions import AllowedCollisionMatrix
+from gazelle.planning.cartesian_path import CartesianPath, JumpLimits
+from gazelle.planning.constraints import (
+    ConstraintSet,
+    JointConstraint,
+    OrientationConstraint,
+    PositionConstraint,
+    goal_of_pose,
+)
 from gazelle.planning.inverse import IkSolutions, InverseKinematics
 from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
+from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene, SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
+from gazelle.planning.time_parameterization import JointLimits, TimedPath, parameterize
 from gazelle.planning.tree_builder import LinkFrame
 from gazelle.planning.variables import JointBounds, Variable
 
 __all__ = [
     "AllowedCollisionMatrix",
     "AttachedObject",
+    "CartesianPath",
+    "ConstraintSet",
     "IkSolutions",
     "InverseKinematics",
     "JointBounds",
+    "JointConstraint",
+    "JointLimits",
     "JointModelGroup",
+    "JumpLimits",
     "LinkFrame",
+    "MotionPlan",
+    "MotionPlanner",
+    "NoPlanError",
+    "OrientationConstraint",
+    "PlanOptions",
+    "PlanOutcome",
     "PlanningScene",
+    "PositionConstraint",
     "RobotModel",
     "SceneContact",
     "SceneObject",
+    "TimedPath",
     "Variable",
+    "goal_of_pose",
+    "parameterize",
     "voxel_boxes",
 ]

@@ -63,6 +63,9 @@ class RobotModel:
         self.tree = builder.tree()
         self.nodes = builder.nodes
         self._sources = [builder.source(node) for node in builder.nodes]
+        self._followers = [
+            (column, *source) for column, source in enumerate(self._sources) if column != source[0]
+        ]
         self._column = {variable.name: i for i, variable in enumerate(self.variables)}
         self._groups: dict[str, JointModelGroup] = {}
 
@@ -235,9 +238,8 @@ class RobotModel:
             state: Shape (..., variables).
         """
         made = np.array(state, np.float64)
-        for column, (source, factor, offset) in enumerate(self._sources):
-            if column != source:
-                made[..., column] = factor * made[..., source] + offset
+        for column, source, factor, offset in self._followers:
+            made[..., column] = factor * made[..., source] + offset
         return made
 
     def forward(self, state: ArrayLike, links: str | Sequence[str]) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -298,7 +298,12 @@ class PlanningScene:
 
     def in_collision(self, state: Floats, group: JointModelGroup | None = None) -> bool:
         """Whether anything touches that may not, in one state, shape (variables,)."""
-        return self._model(group).touches(self.robot.complete(state))
+        return self.collision_check(group)(state)
+
+    def collision_check(self, group: JointModelGroup | None = None) -> Callable[[Floats], bool]:
+        """``in_collision`` for many states of the scene as it is now."""
+        touches, complete = self._model(group).touches, self.robot.complete
+        return lambda state: touches(complete(state))
 
     def why_invalid(
         self, state: ArrayLike | None = None, group: JointModelGroup | None = None

@@ -20,7 +20,7 @@ from gazelle.errors import PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import AllowedCollisionMatrix, PlanningScene, RobotModel, voxel_boxes
 
-RADIUS = 0.05
+RADIUS = 0.04
 """Of the spheres on the iiwa's links."""
 
 
@@ -85,7 +85,7 @@ def test_a_cone_has_its_apex_up():
     scene.add("cone", Cone(0.1, height), up * Pose(z=-(height / 2 + RADIUS - 0.004)))
     (contact,) = scene.contacts()
     assert contact.depth == pytest.approx(0.004, abs=5e-4)
-    beside = 0.08 + RADIUS
+    beside = 0.09 + RADIUS
     scene.move("cone", up * Pose(x=beside, z=-height / 2))
     assert not scene.contacts()  # here the cone is thin
     scene.move("cone", up * Pose(x=beside, z=height / 2))
@@ -132,10 +132,10 @@ def test_padding_counts_towards_obstacles_only():
 def test_scale():
     scene = alone()
     ball = scene.pose_of("iiwa_link4")
-    scene.add("wall", Box((0.1, 1, 1)), Pose(ball.x + 0.05 + 0.06, ball.y, ball.z))
+    scene.add("wall", Box((0.1, 1, 1)), Pose(ball.x + 0.05 + 0.048, ball.y, ball.z))
     assert not scene.contacts()
     scene.set_scale({"iiwa_link4": 1.3})
-    assert scene.contacts()[0].depth == pytest.approx(0.005, abs=1e-6)
+    assert scene.contacts()[0].depth == pytest.approx(0.004, abs=1e-6)
 
 
 def tucked():

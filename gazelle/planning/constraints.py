@@ -1,0 +1,208 @@
+"""What a goal or all states of a plan must fulfil: joints, positions and orientations of links."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import Box, Cylinder, Pose, Sphere, Vector3
+from gazelle.errors import PlanningError
+from gazelle.planning.robot_model import RobotModel
+
+Region = Box | Sphere | Cylinder
+
+
+@dataclass(frozen=True, slots=True)
+class JointConstraint:
+    """A joint near a position.
+
+    Attributes:
+        joint: Its variable.
+        position: [m or rad].
+        above: How far it may be above that.
+        below: How far it may be below that.
+    """
+
+    joint: str
+    position: float
+    above: float = 1e-4
+    below: float = 1e-4
+
+    def violation(self, robot: RobotModel, state: Floats) -> str | None:
+        """What is wrong with a state, shape (variables,); None if nothing is."""
+        column = robot.column(self.joint)
+        way = float(state[column]) - self.position
+        if robot.variables[column].endless:
+            way = math.remainder(way, 2.0 * math.pi)
+        if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
+            return None
+        return (
+            f"joint '{self.joint}' at {state[column]:.4f} is not within "
+            f"[{self.position - self.below:.4f}, {self.position + self.above:.4f}]"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class PositionConstraint:
+    """A point of a link inside of a region.
+
+    Attributes:
+        link: Its name.
+        region: A box, sphere or cylinder.
+        pose: Of the region, in the robot's frame.
+        point: In the link's frame [m].
+    """
+
+    link: str
+    region: Region
+    pose: Pose
+    point: Vector3 = (0.0, 0.0, 0.0)
+
+    def violation(self, robot: RobotModel, state: Floats) -> str | None:
+        """What is wrong with a state, shape (variables,); None if nothing is."""
+        point = robot.pose(state, self.link).apply(self.point)
+        away = _outside(self.region, self.pose.inverse().apply(point))
+        if away <= _ROUNDING:
+            return None
+        return f"link '{self.link}' is {away:.4f} m outside of its region"
+
+
+@dataclass(frozen=True, slots=True)
+class OrientationConstraint:
+    """A link turned as wanted, within angles about three axes.
+
+    Attributes:
+        link: Its name.
+        orientation: In the robot's frame; the position of the pose does not count.
+        tolerances: About x, y and z [rad].
+        measure: What the angles are: ``euler`` angles about the turned x, y and z axes, or a
+            ``rotation vector``; both of the turn that is missing, in the wanted frame.
+    """
+
+    link: str
+    orientation: Pose
+    tolerances: Vector3
+    measure: Literal["euler", "rotation vector"] = "euler"
+
+    def violation(self, robot: RobotModel, state: Floats) -> str | None:
+        """What is wrong with a state, shape (variables,); None if nothing is."""
+        wanted = self.orientation.matrix()[:3, :3]
+        turn = wanted.T @ robot.forward(state, self.link)[:3, :3]
+        angles = _euler(turn) if self.measure == "euler" else rotation_vector(turn)
+        for axis, angle, limit in zip("xyz", angles, self.tolerances, strict=True):
+            if abs(angle) > limit + _ROUNDING:
+                return (
+                    f"link '{self.link}' is turned about {axis} by {abs(angle):.4f} rad, "
+                    f"more than {limit:.4f}"
+                )
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class ConstraintSet:
+    """Constraints that all hold together.
+
+    Attributes:
+        joints: Of joints.
+        positions: Of points.
+        orientations: Of links.
+        name: For people.
+    """
+
+    joints: tuple[JointConstraint, ...] = ()
+    positions: tuple[PositionConstraint, ...] = ()
+    orientations: tuple[OrientationConstraint, ...] = ()
+    name: str = field(default="", compare=False)
+
+    def check(self, robot: RobotModel) -> None:
+        """See that links and joints are there.
+
+        Raises:
+            PlanningError: One is not, or a tolerance is below zero.
+        """
+        for joint in self.joints:
+            robot.column(joint.joint)
+            if joint.above < 0.0 or joint.below < 0.0:
+                raise PlanningError(f"a tolerance of joint '{joint.joint}' is below zero")
+        for position in self.positions:
+            robot.link(position.link)
+        for orientation in self.orientations:
+            robot.link(orientation.link)
+            if min(orientation.tolerances) < 0.0:
+                raise PlanningError(f"a tolerance of link '{orientation.link}' is below zero")
+
+    def violations(self, robot: RobotModel, state: Floats) -> list[str]:
+        """What is wrong with a state, shape (variables,), a text each."""
+        parts: list[JointConstraint | PositionConstraint | OrientationConstraint] = []
+        parts += [*self.joints, *self.positions, *self.orientations]
+        return [text for part in parts if (text := part.violation(robot, state)) is not None]
+
+    def __bool__(self) -> bool:
+        return bool(self.joints or self.positions or self.orientations)
+
+
+_ROUNDING = 1e-9
+
+
+def _outside(region: Region, point: Sequence[float]) -> float:
+    """How far a point of a region's frame is outside of it [m]."""
+    if isinstance(region, Sphere):
+        return math.hypot(*point) - region.radius
+    if isinstance(region, Cylinder):
+        radial = math.hypot(point[0], point[1]) - region.radius
+        return max(radial, abs(point[2]) - region.length / 2.0)
+    return max(abs(p) - size / 2.0 for p, size in zip(point, region.size, strict=True))
+
+
+def _euler(r: Floats) -> tuple[float, float, float]:
+    """Angles a, b, c of R = Rx(a) Ry(b) Rz(c)."""
+    sine = max(-1.0, min(1.0, float(r[0, 2])))
+    if abs(sine) > 1.0 - 1e-12:
+        return (math.atan2(r[2, 1], r[1, 1]), math.asin(sine), 0.0)
+    return (math.atan2(-r[1, 2], r[2, 2]), math.asin(sine), math.atan2(-r[0, 1], r[0, 0]))
+
+
+def rotation_vector(r: Floats) -> tuple[float, float, float]:
+    """Axis times angle [rad] of a rotation matrix, shape (3, 3)."""
+    x, y, z, w = Pose.from_matrix(r).quaternion
+    sine = math.sqrt(x * x + y * y + z * z)
+    if sine < 1e-12:
+        return (0.0, 0.0, 0.0)
+    angle = 2.0 * math.atan2(sine, abs(w)) / sine * (1.0 if w >= 0.0 else -1.0)
+    return (angle * x, angle * y, angle * z)
+
+
+def goal_of_pose(
+    link: str, pose: Pose, distance: float = 1e-4, angle: float = 1e-3
+) -> ConstraintSet:
+    """A link at a pose in the robot's frame, within a distance [m] and angles [rad]."""
+    at = Pose.from_quaternion(pose.position)
+    return ConstraintSet(
+        positions=(PositionConstraint(link, Sphere(distance), at),),
+        orientations=(OrientationConstraint(link, pose, (angle, angle, angle), "rotation vector"),),
+    )
+
+
+def nearest_on(constraints: ConstraintSet, robot: RobotModel, state: Floats) -> list[Pose]:
+    """For each constraint of orientation: the pose of its link turned into what it allows."""
+    made = []
+    for each in constraints.orientations:
+        here = robot.pose(state, each.link)
+        turn = each.orientation.matrix()[:3, :3].T @ here.matrix()[:3, :3]
+        limits = np.array(each.tolerances)
+        if each.measure == "euler":
+            a, b, c = np.clip(_euler(turn), -limits, limits).tolist()
+            kept = Pose(roll=a) * Pose(pitch=b) * Pose(yaw=c)
+        else:
+            vector = np.clip(rotation_vector(turn), -limits, limits)
+            length = float(np.linalg.norm(vector))
+            scale = math.sin(length / 2.0) / length if length > 0.0 else 0.0
+            kept = Pose.from_quaternion((0, 0, 0), (*(scale * vector), math.cos(length / 2.0)))
+        wanted = Pose.from_quaternion((0, 0, 0), each.orientation.quaternion) * kept
+        made.append(Pose.exactly(here.position, wanted.quaternion))
+    return made

@@ -1,0 +1,229 @@
+"""Positions that fulfil a goal: given, named, or found by inverse kinematics; and why there are none."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Floats
+from gazelle.description import Box, Pose, Sphere
+from gazelle.errors import PlanningError
+from gazelle.planning.constraints import (
+    ConstraintSet,
+    OrientationConstraint,
+    PositionConstraint,
+)
+from gazelle.planning.inverse import Aim, InverseKinematics
+from gazelle.planning.outcomes import NoPlanError, PlanOutcome
+from gazelle.planning.state_validity import StateValidity
+
+Goal = Pose | str | Mapping[str, float] | ConstraintSet | ArrayLike
+
+_WANTED = 4
+"""How many positions are looked for; planners go to the one that is found first."""
+_DRAWN = 10
+"""Places within the tolerances of a goal that are tried."""
+
+
+class GoalStates:
+    """Finds valid positions of a group for goals.
+
+    Args:
+        validity: Of the group; what is asked for starts at its state.
+        start: Positions of the group, shape (n,).
+        link: What poses are of; the group's tip if None.
+        seed: Of what is drawn.
+    """
+
+    def __init__(
+        self, validity: StateValidity, start: Floats, link: str | None = None, seed: int = 0
+    ) -> None:
+        self._validity, self._start = validity, start
+        self._group, self._robot = validity.group, validity.scene.robot
+        self._link, self._seed = link, seed
+
+    def find(self, goal: Goal) -> Floats:
+        """Valid positions, endless joints the shorter way round from the start, shape (k, n).
+
+        Args:
+            goal: A pose of the link in the robot's frame, the name of a state, positions by name or
+                of all joints, or constraints.
+
+        Raises:
+            NoPlanError: There are none; it says what is in the way.
+            PlanningError: The goal names what is not there.
+        """
+        if isinstance(goal, Pose):
+            link = self._group.tip if self._link is None else self._link
+            return self._of_pose(link, "pose", [goal], ConstraintSet())
+        if isinstance(goal, ConstraintSet):
+            return self._of_constraints(goal)
+        named = self._group.named(goal) if isinstance(goal, str) else goal
+        return self._of_positions(self._group.positions(named, self._start))
+
+    def _of_positions(self, wanted: Floats) -> Floats:
+        """One goal, which is valid or is none."""
+        near = self._start + self._group.difference(self._start, wanted)
+        beyond = self._group.beyond(near)
+        if beyond:
+            raise NoPlanError(
+                "the goal cannot be: " + "; ".join(beyond), PlanOutcome.INVALID_GOAL_CONSTRAINTS
+            )
+        if not self._validity(near):
+            self._refuse([near])
+        return near[None]
+
+    def _of_constraints(self, goal: ConstraintSet) -> Floats:
+        goal.check(self._robot)
+        if not goal:
+            raise NoPlanError("the goal says nothing", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
+        links = {each.link for each in goal.positions}
+        links |= {each.link for each in goal.orientations}
+        if not links:
+            return self._of_joints(goal)
+        if len(links) > 1:
+            raise NoPlanError(
+                f"the goal is about {len(links)} links at once: {', '.join(sorted(links))}",
+                PlanOutcome.INVALID_GOAL_CONSTRAINTS,
+                "one link has a pose; say the others by joints",
+            )
+        random = np.random.default_rng(self._seed)
+        poses = [_drawn(goal, random, first=number == 0) for number in range(_DRAWN)]
+        aim: Aim = "pose" if goal.positions and goal.orientations else (
+            "position" if goal.positions else "orientation"
+        )  # fmt: skip
+        return self._of_pose(next(iter(links)), aim, poses, goal)
+
+    def _of_joints(self, goal: ConstraintSet) -> Floats:
+        """A goal of joints alone: the middle of each, within its limits."""
+        own = {each.joint: each.position for each in goal.joints if each.joint in self._group.names}
+        wanted = np.clip(
+            self._start
+            + self._group.difference(self._start, self._group.positions(own, self._start)),
+            self._group.lower,
+            self._group.upper,
+        )
+        violated = goal.violations(self._robot, self._validity.full(wanted))
+        if violated:
+            raise NoPlanError(
+                "the goal cannot be: " + "; ".join(violated), PlanOutcome.INVALID_GOAL_CONSTRAINTS
+            )
+        return self._of_positions(wanted)
+
+    def _of_pose(self, link: str, aim: Aim, poses: Sequence[Pose], goal: ConstraintSet) -> Floats:
+        """Positions that bring a link to one of some poses."""
+        solver = InverseKinematics(self._robot, self._group, link, aim=aim, seed=self._seed)
+        good: list[Floats] = []
+        bad: list[Floats] = []
+
+        def take(positions: Floats) -> bool:
+            fits = not goal.violations(self._robot, self._validity.full(positions))
+            if not fits or not self._validity(positions):
+                bad.append(positions)
+            elif not any(np.allclose(positions, other, atol=1e-3) for other in good):
+                good.append(positions)
+            return len(good) >= _WANTED
+
+        state = self._validity.full(self._start)
+        for pose in poses:
+            solver.solve(pose, state, valid=take)
+            if good:
+                return np.array(good)
+        if bad:
+            self._refuse(bad, goal)
+        raise NoPlanError(self._why_not(link, aim, poses[0]), PlanOutcome.NO_IK_SOLUTION)
+
+    def _refuse(self, positions: Sequence[Floats], goal: ConstraintSet | None = None) -> None:
+        """Say what is wrong with positions that would fulfil the goal.
+
+        Raises:
+            NoPlanError: Always.
+        """
+        group, scene, robot = self._group, self._validity.scene, self._robot
+        pairs: Counter[str] = Counter()
+        broken: Counter[str] = Counter()
+        deepest: dict[str, float] = {}
+        for each in positions:
+            state = self._validity.full(each)
+            for contact in scene.contacts(state, group):
+                pair = f"'{contact.first}' and '{contact.second}'"
+                pairs[pair] += 1
+                deepest[pair] = max(deepest.get(pair, 0.0), contact.depth)
+            broken.update(self._validity.constraints.violations(robot, state))
+            broken.update(goal.violations(robot, state) if goal is not None else [])
+        texts = [
+            f"{pair} collide, {deepest[pair] * 1e3:.1f} mm deep" for pair, _ in pairs.most_common(3)
+        ]
+        texts += [text for text, _ in broken.most_common(3)]
+        number = len(positions)
+        among = "" if number == 1 else f" with any of {number} positions of the joints"
+        outcome = (
+            PlanOutcome.GOAL_IN_COLLISION if pairs else PlanOutcome.GOAL_VIOLATES_PATH_CONSTRAINTS
+        )
+        raise NoPlanError(f"the goal cannot be{among}: " + "; ".join(texts), outcome)
+
+    def _why_not(self, link: str, aim: Aim, pose: Pose) -> str:
+        """Which part of a pose cannot be reached."""
+        x, y, z = pose.position
+        place = f"({x:.3f}, {y:.3f}, {z:.3f})"
+        state = self._validity.full(self._start)
+        if aim != "orientation" and not self._reaches(link, "position", pose, state):
+            return f"no positions of the joints bring '{link}' to {place}: it is out of reach"
+        angles = ", ".join(f"{angle:.3f}" for angle in pose.rpy)
+        if aim == "position":
+            return f"no positions of the joints bring '{link}' to {place}"
+        if not self._reaches(link, "orientation", pose, state):
+            return f"no positions of the joints turn '{link}' to roll, pitch, yaw ({angles})"
+        return (
+            f"'{link}' reaches {place}, but not with its orientation there: "
+            f"roll, pitch, yaw ({angles})"
+        )
+
+    def _reaches(self, link: str, aim: Aim, pose: Pose, state: Floats) -> bool:
+        solver = InverseKinematics(self._robot, self._group, link, aim=aim, attempts=20)
+        return solver.solve(pose, state) is not None
+
+
+def _drawn(goal: ConstraintSet, random: np.random.Generator, *, first: bool) -> Pose:
+    """A pose that fulfils constraints: the middle of them, then others."""
+    position: tuple[float, ...] = (0.0, 0.0, 0.0)
+    turned = Pose()
+    if goal.orientations:
+        turned = _turned(goal.orientations[0], random, first=first)
+    if goal.positions:
+        position = _placed(goal.positions[0], random, first=first)
+        point = turned.rotate(goal.positions[0].point)
+        if any(goal.positions[0].point) and not goal.orientations:
+            raise PlanningError(
+                "a goal for a point beside a link's origin needs an orientation of the link"
+            )
+        position = tuple(p - q for p, q in zip(position, point, strict=True))
+    return Pose.from_quaternion(position, turned.quaternion)
+
+
+def _turned(goal: OrientationConstraint, random: np.random.Generator, *, first: bool) -> Pose:
+    wanted = Pose.from_quaternion((0, 0, 0), goal.orientation.quaternion)
+    if first:
+        return wanted
+    a, b, c = (random.uniform(-1.0, 1.0, 3) * np.minimum(goal.tolerances, np.pi)).tolist()
+    return wanted * Pose(roll=a) * Pose(pitch=b) * Pose(yaw=c)
+
+
+def _placed(
+    goal: PositionConstraint, random: np.random.Generator, *, first: bool
+) -> tuple[float, ...]:
+    if first:
+        return goal.pose.position
+    draw = random.uniform(-0.5, 0.5, 3)
+    region = goal.region
+    if isinstance(region, Box):
+        local = draw * region.size
+    elif isinstance(region, Sphere):
+        local = draw * (2.0 * region.radius / np.sqrt(3.0))
+    else:
+        across = 2.0 * region.radius / np.sqrt(2.0)
+        local = draw * (across, across, region.length)
+    return goal.pose.apply(local.tolist())

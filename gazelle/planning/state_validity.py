@@ -1,0 +1,108 @@
+"""Which positions of a group are valid in a scene, and which straight ways between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.planning.constraints import ConstraintSet
+from gazelle.planning.joint_group import SAMPLED_SPAN, JointModelGroup
+from gazelle.planning.scene import PlanningScene
+
+LONGEST_SEGMENT = 0.005
+"""Distance of checked states, as a fraction of the extent of all positions (MoveIt's default)."""
+
+
+class StateValidity:
+    """Judges positions of a group; all other joints stay as they are in a state.
+
+    A change of the scene that is made later does not count.
+
+    Args:
+        scene: What must not be touched.
+        group: Whose positions are asked for.
+        state: Of all variables, shape (variables,).
+        constraints: That hold in every state.
+        segment: Distance of the states that are checked on a way, as a fraction of the extent.
+
+    Attributes:
+        resolution: That distance, as ``JointModelGroup.distance`` measures it.
+        checks: How many states have been checked.
+    """
+
+    def __init__(
+        self,
+        scene: PlanningScene,
+        group: JointModelGroup,
+        state: Floats,
+        constraints: ConstraintSet | None = None,
+        segment: float = LONGEST_SEGMENT,
+    ) -> None:
+        self.scene, self.group = scene, group
+        self.constraints = constraints or ConstraintSet()
+        self.resolution = segment * extent_of(group)
+        self.checks = 0
+        self._state = np.array(state, np.float64)
+        self._columns = group.columns
+        self._touches = scene.collision_check(group)
+        self._low, self._high = group.lower - 1e-9, group.upper + 1e-9
+
+    def full(self, positions: Floats) -> Floats:
+        """The state of all variables with the group at some positions, shape (variables,)."""
+        state = self._state.copy()
+        state[self._columns] = positions
+        return state
+
+    def __call__(self, positions: Floats) -> bool:
+        """Whether positions, shape (n,), are within limits and constraints, and free of collisions."""
+        self.checks += 1
+        if (positions < self._low).any() or (positions > self._high).any():
+            return False
+        self._state[self._columns] = positions
+        if self.constraints and self.constraints.violations(self.scene.robot, self._state):
+            return False
+        return not self._touches(self._state)
+
+    def reasons(self, positions: Floats) -> list[str]:
+        """Why positions, shape (n,), are not valid, a text each."""
+        state = self.full(positions)
+        return [
+            *self.scene.why_invalid(state, self.group),
+            *self.constraints.violations(self.scene.robot, state),
+        ]
+
+    def way(self, first: Floats, second: Floats, resolution: float | None = None) -> bool:
+        """Whether all states between two positions are valid; the first one counts as checked.
+
+        The middle comes first, as what lies in the way is found soonest so.
+        """
+        step = self.resolution if resolution is None else resolution
+        count = math.ceil(float(np.linalg.norm(second - first)) / step)
+        if not self(second):
+            return False
+        delta = (second - first) / max(count, 1)
+        return all(self(first + number * delta) for number in _bisecting(count))
+
+    def path(self, points: Floats, resolution: float | None = None) -> bool:
+        """Whether a path through points, shape (m, n), is valid, ends included."""
+        return self(points[0]) and all(
+            self.way(first, second, resolution) for first, second in pairwise(points)
+        )
+
+
+def extent_of(group: JointModelGroup) -> float:
+    """The greatest distance between positions of a group; endless joints are half a turn apart."""
+    span = np.where(np.isfinite(group.upper - group.lower), group.upper - group.lower, SAMPLED_SPAN)
+    return float(np.linalg.norm(span))
+
+
+def _bisecting(count: int) -> Iterator[int]:
+    """The numbers between 0 and ``count``, halves before quarters."""
+    stride = 1 << max(count - 1, 0).bit_length()
+    while stride > 1:
+        yield from range(stride // 2, count, stride)
+        stride //= 2
