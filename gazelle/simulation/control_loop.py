@@ -64,6 +64,8 @@ class ControlLoop(ModelPlugin):
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
+        for name in self.hardware.motors - hardware.motors:
+            self._robot.joints[name].add_motor(0.0)
         self.hardware = self.manager.hardware = hardware
 
     def set_period(self, seconds: float) -> None:

@@ -93,6 +93,11 @@ class SimulatedHardware(RobotHardware):
         """Whether nothing is to be done while no controller runs."""
         return False
 
+    @property
+    def motors(self) -> frozenset[str]:
+        """The joints on which it has put motors; what takes its place switches those off."""
+        return frozenset()
+
     def stop_emergency(self, stopped: Bools) -> None:
         """Whether the emergency stop is pressed now, shape (nworld,); told before every step."""
 
@@ -136,9 +141,6 @@ class JointHardware(SimulatedHardware):
         self._placed: Floats = np.full((self.nworld, len(names)), math.nan)
         self._pids: dict[str, Pid] = {}
         self._applied, self._speeds = np.zeros((2, self.nworld, len(names)))
-        for handle in self._handles:
-            if handle.has_motor:  # of hardware that was there before
-                handle.add_motor(0.0)
         self._arrange()
 
     # -- arranging ---------------------------------------------------------------------
@@ -189,6 +191,11 @@ class JointHardware(SimulatedHardware):
                 strength = self._strength[index]
                 self._handles[index].add_motor(min(_STRONG, strength))
                 self._motors[index] = np.full(self.nworld, math.nan)
+
+    @property
+    def motors(self) -> frozenset[str]:
+        """Those that hold velocities without gains."""
+        return frozenset(self._joints[index].name for index in self._motors)
 
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:
         """Command joints through the interfaces that controllers claim."""

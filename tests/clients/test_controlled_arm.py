@@ -7,14 +7,17 @@ from types import SimpleNamespace
 
 import pytest
 from bridges.control.robot_graph import robot_graph
-from control.arms import JOINTS, arm_text
+from control.arms import DATA, JOINTS, arm_text
 
 from gazelle.clients import (
     ClientError,
     Controllers,
+    Gazebo,
     JointCommander,
     JointWaypoint,
+    Processes,
     TrajectoryClient,
+    spawn_robot,
 )
 
 STATES = {"type": "joint_state_controller/JointStateController", "publish_rate": 50}
@@ -268,3 +271,47 @@ def test_a_controller_that_follows_no_trajectories_is_an_error_in_time(arm):
         pytest.raises(ClientError, match=r"/arm/group/follow_joint_trajectory does not answer"),
     ):
         client.move({"elbow": 0.0}, 1.0)
+
+
+# -- a whole robot -----------------------------------------------------------------------------
+
+
+def test_a_robot_is_spawned_with_its_controllers(monkeypatch):
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(DATA))
+    names = ["joints", "lifter", "turner"]
+    with (
+        robot_graph(namespace="/lift") as graph,
+        Processes(graph.node.master_uri) as processes,
+        Gazebo(master_uri=graph.node.master_uri, timeout=60.0) as gazebo,
+    ):
+        spawn_robot(
+            gazebo,
+            processes,
+            "arm",
+            "urdf/lifting_arm.urdf.xacro",
+            package="lifting_arm",
+            namespace="/lift",
+            publisher_rate=None,
+            controller_file="config/controllers.yaml",
+            controllers=names,
+        )
+        with (
+            Controllers(graph.node, "/lift", timeout=60.0) as controllers,
+            TrajectoryClient(graph.node, "lifter", "/lift", 60.0) as lifter,
+            JointCommander(graph.node, "turner", "/lift") as turner,
+        ):
+            assert controllers.states() == dict.fromkeys(names, "running")
+            assert lifter.move({"lift": 0.2}, 1.0, timeout=120.0).succeeded
+            assert turner.move(0.4, tolerance=0.05, timeout=120.0)["turn"] > 0.3
+        with pytest.raises(ClientError, match="'nobody': there is no parameter /lift/nobody/type"):
+            spawn_robot(
+                gazebo,
+                processes,
+                "other",
+                "urdf/lifting_arm.urdf.xacro",
+                package="lifting_arm",
+                xacro_args={"space": "/lift/2"},
+                namespace="/lift",
+                publisher_rate=None,
+                controllers=["nobody"],
+            )

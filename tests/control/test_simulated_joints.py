@@ -418,3 +418,23 @@ def test_sensors_of_the_robot_are_published_by_controllers():
     assert (imu.frame, wrench.frame) == ("lower", "upper")
     assert imu.linear_acceleration[0] == pytest.approx([0, 0, 9.8], abs=0.01)
     assert abs(wrench.force[0, 2]) == pytest.approx(3.0 * 9.8, rel=1e-3)  # both rods hang on it
+
+
+def test_motors_that_other_plugins_have_put_on_joints_go_on():
+    # Many a base has both: wheels with transmissions, and a plugin that drives them.
+    sim, robot = arm("Effort")
+    robot.joints["elbow"].add_motor(50.0)
+    robot.joints["elbow"].drive(1.5)
+    loop = next(each.plugin for each in sim.plugins if hasattr(each.plugin, "take_limits"))
+    loop.take_limits({"elbow": {"has_effort_limits": True, "max_effort": 1.0}})
+    sim.run(0.2)
+    assert robot.joints["elbow"].velocity == pytest.approx(1.5, abs=0.05)
+
+
+def test_a_motor_is_switched_off_where_gains_take_its_place():
+    sim, robot = arm("Velocity")
+    robot.settings["pid_gains"].send({"elbow": {"p": 0.0, "i": 0.0, "d": 0.0}})
+    robot.joints["elbow"].apply_effort(5.0)
+    sim.run(0.1)
+    assert robot.joints["elbow"].velocity > 0.2
+    assert robot.joints["shoulder"].velocity == pytest.approx(0.0, abs=1e-3)

@@ -35,6 +35,7 @@ class Controlled:
         space: Namespace of the manager.
         description: File whose text is the parameter ``robot_description`` beforehand, where the
             launch files leave it to their user.
+        under: Folder of the corpus in which packages are found; all of it if empty.
         stubs: Packages that the files name and do not use, with their files; the corpus has none.
     """
 
@@ -47,6 +48,7 @@ class Controlled:
     fields: Mapping[str, object] = field(default_factory=lambda: {"data": 0.5})
     space: str = ""
     description: str = ""
+    under: str = ""
     stubs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -145,6 +147,17 @@ TABLE = [
         AHEAD,
         stubs=HUSKY_INCLUDES,
     ),
+    Controlled(
+        ("gazebo_ros empty_world.launch gui:=false", "rosbot_description rosbot_gazebo.launch"),
+        "joint_state_controller",
+        "cmd_vel",
+        "front_left_wheel_hinge",
+        1.0,
+        TWIST,
+        AHEAD,
+        # A checkout of ros_controllers has its file elsewhere than where it is installed.
+        under="husarion__rosbot_description",
+    ),
     *(
         _arm(name)
         for name in ("ur3", "ur3e", "ur5", "ur5e", "ur10", "ur10e", "ur16e", "ur20", "ur30")
@@ -229,7 +242,7 @@ def bring_up(case, folder, scratch):
             stack.enter_context(Node("user", master_uri=master.uri)).set_param(
                 f"{case.space}/robot_description", text
             )
-        packages = f"{stub_packages(scratch, case.stubs)}:{folder}"
+        packages = f"{stub_packages(scratch, case.stubs)}:{folder / case.under}"
         launched = []
         for number, file in enumerate(case.files):
             home = scratch / str(number)
