@@ -55,7 +55,7 @@ class GoToGoal(ModelPlugin):
         self.update_rate = parameters.get("updateRate", 20.0)
         self._global = parameters.get("globalFrame", "map")
         self._limits = _limits(parameters)
-        self._unit, laser = _laser(robot, parameters)
+        self._unit, laser = laser_of(robot, parameters)
         self._laser_pose = laser
         self._seekers: dict[int, GoalSeeker] = {}
         self._scan: LaserScan | None = None
@@ -252,7 +252,7 @@ def _limits(parameters: Parameters) -> BaseLimits:
     )
 
 
-def _laser(robot: Robot, parameters: Parameters) -> tuple[Any, Pose2]:
+def laser_of(robot: Robot, parameters: Parameters) -> tuple[Any, Pose2]:
     """The laser to use, and its pose in the model.
 
     Raises:

@@ -38,6 +38,7 @@ _DRIVES = (
     _simulated("DiffDrivePlugin", "Gazebo's own two wheels; sizes of the model", "builtin_drives:BuiltinDiffDrive"),
     _simulated("SkidSteerDrivePlugin", "Gazebo's own four wheels; sizes of the model", "builtin_drives:BuiltinSkidSteer"),
     _simulated("gazelle_go_to_goal", "drives a model with a drive and a laser to goals", "gazelle.navigation.plugin:GoToGoal"),
+    _simulated("gazelle_navigation", "takes a model with a drive and a laser to goals as move_base does", "gazelle.navigation.robot_navigation:RobotNavigation"),
 )
 
 _SENSORS = (

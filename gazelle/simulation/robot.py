@@ -22,6 +22,7 @@ from gazelle.simulation.requests import between_steps
 from gazelle.simulation.sensors import SensorUnit
 
 if TYPE_CHECKING:
+    from gazelle.simulation.navigation_control import NavigationControl
     from gazelle.simulation.simulation import Simulation
     from gazelle.simulation.stage.fleet import StageFleet
 
@@ -117,6 +118,18 @@ class Robot(Ports):
 
             return add_controllers(self)
         return next(iter(self.managers.values()))
+
+    @property
+    @between_steps
+    def navigation(self) -> NavigationControl:
+        """Takes a robot with a drive and a laser to goals: ``robot.navigation.go_to(2.0, 1.0)``.
+
+        Raises:
+            SimulationError: The robot has no drive or no laser.
+        """
+        from gazelle.simulation.navigation_port import navigation_of  # it needs robots itself
+
+        return navigation_of(self)
 
     @property
     @between_steps

@@ -1,0 +1,256 @@
+"""``robot.navigation``: the whole stack in process, in simulated time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import Parameters
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.errors import SimulationError, did_you_mean
+from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
+from gazelle.navigation.move_base import GoalOutcome, navigation_stack
+from gazelle.navigation.move_base.state_machine import goal_of
+from gazelle.navigation.outline import outline_of
+from gazelle.navigation.plugin import laser_of
+from gazelle.navigation.true_map import true_map
+from gazelle.navigation.usual_parameters import USUAL, merged, with_outline
+from gazelle.navigation.world_pilot import WorldPilot
+from gazelle.rotations import rotate, yaw_of
+from gazelle.sensors import LaserScan
+from gazelle.simulation import ModelPlugin, Robot, SensorUnit
+from gazelle.simulation.clock import Schedule
+
+_SOURCES = ("truth", "amcl")
+_LOST_SEED = 7
+
+
+class RobotNavigation(ModelPlugin):
+    """Takes the model that it is on to goals by ``move_base``'s law, in every world by itself.
+
+    It uses the model's own ports: its laser's scans, its odometry, and its drive's ``cmd_vel``, which it
+    commands only while there is a goal. Worlds are gone through one by one, and only those with a goal:
+    right for some worlds, not for thousands.
+    """
+
+    update_rate = 10.0
+
+    def load(self, robot: Robot, parameters: Parameters) -> None:
+        """Look for a laser and a drive.
+
+        Raises:
+            SimulationError: There is none.
+        """
+        if "cmd_vel" not in robot.inputs or "odom" not in robot.outputs:
+            raise SimulationError(
+                f"'{robot.name}' has no drive to navigate with",
+                hint="add a plugin with cmd_vel and odom, such as libgazebo_ros_diff_drive.so",
+            )
+        self._robot = robot
+        self._unit, self._laser = laser_of(robot, parameters)
+        self._values: Mapping[str, Any] = USUAL
+        self._grid: OccupancyMap | None = None
+        self._source = "truth"
+        self._pilots: dict[int, WorldPilot] = {}
+        self._scan: LaserScan | None = None
+        self._sleep: Callable[[], None] | None = None
+
+    def configure(
+        self,
+        parameters: Mapping[str, Any] | None = None,
+        *,
+        grid: OccupancyMap | None = None,
+        localization: str = "truth",
+    ) -> None:
+        """Use other parameters, another map, or another way to know where the robot is.
+
+        Goals are forgotten.
+
+        Args:
+            parameters: As below ``~`` of ``move_base``, nested; what is not there keeps its default for
+                robots of a TurtleBot3's size. ``amcl`` below them has those of ``amcl``.
+            grid: The map; by default the true one of the world, without robots.
+            localization: ``truth``, or ``amcl`` by odometry and laser, from the true pose on.
+
+        Raises:
+            SimulationError: There is no such way.
+            Error: A parameter is wrong.
+        """
+        if localization not in _SOURCES:
+            raise SimulationError(
+                f"a robot is localised by truth or amcl, not '{localization}'",
+                hint=did_you_mean(localization, _SOURCES),
+            )
+        values = merged(USUAL, parameters or {})
+        navigation_stack({**values, **with_outline(values, self._outline())})
+        self._values, self._source = values, localization
+        self._grid = grid if grid is not None else self._grid
+        self._keep_to(float(values["controller_frequency"]))
+        self._pilots.clear()
+
+    def _keep_to(self, rate: float) -> None:
+        """Take cycles at another rate [Hz]."""
+        self.update_rate = rate
+        simulation = self._robot.simulation
+        for entry in simulation.plugins:
+            if entry.plugin is self:
+                entry.schedule = Schedule(rate)
+                simulation.requests.changes += 1
+
+    def go_to(
+        self, x: float, y: float, yaw: float | None = None, *, worlds: Worlds | None = None
+    ) -> GoalTask:
+        """Go there; the simulation has to run, by itself or by ``wait`` of what is returned.
+
+        Args:
+            x: In the map's frame: the world's, unless a map was given [m].
+            y: Likewise [m].
+            yaw: Heading to take there [rad]; that from here to there if None.
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: There is nothing at the laser's height to make a map of.
+            Error: A number is not finite.
+        """
+        chosen = range(self._robot.simulation.nworld) if worlds is None else worlds.tolist()
+        poses = self._robot.planar_pose()
+        for world in chosen:
+            here = poses[world]
+            heading = math.atan2(y - here[1], x - here[0]) if yaw is None else yaw
+            goal = goal_of(float(x), float(y), float(heading))
+            self._pilot(world).go(goal, self._robot.simulation.time)
+        self._listen()
+        return GoalTask(self._robot, [self._pilots[world] for world in chosen])
+
+    def cancel(self, worlds: Worlds | None = None) -> None:
+        """Have no goal, and stand."""
+        chosen = list(self._pilots) if worlds is None else worlds.tolist()
+        for world in chosen:
+            pilot = self._pilots.get(world)
+            if pilot is not None and pilot.busy:
+                pilot.cancel()
+                self._robot.inputs["cmd_vel"].send(0.0, 0.0, np.array([world]))
+
+    def on_update(self, time: float) -> None:
+        """Take a cycle in each world with a goal."""
+        busy = {world: pilot for world, pilot in self._pilots.items() if pilot.busy}
+        scan = self._scan
+        if not busy or scan is None:
+            if not busy:
+                self._fall_asleep()
+            return
+        true, odom = self._robot.planar_pose(), self._robot.outputs["odom"].last
+        yaws = yaw_of(odom.quaternion)
+        for world, pilot in busy.items():
+            x, y, heading = true[world].tolist()
+            reckoned = (*odom.position[world, :2].tolist(), float(yaws[world]))
+            linear = odom.linear[world]
+            speed = float(linear[0]), float(linear[1]), float(odom.angular[world, 2])
+            velocity = pilot.cycle(
+                time, (x, y, heading), reckoned, speed, self._planar(scan, world), scan.stamp
+            )
+            if velocity is not None:
+                forward, aside, turning = velocity
+                command = self._robot.inputs["cmd_vel"]
+                linear_command = forward if not aside else (forward, aside, 0.0)
+                command.send(linear_command, turning, np.array([world]))
+
+    # What it is made of -------------------------------------------------------------------
+
+    def _pilot(self, world: int) -> WorldPilot:
+        if world not in self._pilots:
+            values = {**self._values, **with_outline(self._values, self._outline())}
+            stack = navigation_stack(values)
+            localizer = None
+            if self._source == "amcl":
+                settings = AmclSettings.read(self._values.get("amcl", {}))
+                localizer = Localizer(settings, self._map(), seed=_LOST_SEED + world)
+                x, y, heading = self._robot.planar_pose()[world].tolist()
+                localizer.begin((x, y, heading), np.diag([0.04, 0.04, 0.02]))
+            self._pilots[world] = WorldPilot(stack, self._map(), self._height(), localizer)
+        return self._pilots[world]
+
+    def _outline(self) -> Floats | None:
+        return outline_of(self._robot.description)
+
+    def _height(self) -> float:
+        """Of the laser above the ground [m]."""
+        unit = self._unit
+        for link in self._robot.links.values():
+            if unit.description in link.description.sensors:
+                place = link.placement(np.array([0]))
+                mount = np.array([unit.description.pose.position])
+                return float((place.position + rotate(place.quaternion, mount))[0, 2])
+        return 0.2
+
+    def _map(self) -> OccupancyMap:
+        if self._grid is None:
+            self._grid = true_map(self._robot.simulation.world, self._height(), margin=2.0)
+        return self._grid
+
+    def _planar(self, scan: LaserScan, world: int) -> PlanarScan:
+        """One world's scan: the middle row, if there are several."""
+        rows = self._unit.model.vertical_angles.size
+        ranges = np.array(scan.ranges[world].reshape(rows, -1)[rows // 2], np.float64)
+        count = np.arange(len(ranges), dtype=np.float64)
+        angles: Floats = np.asarray(scan.angle_min + scan.angle_increment * count, np.float64)
+        return PlanarScan(ranges, angles, scan.range_max, scan.range_min, self._laser)
+
+    def _listen(self) -> None:
+        if self._sleep is None:
+            self._sleep = self._unit.subscribe(self._hear)
+
+    def _hear(self, unit: SensorUnit) -> None:
+        self._scan = unit.reading(unit.current())
+
+    def _fall_asleep(self) -> None:
+        """Let the laser sleep while there is no goal."""
+        if self._sleep is not None:
+            self._sleep()
+            self._sleep = None
+        self._scan = None
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Have no goal and know nothing but the map."""
+        for world in list(self._pilots) if worlds is None else worlds.tolist():
+            self._pilots.pop(world, None)
+        self._fall_asleep()
+
+
+class GoalTask:
+    """A goal that a robot is on its way to.
+
+    Args:
+        robot: That.
+        pilots: Of the worlds where it was sent.
+    """
+
+    def __init__(self, robot: Robot, pilots: list[WorldPilot]) -> None:
+        self._robot, self._pilots = robot, pilots
+
+    @property
+    def done(self) -> bool:
+        """Whether it is reached or given up, in all of its worlds."""
+        return not any(pilot.busy for pilot in self._pilots)
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether it is reached in all of its worlds."""
+        return all(pilot.outcome is GoalOutcome.SUCCEEDED for pilot in self._pilots)
+
+    @property
+    def text(self) -> str:
+        """What is said of it in the first world that is done."""
+        return next((pilot.text for pilot in self._pilots if pilot.text), "")
+
+    def wait(self, seconds: float = 300.0) -> bool:
+        """Run the simulation until it is done, or for so long [simulated s]; whether it succeeded."""
+        simulation = self._robot.simulation
+        end = simulation.time + seconds
+        while not self.done and simulation.time < end:
+            simulation.run(seconds=min(0.5, end - simulation.time))
+        return self.succeeded

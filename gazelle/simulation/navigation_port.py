@@ -1,0 +1,36 @@
+"""What ``robot.navigation`` is: a plugin of a room above this one, found by its file name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+from gazelle.description import Parameters, Plugin
+from gazelle.errors import SimulationError
+from gazelle.simulation import registry
+from gazelle.simulation.navigation_control import NavigationControl
+from gazelle.simulation.plugin import ModelPlugin
+from gazelle.simulation.stepping import make_scheduled
+
+if TYPE_CHECKING:
+    from gazelle.simulation.robot import Robot
+
+FILE = "libgazelle_navigation.so"
+
+
+def navigation_of(robot: Robot) -> NavigationControl:
+    """A robot's navigation; it begins when it is first asked for.
+
+    Raises:
+        SimulationError: The robot has no drive or no laser.
+    """
+    plugins = robot.simulation.plugins
+    kind = registry.find(Plugin("navigation", FILE))
+    if kind is None or not issubclass(kind, ModelPlugin):
+        raise SimulationError(f"there is no plugin '{FILE}'")
+    for entry in plugins:
+        if entry.owner == robot.name and isinstance(entry.plugin, kind):
+            return cast("NavigationControl", entry.plugin)
+    made = kind()
+    made.load(robot, Parameters("plugin"))
+    plugins.append(make_scheduled(made, "navigation", robot.name, robot.simulation.requests))
+    return cast("NavigationControl", made)
