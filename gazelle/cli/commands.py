@@ -44,6 +44,7 @@ COMMANDS = {
         Command("check", "check files: every problem, with file and line", "simulate", "check"),
         Command("convert", "files from one format to another", "simulate", "convert"),
         Command("map", "the true map of a world, for map_server", "simulate", "map"),
+        Command("view", "a file, or a running ROS graph, live in a browser", "look", "view"),
         Command("picture", "draw a world, a recording, a bag, a policy", "look", "picture"),
         Command("film", "film them: GIF, MP4", "look", "film"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),

@@ -23,6 +23,7 @@ from gazelle.cli.parsing import (
     environment_options,
 )
 from gazelle.cli.train import report
+from gazelle.cli.viewing import add_view, watched
 
 _TASK = "TurtleBot3Stage1"
 _WORLD = "turtlebot3_stage_1"
@@ -40,6 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, default=Path("runs"), help="where the run goes"
     )
+    add_view(parser)
     add_file_options(parser)
     add_scenario_options(parser)
     add_environment_options(parser)
@@ -58,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
         num_envs=args.num_envs,
         seed=args.seed,
         out=args.out,
-        progress=choose_progress(),
+        progress=watched(choose_progress(), args),
         **options,
     )
     if result.interrupted:

@@ -114,7 +114,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
         with viewing(sim, args):
-            return _serve(sim, args) if args.ros else _go(sim, args)
+            return _serve(sim, args) if args.ros else go(sim, args)
 
 
 def _listen_to_signals() -> None:
@@ -140,8 +140,8 @@ def _listed(sim: Simulation) -> str:
     return ", ".join(names) or "no models" if len(names) <= _MANY else f"{len(names)} models"
 
 
-def _go(sim: Simulation, args: argparse.Namespace) -> int:
-    """Run until the end of the time, or Ctrl-C."""
+def go(sim: Simulation, args: argparse.Namespace) -> int:
+    """Run until the end of the time, or Ctrl-C, as ``seconds``, ``rate`` and ``paused`` say."""
     status = _Status(sim)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     try:

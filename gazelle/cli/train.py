@@ -26,6 +26,7 @@ from gazelle.cli.parsing import (
     add_scenario_options,
     environment_options,
 )
+from gazelle.cli.viewing import add_view, watched
 
 if TYPE_CHECKING:
     from gazelle.training import TrainResult
@@ -62,6 +63,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         const="local",
         help="have the workers on a Ray cluster (default: one on this machine)",
     )
+    add_view(parser)
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)
@@ -78,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
         result = resume(
             args.resume,
             steps=args.steps,
-            progress=choose_progress(),
+            progress=watched(choose_progress(), args),
             imports=args.imports,
             workers=args.workers,
             ray=args.ray,
@@ -92,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
         seed=args.seed or 0,
         out=args.out or Path("runs"),
         checkpoint_every=args.checkpoint_every,
-        progress=choose_progress(),
+        progress=watched(choose_progress(), args),
         imports=args.imports,
         workers=args.workers,
         ray=args.ray,
@@ -129,6 +131,8 @@ def report(result: TrainResult) -> int:
 def _check(args: argparse.Namespace) -> None:
     """Refuse what cannot go together."""
     parser: argparse.ArgumentParser = args.parser
+    if args.view is not None and (args.workers is not None or args.ray is not None):
+        parser.error("a view shows copies of this process; leave out --workers and --ray")
     if args.resume is None:
         if args.task is None:
             parser.error("which task? (or which run, with --resume)")

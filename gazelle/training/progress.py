@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Protocol, TextIO
+from collections.abc import Callable
+from typing import Any, Protocol, TextIO
+
+from gazelle.closing import Closeable
 
 _SECONDS_BETWEEN_LINES = 10.0
 
@@ -39,6 +42,45 @@ class NoProgress:
 
     def close(self) -> None:
         """Show nothing."""
+
+
+class Watched:
+    """A display, and something to look at the copies with that learn in this process.
+
+    Args:
+        progress: The display.
+        watch: Called with the environment when the first rollout begins; what it returns is
+            closed at the end.
+    """
+
+    def __init__(self, progress: Progress, watch: Callable[[Any], Closeable]) -> None:
+        self._progress, self._watch = progress, watch
+        self._env: Any = None
+        self._view: Closeable | None = None
+
+    def attach(self, env: Any) -> None:
+        """These are the copies."""
+        self._env = env
+
+    def start(self, done: int, total: int) -> None:
+        """See ``Progress``."""
+        self._progress.start(done, total)
+
+    def update(self, done: int, summary: dict[str, float]) -> None:
+        """See ``Progress``; the environment has been reset by now."""
+        if self._view is None and self._env is not None:
+            self._view = self._watch(self._env)
+        self._progress.update(done, summary)
+
+    def say(self, text: str) -> None:
+        """See ``Progress``."""
+        self._progress.say(text)
+
+    def close(self) -> None:
+        """See ``Progress``."""
+        self._progress.close()
+        if self._view is not None:
+            self._view.close()
 
 
 class Lines:

@@ -17,7 +17,7 @@ from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.importing import load_all
 from gazelle.training.learners import Learner, build_learner
-from gazelle.training.progress import NoProgress, Progress
+from gazelle.training.progress import NoProgress, Progress, Watched
 from gazelle.training.recipes import Recipe, recipe_for
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
@@ -197,6 +197,8 @@ class _Session:
             if config.sharded
             else _alone(config, self.episodes)
         )
+        if isinstance(progress, Watched) and isinstance(self.env, VectorEnvAdapter):
+            progress.attach(self.env.env)
         try:
             self.learner: Learner = build_learner(config.recipe, self.env, config.seed)
         except BaseException:

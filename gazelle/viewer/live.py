@@ -43,6 +43,7 @@ class LiveView(Closeable):
         worlds: How many are shown beside each other; a few of what there are if None.
         port: Of the server; any free one if 0.
         rate: Pictures a second at most.
+        only_looking: Whether nothing can be changed on the page.
 
     Attributes:
         url: Where the page is.
@@ -60,6 +61,7 @@ class LiveView(Closeable):
         worlds: int | None = None,
         port: int = 0,
         rate: float = 20.0,
+        only_looking: bool = False,
     ) -> None:
         count = min(_BESIDE, simulation.nworld - world) if worlds is None else worlds
         if not 0 <= world < simulation.nworld or not 0 < count <= simulation.nworld - world:
@@ -71,7 +73,7 @@ class LiveView(Closeable):
         self._server = PageServer(simulation.world.name or "Gazelle", port)
         self.url = self._server.url
         try:
-            self._begin(np.arange(world, world + count))
+            self._begin(np.arange(world, world + count), only_looking=only_looking)
         except BaseException:
             self._server.close()
             raise
@@ -83,17 +85,20 @@ class LiveView(Closeable):
         if self._stop.is_set():
             return
         self._stop.set()
-        self._server.close()
+        self._server.wake()
         if threading.current_thread() is not self._thread:
             self._thread.join()
+        self._server.close()
         for end in self._ends:
             end()
 
-    def _begin(self, worlds: Any) -> None:
+    def _begin(self, worlds: Any, *, only_looking: bool) -> None:
         """Make everything that is on the page."""
         simulation, page = self._simulation, self._server.viser
         spots = spots_of(simulation, len(worlds))
-        self._context = context = PageContext(simulation, page, worlds, spots)
+        self._context = context = PageContext(
+            simulation, page, worlds, spots, only_looking=only_looking
+        )
         self._root = page.scene.add_frame(ROOT, show_axes=False)
         page.gui.main_panel.dock_right()
         page.scene.configure_default_lights(enabled=True, cast_shadow=True)
@@ -103,7 +108,9 @@ class LiveView(Closeable):
             controls = RunControls(context)
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
-            drive, sliders = DriveControls(context, self._server), JointSliders(context)
+            steering: list[Layer] = []
+            if not only_looking:
+                steering = [DriveControls(context, self._server), JointSliders(context)]
             self._optional: dict[str, OptionalLayer] = {
                 "Collision shapes": ShapeLayer(context, "solid", collisions=True, shown=False),
                 "Names": NameLayer(context),
@@ -115,7 +122,7 @@ class LiveView(Closeable):
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[Layer, ...] = (
-                controls, shapes, tools, drive, sliders, *self._optional.values(), self._plots
+                controls, shapes, tools, *steering, *self._optional.values(), self._plots
             )  # fmt: skip
             self._changed = False
             events = simulation.events

@@ -362,3 +362,41 @@ def test_it_ends_with_its_simulation(room):
     view.close()
     view.close()
     assert not view._thread.is_alive()
+
+
+def test_a_page_to_look_at_alone_changes_nothing(room):
+    with LiveView(room, only_looking=True) as view:
+        view._context.select("box")
+        pictures(view)
+        assert ask(view, f"{secret(view)}drive?linear=1&angular=0")[0].status == 404
+        assert not any("Controls" in type(layer).__name__ for layer in view._layers[1:])
+
+
+def test_copies_that_learn_are_watched(capsys):
+    pytest.importorskip("stable_baselines3", reason="the extra 'train' is not installed")
+    import argparse
+
+    from gazelle.cli.viewing import watched
+    from gazelle.training import train
+    from gazelle.training.progress import NoProgress
+
+    class Said(NoProgress):
+        def __init__(self):
+            self.said = []
+
+        def say(self, text):
+            self.said.append(text)
+
+    import tempfile
+
+    for task in ("TurtleBot3Stage1", "AGVFleet"):
+        display = Said()
+        with tempfile.TemporaryDirectory() as folder:
+            train(
+                task,
+                steps=256,
+                num_envs=8,
+                out=folder,
+                progress=watched(display, argparse.Namespace(view=0)),
+            )
+        assert [text.partition(":")[0] for text in display.said] == ["view http"]

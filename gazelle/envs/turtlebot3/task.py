@@ -32,6 +32,7 @@ from gazelle.envs.turtlebot3.scene import COMMAND, TaskScene
 from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.errors import TaskError
 from gazelle.sensors import SensorModel, View, look_at
+from gazelle.simulation import Simulation
 from gazelle.streams import Stream
 
 _GOAL_BOX = 0.5
@@ -76,6 +77,11 @@ class TurtleBot3Task(BatchedTask):
         self._start_distance = np.ones(nworld)
         self._goals_reached = np.zeros(nworld, dtype=np.int64)
         self._seed(self.scene.simulation.seed)
+
+    @property
+    def simulation(self) -> Simulation:
+        """What runs now; a new seed starts another one."""
+        return self.scene.simulation
 
     def render(self, world: int) -> NDArray[np.uint8]:
         """A picture of one world from behind and above, its goal as a red square of 0.5 m.

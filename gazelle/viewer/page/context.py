@@ -60,6 +60,7 @@ class PageContext:
         selected: Name of the model that tools work on, "" for none.
         world: Number of the world that tools work on, among those shown.
         heading: Where the followed model is [m], shape (3,).
+        only_looking: Whether nothing can be changed on the page.
         listeners: Told when another model is selected.
     """
 
@@ -69,6 +70,7 @@ class PageContext:
     spots: Floats
     selected: str = ""
     world: int = 0
+    only_looking: bool = False
     heading: Floats = field(default_factory=lambda: np.zeros(3))
     listeners: list[Callable[[], None]] = field(default_factory=list)
 

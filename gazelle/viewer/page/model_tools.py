@@ -31,10 +31,23 @@ class ModelTools:
     def __init__(self, context: PageContext) -> None:
         self._context = context
         self._held = False  # somebody drags it
-        gui, careful = context.gui, context.careful
+        gui = context.gui
         with gui.add_folder("Model"):
             self._name: Any = gui.add_dropdown("Selected", (NONE,))
             self._follow = gui.add_checkbox("Follow", initial_value=False)
+        self._gizmo_on: Any = None
+        self._gizmo: Any = None
+        if not context.only_looking:
+            self._offer()
+        context.heed(self._name, self._choose)
+        context.listeners.append(self._selected)
+        self.renew()
+
+    def _offer(self) -> None:
+        """What changes the simulation."""
+        context = self._context
+        gui, careful = context.gui, context.careful
+        with gui.add_folder("Change"):
             self._gizmo_on = gui.add_checkbox("Gizmo", initial_value=True)
             self._force = gui.add_vector3("Force [N]", (1.0, 0.0, 0.0), step=0.1)
             self._work = gui.add_button_group("Do", ("push", "lift", "delete"))
@@ -49,11 +62,8 @@ class ModelTools:
             f"{ROOT}/gizmo", scale=0.5, depth_test=False, visible=False
         )
         self._gizmo.on_update(self._moved)
-        context.heed(self._name, self._choose)
         self._work.on_click(lambda event: careful(lambda: self.do(event.target.value)))
         self._spawn.on_click(lambda _event: careful(self.spawn))
-        context.listeners.append(self._selected)
-        self.renew()
 
     def read(self) -> tuple[Floats, Floats] | None:
         """Where the selected model is, position (3,) and quaternion (4,)."""
@@ -73,9 +83,10 @@ class ModelTools:
             spot = context.spot
             if self._follow.value:
                 followed = state[0] + spot
-            if not self._held and self._gizmo_on.value:
+            if self._gizmo is not None and not self._held and self._gizmo_on.value:
                 self._gizmo.position, self._gizmo.wxyz = state[0] + spot, state[1][[3, 0, 1, 2]]
-        self._gizmo.visible = state is not None and self._gizmo_on.value
+        if self._gizmo is not None:
+            self._gizmo.visible = state is not None and self._gizmo_on.value
         context.heading = followed
 
     def renew(self) -> None:
@@ -92,6 +103,8 @@ class ModelTools:
             context.careful(lambda: context.select(found.link.split("::")[0], found.world))
 
         handle.on_click(click)
+        if context.only_looking:
+            return
         handle.on_drag("left", modifier="shift")(_Drag(context, met).moved)
         handle.on_drag("left", modifier="cmd/ctrl")(_Drag(context, met, pull=True).moved)
 

@@ -40,10 +40,13 @@ class RunControls:
         self._said = ""
         gui, careful = context.gui, context.careful
         self._status = gui.add_markdown("")
+        self._speed: Any = None
+        if context.only_looking:
+            return
         with gui.add_folder("Run"):
             self._run = gui.add_button_group("Clock", ("run", "pause", "step", "reset"))
             self._steps = gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
-            self._speed: Any = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
+            self._speed = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
         self._run.on_click(lambda event: careful(lambda: self.do(event.target.value)))
         context.heed(self._speed, self._pace)
 
@@ -54,8 +57,7 @@ class RunControls:
 
     def show(self, state: ClockState) -> None:
         """Say what the clock says."""
-        speed = _name(state.speed)
-        if self._speed.value != speed:
+        if self._speed is not None and self._speed.value != (speed := _name(state.speed)):
             if speed not in self._speed.options:
                 self._speed.options = (*_SPEEDS, speed)
             self._speed.value = speed

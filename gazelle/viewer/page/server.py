@@ -60,10 +60,7 @@ class PageServer(Closeable):
     """
 
     def __init__(self, title: str, port: int = 0) -> None:
-        try:
-            import viser
-        except ImportError as error:
-            raise MissingExtraError("viser", "web") from error
+        package = required_viser()
         if not 0 <= port < 2**16:
             raise Error(f"there is no port {port}", hint="ports are 0 to 65535")
         self._token = secrets.token_urlsafe(16)
@@ -71,7 +68,7 @@ class PageServer(Closeable):
         self._closed = False
         self.handlers: dict[str, Handler] = {}
         with _OPENING, _guarded(self._admit), _silent():
-            self.viser: viser.ViserServer = viser.ViserServer(HOST, port, title, verbose=False)
+            self.viser: viser.ViserServer = package.ViserServer(HOST, port, title, verbose=False)
         self.port = self.viser.get_port()
         self.url = f"http://{HOST}:{self.port}/{self._token}/"
         try:
@@ -97,6 +94,10 @@ class PageServer(Closeable):
         """Wait until somebody comes or goes, or it is closed."""
         self._changed.wait(seconds)
         self._changed.clear()
+
+    def wake(self) -> None:
+        """End a ``wait``."""
+        self._changed.set()
 
     def close(self) -> None:
         """Serve nobody any more, and give the port back."""
@@ -169,6 +170,19 @@ class PageServer(Closeable):
             "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "
             f"connect-src 'self' data: blob: {own}; frame-ancestors 'none'; base-uri 'none'"
         )
+
+
+def required_viser() -> Any:
+    """The package that serves pages.
+
+    Raises:
+        MissingExtraError: It is not installed.
+    """
+    try:
+        import viser
+    except ImportError as error:
+        raise MissingExtraError("viser", "web") from error
+    return viser
 
 
 @contextmanager

@@ -173,7 +173,7 @@ class ShapeBatches:
         texture = int(shapes.parts[parts[0], c.TEXTURE_OF_PART])
         if texture >= 0:
             uv = shapes.uv[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
-            dressed = _textured(vertices, faces, uv, _picture(shapes, texture))
+            dressed = textured_mesh(vertices, faces, uv, _picture(shapes, texture))
             return scene.add_batched_meshes_trimesh(name, dressed, way, at, lod="off")
         colors = np.clip(shapes.color[parts] + shapes.glow[parts], 0.0, 1.0)
         visuals = [self._seen.parts[label].visual for label in self._labels[parts].tolist()]
@@ -256,7 +256,8 @@ def _picture(tables: _Tables, texture: int) -> Bytes:
     return np.ascontiguousarray(pixels[::-1])
 
 
-def _textured(vertices: Floats, faces: Any, uv: Floats, picture: Bytes) -> Any:
+def textured_mesh(vertices: Floats, faces: Any, uv: Floats, picture: Bytes) -> Any:
+    """Triangles with a picture on them, top row first, as trimesh has them."""
     import trimesh
     from PIL import Image
 

@@ -1,0 +1,68 @@
+"""Look at a file, or at the ROS graph that runs, live in a browser on this machine.
+
+  gazelle view my_robot.urdf.xacro       # its joints have sliders
+  gazelle view turtlebot3_world
+  gazelle view                           # ROS_MASTER_URI's graph
+
+A file stands still until the page lets it run. Of a graph the page shows robots
+(robot_description and tf), scans, point clouds, maps, paths, poses, markers and images.
+"""  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+from gazelle.cli.run import go
+from gazelle.cli.viewing import viewing
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "file", metavar="FILE", nargs="?", help="a world or robot; without it the ROS graph"
+    )
+    parser.add_argument("--engine", metavar="NAME", help="mujoco or planar")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.add_argument(
+        "--frame", metavar="NAME", help="of a graph: what stands still (default map, odom ...)"
+    )
+    parser.add_argument(
+        "--port",
+        dest="view",
+        metavar="PORT",
+        type=int,
+        default=0,
+        help="of the page (default any)",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    return _graph(args) if args.file is None else _file(args)
+
+
+def _file(args: argparse.Namespace) -> int:
+    from gazelle import formats
+    from gazelle.simulation import Simulation
+
+    world = formats.load(args.file)
+    engine = args.engine or ("mujoco" if world.stage is None else "planar")
+    args.seconds, args.rate, args.paused = None, 1.0, True
+    with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args):
+        return go(sim, args)
+
+
+def _graph(args: argparse.Namespace) -> int:
+    from gazelle.viewer.graph import GraphView
+
+    with GraphView(frame=args.frame, port=args.view) as view:
+        sys.stdout.write(f"view {view.url}\n")
+        sys.stdout.flush()
+        try:
+            while not view.ended:
+                time.sleep(0.2)
+        except KeyboardInterrupt:
+            return 130
+    return 0

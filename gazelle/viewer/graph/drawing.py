@@ -1,0 +1,217 @@
+"""How messages of each kind look on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gazelle.array_types import Bytes, Floats
+from gazelle.viewer.page.shapes import textured_mesh
+from gazelle.viewer.sources import picture_of
+
+if TYPE_CHECKING:
+    from viser import ViserServer
+
+_MOST = 100_000  # points of a cloud
+_RED, _GREEN, _BLUE = (210, 40, 40), (40, 160, 70), (50, 110, 190)
+_WAY = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+class Drawing:
+    """What one topic has on the page, under the frame of its messages.
+
+    Args:
+        page: viser's server.
+        name: Of the node that it hangs on.
+        topic: Its name.
+    """
+
+    def __init__(self, page: ViserServer, name: str, topic: str) -> None:
+        self.page, self.name, self.topic = page, name, topic
+        self._parts: dict[str, Any] = {}
+
+    def put(self, key: str, make: Callable[[str], Any]) -> Any:
+        """Make a part anew in place of what was there under its key."""
+        self.drop(key)
+        self._parts[key] = made = make(f"{self.name}/{key}")
+        return made
+
+    def part(self, key: str) -> Any:
+        """A part that is there, or None."""
+        return self._parts.get(key)
+
+    def drop(self, key: str) -> None:
+        """Remove a part."""
+        if key in self._parts:
+            self._parts.pop(key).remove()
+
+    def clear(self) -> None:
+        """Remove everything."""
+        for key in tuple(self._parts):
+            self.drop(key)
+
+
+def draw_scan(drawing: Drawing, message: Any) -> None:
+    """Points of a LaserScan."""
+    ranges = np.asarray(message.ranges, np.float64)
+    angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
+    seen = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
+    points = np.zeros((int(seen.sum()), 3))
+    points[:, 0] = ranges[seen] * np.cos(angles[seen])
+    points[:, 1] = ranges[seen] * np.sin(angles[seen])
+    _points(drawing, points, np.array(_RED, np.uint8), 0.04)
+
+
+def draw_cloud(drawing: Drawing, message: Any) -> None:
+    """Points of a PointCloud2, in their colours if they have any."""
+    points, colors = points_of(message)
+    finite = np.isfinite(points).all(axis=1)
+    every = max(1, -(-int(finite.sum()) // _MOST))
+    shown = colors if colors.ndim == 1 else colors[finite][::every]
+    _points(drawing, points[finite][::every], shown, 0.02)
+
+
+def points_of(message: Any) -> tuple[Floats, Bytes]:
+    """Points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,)."""
+    count = message.width * message.height
+    raw = np.frombuffer(bytes(message.data), np.uint8)
+    rows = np.lib.stride_tricks.as_strided(
+        raw,
+        (message.height, message.width, message.point_step),
+        (message.row_step, message.point_step, 1),
+        writeable=False,
+    ).reshape(count, message.point_step)
+    order = ">" if message.is_bigendian else "<"
+    fields = {field.name: field for field in message.fields}
+    points = np.full((count, 3), np.nan)
+    for column, name in enumerate("xyz"):
+        if name in fields:
+            field = fields[name]
+            width, kind = (8, "f8") if field.datatype == 8 else (4, "f4")
+            part = np.ascontiguousarray(rows[:, field.offset : field.offset + width])
+            points[:, column] = part.view(order + kind)[:, 0]
+    color = fields.get("rgb") or fields.get("rgba")
+    if color is None:
+        return points, np.array(_BLUE, np.uint8)
+    part = rows[:, color.offset : color.offset + 3]
+    return points, np.ascontiguousarray(part[:, ::-1] if order == "<" else part)
+
+
+def draw_map(drawing: Drawing, message: Any) -> None:
+    """An OccupancyGrid as a picture on the ground: free is white, occupied black, unknown grey."""
+    info = message.info
+    if not (info.width and info.height):
+        return
+    cells = np.asarray(message.data, np.int8).reshape(info.height, info.width).astype(np.int16)
+    tones = np.where(cells < 0, 160, 255 - np.clip(cells, 0, 100) * 255 // 100)
+    picture = np.repeat(np.asarray(tones, np.uint8)[::-1, :, None], 3, axis=2)
+    wide, high = info.width * info.resolution, info.height * info.resolution
+    corners = np.array([[0, 0, 0], [wide, 0, 0], [wide, high, 0], [0, high, 0]], np.float64)
+    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float64)
+    mesh = textured_mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]), uv, picture)
+    place, turn = pose_of(info.origin)
+    place[2] -= 0.005  # below what lies on it
+    drawing.put(
+        "map",
+        lambda name: drawing.page.scene.add_mesh_trimesh(name, mesh, wxyz=turn, position=place),
+    )
+
+
+def draw_path(drawing: Drawing, message: Any) -> None:
+    """A Path as a line."""
+    points = np.array([pose_of(each.pose)[0] for each in message.poses]).reshape(-1, 3)
+    _lines(drawing, "path", np.stack((points[:-1], points[1:]), axis=1), _GREEN)
+
+
+def draw_pose(drawing: Drawing, message: Any) -> None:
+    """Axes of a PoseStamped, a PoseWithCovarianceStamped or an Odometry."""
+    pose = message.pose
+    _axes(drawing, [pose.pose if hasattr(pose, "pose") else pose])
+
+
+def draw_poses(drawing: Drawing, message: Any) -> None:
+    """Axes of a PoseArray."""
+    _axes(drawing, message.poses)
+
+
+def draw_image(drawing: Drawing, message: Any) -> None:
+    """An Image or CompressedImage, on the panel."""
+    picture = picture_of(message)
+    every = max(1, picture.shape[1] // 320)
+    small = np.ascontiguousarray(picture[::every, ::every])
+    shown = drawing.part("image")
+    if shown is not None:
+        shown.image = small
+        return
+    drawing.put(
+        "image",
+        lambda _: drawing.page.gui.add_image(small, label=drawing.topic, format="jpeg"),
+    )
+
+
+def _points(drawing: Drawing, points: Floats, colors: Bytes, size: float) -> None:
+    shown = drawing.part("points")
+    if shown is not None and colors.ndim == 1:
+        shown.points = points.astype(np.float32)
+        return
+    drawing.put(
+        "points",
+        lambda name: drawing.page.scene.add_point_cloud(
+            name, points, colors, point_size=size, point_shape="circle", precision="float32"
+        ),
+    )
+
+
+def _lines(drawing: Drawing, key: str, lines: Floats, color: tuple[int, int, int]) -> None:
+    drawing.drop(key)
+    if len(lines):
+        drawing.put(
+            key,
+            lambda name: drawing.page.scene.add_line_segments(
+                name, lines.astype(np.float32), color, thickness=3.0, thickness_units="screen"
+            ),
+        )
+
+
+def _axes(drawing: Drawing, poses: Any) -> None:
+    found = [pose_of(pose) for pose in poses]
+    if not found:
+        drawing.drop("axes")
+        return
+    at, turned = np.array([each[0] for each in found]), np.array([each[1] for each in found])
+    shown = drawing.part("axes")
+    if shown is not None and len(shown.batched_positions) == len(at):
+        shown.batched_positions = at.astype(np.float32)
+        shown.batched_wxyzs = turned.astype(np.float32)
+        return
+    drawing.put(
+        "axes",
+        lambda name: drawing.page.scene.add_batched_axes(
+            name, turned, at, axes_length=0.3, axes_radius=0.012
+        ),
+    )
+
+
+def pose_of(pose: Any) -> tuple[Floats, Floats]:
+    """Position and quaternion (w, x, y, z) of a Pose message; upright if it has none."""
+    at, turned = pose.position, pose.orientation
+    q = np.array([turned.w, turned.x, turned.y, turned.z])
+    length = float(np.linalg.norm(q))
+    return np.array([at.x, at.y, at.z]), (q / length if length > 1e-6 else _WAY)
+
+
+KINDS: dict[str, Callable[[Drawing, Any], None]] = {
+    "geometry_msgs/PoseArray": draw_poses,
+    "geometry_msgs/PoseStamped": draw_pose,
+    "geometry_msgs/PoseWithCovarianceStamped": draw_pose,
+    "nav_msgs/OccupancyGrid": draw_map,
+    "nav_msgs/Odometry": draw_pose,
+    "nav_msgs/Path": draw_path,
+    "sensor_msgs/CompressedImage": draw_image,
+    "sensor_msgs/Image": draw_image,
+    "sensor_msgs/LaserScan": draw_scan,
+    "sensor_msgs/PointCloud2": draw_cloud,
+}
+"""What draws messages of which type."""

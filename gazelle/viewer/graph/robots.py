@@ -1,0 +1,80 @@
+"""Robots of a graph: what parameters describe, where tf says that their links are."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gazelle.array_types import Bools
+from gazelle.description import Model, World
+from gazelle.errors import Error, GazelleWarning
+from gazelle.ros.tf.core import FrameTree
+from gazelle.ros.tf.errors import TransformException
+from gazelle.rotations import conjugate, multiply, rotate
+from gazelle.viewer.page.shapes import ShapeBatches
+
+if TYPE_CHECKING:
+    from viser import SceneApi
+
+
+class GraphRobot:
+    """A robot whose links stand where tf says.
+
+    Args:
+        scene: Of the page.
+        root: Under which name it is.
+        text: Its URDF.
+        prefix: Before the names of its frames, such as ``robot1/``.
+
+    Raises:
+        Error: The text describes no robot.
+    """
+
+    def __init__(self, scene: SceneApi, root: str, text: str, prefix: str) -> None:
+        self.text = text
+        model = _model(text)
+        self._batches = ShapeBatches(scene, root, World(models=(model,)), np.zeros((1, 3)))
+        self._frames = [prefix + link.rpartition("::")[2] for link in self._batches.links]
+        self._at = self._batches.rest[0][None].copy()
+        self._turned = self._batches.rest[1][None].copy()
+
+    def show(self, tree: FrameTree, fixed: str) -> None:
+        """Put the links where tf has them; what it does not know keeps its place to what it knows."""
+        known = np.zeros(len(self._frames), np.bool_)
+        for number, frame in enumerate(self._frames):
+            try:
+                found = tree.lookup(fixed, frame)
+            except TransformException:
+                continue
+            known[number] = True
+            self._at[0, number], self._turned[0, number] = found.translation, found.rotation
+        self._batches.hide(hidden=not known.any())
+        if known.any():
+            self._carry(int(np.flatnonzero(known)[0]), ~known)
+            self._batches.show(self._at, self._turned)
+
+    def _carry(self, base: int, others: Bools) -> None:
+        """Let links keep their places in the description to one that was placed."""
+        at, turned = self._batches.rest
+        turn = multiply(self._turned[0, base], conjugate(turned[base]))[None]
+        moved = rotate(turn, at[others] - at[base])
+        self._at[0, others] = self._at[0, base] + moved
+        self._turned[0, others] = multiply(turn, turned[others])
+
+    def remove(self) -> None:
+        """Take it off the page."""
+        self._batches.remove()
+
+
+def _model(text: str) -> Model:
+    """The robot of a text; what is odd about it was said by whoever loaded it first."""
+    from gazelle import formats
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", GazelleWarning)
+        try:
+            return formats.load_model_string(text, name="robot_description")
+        except (ValueError, OSError) as error:
+            raise Error(f"robot_description cannot be read: {error}") from error

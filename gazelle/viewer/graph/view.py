@@ -1,0 +1,233 @@
+"""The ROS graph that runs, live in a browser: the RViz of those who have no ROS."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from gazelle.closing import Closeable
+from gazelle.errors import Error
+from gazelle.ros import Node, WallClock, load_message
+from gazelle.ros.errors import ApiError, UnreachableError
+from gazelle.ros.tf.core import FrameTree
+from gazelle.ros.tf.errors import TransformException
+from gazelle.viewer.graph import drawing as d
+from gazelle.viewer.graph.markers import draw_marker, draw_markers
+from gazelle.viewer.graph.robots import GraphRobot
+from gazelle.viewer.page.server import PageServer
+
+_FIXED = ("map", "odom", "world", "base_link", "base_footprint")
+_LOOK = 1.0  # between two looks at what topics there are [s]
+_PERIOD = 0.05
+_log = logging.getLogger("gazelle.viewer")
+
+_KINDS: dict[str, Callable[[d.Drawing, Any], None]] = {
+    **d.KINDS,
+    "visualization_msgs/Marker": draw_marker,
+    "visualization_msgs/MarkerArray": draw_markers,
+}
+_EVERY = frozenset(["visualization_msgs/Marker", "visualization_msgs/MarkerArray"])
+"""Kinds of which no message may be left out."""
+
+
+class GraphView(Closeable):
+    """Shows robots, frames and topics of a ROS 1 graph; also a context manager.
+
+    Topics are subscribed while somebody looks, and messages drawn twenty times a second at most.
+
+    Args:
+        master_uri: Of the master; ``ROS_MASTER_URI`` if None.
+        frame: What stands still; the first there is of map, odom, world, base_link if None.
+        port: Of the page; any free one if 0.
+
+    Attributes:
+        url: Where the page is.
+        ended: Whether the graph has asked it to end, or it was closed.
+
+    Raises:
+        MissingExtraError: viser is not installed.
+        MasterUnreachableError: There is no master.
+    """
+
+    def __init__(
+        self, master_uri: str | None = None, *, frame: str | None = None, port: int = 0
+    ) -> None:
+        self._node = Node("gazelle_view", master_uri=master_uri, anonymous=True, clock=WallClock())
+        try:
+            self._server = PageServer("ROS graph", port)
+        except BaseException:
+            self._node.close()
+            raise
+        self.url, self._asked = self._server.url, frame
+        self._tree, self._lock = FrameTree(), threading.Lock()
+        self._fresh: dict[str, list[Any]] = {}
+        self._kinds: dict[str, str] = {}
+        self._frames: dict[str, str] = {}
+        self._drawings: dict[str, d.Drawing] = {}
+        self._anchors: dict[str, Any] = {}
+        self._robots: dict[str, GraphRobot] = {}
+        self._hidden: set[str] = set()
+        self._refused: dict[str, tuple[str, str]] = {}
+        self._subscribers: dict[str, Any] = {}
+        self._stop = threading.Event()
+        self._node.on_shutdown.append(lambda _reason: self._stop.set())
+        self._node.subscribe("/tf", load_message("tf2_msgs/TFMessage"), self._heard, 100)
+        self._node.subscribe(
+            "/tf_static", load_message("tf2_msgs/TFMessage"), partial(self._heard, static=True), 100
+        )
+        page = self._server.viser
+        page.gui.main_panel.dock_right()
+        page.scene.configure_environment_map(None)
+        page.initial_camera.position = (-4.0, -5.0, 5.0)
+        page.scene.add_grid("/grid", 20.0, 20.0, position=(0.0, 0.0, -0.01))
+        self._status = page.gui.add_markdown("waiting for the graph ...")
+        self._show = page.gui.add_folder("Topics")
+        self._thread = threading.Thread(target=self._follow, name="graph-view", daemon=True)
+        self._thread.start()
+
+    @property
+    def ended(self) -> bool:
+        """Whether it shows nothing any more."""
+        return self._stop.is_set()
+
+    def close(self) -> None:
+        """Leave the graph, and give the port back; a second call does nothing."""
+        self._stop.set()
+        self._server.wake()
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+        self._node.close()
+        self._server.close()
+
+    def _heard(self, message: Any, *, static: bool = False) -> None:
+        for each in message.transforms:
+            t, q = each.transform.translation, each.transform.rotation
+            self._tree.place(
+                each.header.frame_id,
+                each.child_frame_id,
+                each.header.stamp.to_nsec(),
+                (t.x, t.y, t.z),
+                (q.x, q.y, q.z, q.w),
+                static=static,
+            )
+
+    def _follow(self) -> None:
+        """Draw what came, while somebody looks."""
+        looked = _LOOK
+        while not self._stop.is_set():
+            if not self._server.watched:
+                self._server.wait()
+                continue
+            try:
+                if looked >= _LOOK:
+                    looked = 0.0
+                    self._discover()
+                self._picture()
+            except (ApiError, UnreachableError) as error:
+                self._say(f"the master does not answer: {error}")
+                self._stop.wait(_LOOK)
+            except Exception:  # noqa: BLE001  one bad message does not end the view
+                _log.exception("a picture of the graph failed")
+            looked += _PERIOD
+            self._stop.wait(_PERIOD)
+
+    def _say(self, text: str) -> None:
+        if self._status.content != text:
+            self._status.content = text
+
+    def _discover(self) -> None:
+        """Subscribe to topics that are new, and read robots that are."""
+        for topic, kind in self._node.master.published_topics():
+            if kind in _KINDS and topic not in self._subscribers:
+                self._kinds[topic] = kind
+                self._subscribers[topic] = self._node.subscribe(
+                    topic, load_message(kind), partial(self._came, topic), 50
+                )
+        for name in self._node.param_names():
+            if name.rpartition("/")[2] == "robot_description":
+                self._meet(name)
+        fixed = self._fixed()
+        counts = f"{len(self._tree.names())} frames, {len(self._kinds)} topics"
+        said = [f"fixed frame **{fixed}** &nbsp; {counts}, {len(self._robots)} robots"]
+        self._say("\n\n".join([*said, *(fault for _, fault in self._refused.values())]))
+
+    def _meet(self, name: str) -> None:
+        """Read a robot_description, if it is new or another one."""
+        text = str(self._node.get_param(name, ""))
+        known = self._robots.get(name)
+        if text in (None if known is None else known.text, self._refused.get(name, ("",))[0]):
+            return
+        self._refused.pop(name, None)
+        if known is not None:
+            self._robots.pop(name).remove()
+        prefix = str(self._node.get_param(f"{name.rpartition('/')[0]}/tf_prefix", "")).strip("/")
+        root = f"/robots/{len(self._robots)}"
+        try:
+            self._robots[name] = GraphRobot(
+                self._server.viser.scene, root, text, f"{prefix}/" if prefix else ""
+            )
+        except Error as error:
+            self._refused[name] = text, f"{name}: {error}"
+
+    def _came(self, topic: str, message: Any) -> None:
+        with self._lock:
+            waiting = self._fresh.setdefault(topic, [])
+            if self._kinds[topic] not in _EVERY:
+                waiting.clear()
+            waiting.append(message)
+
+    def _picture(self) -> None:
+        fixed = self._fixed()
+        with self._lock:
+            fresh, self._fresh = self._fresh, {}
+        with self._server.viser.atomic():
+            for topic, messages in fresh.items():
+                for message in messages:
+                    self._draw(topic, message)
+            for topic, frame in self._frames.items():
+                self._anchor(topic, fixed, frame)
+            for robot in self._robots.values():
+                robot.show(self._tree, fixed)
+
+    def _draw(self, topic: str, message: Any) -> None:
+        page, kind = self._server.viser, self._kinds[topic]
+        if topic not in self._drawings:
+            name = f"/topics/{topic.strip('/').replace('/', '_')}"
+            self._anchors[topic] = page.scene.add_frame(name, show_axes=False)
+            self._drawings[topic] = d.Drawing(page, name, topic)
+            with self._show:
+                box = page.gui.add_checkbox(topic, initial_value=True)
+            box.on_update(partial(self._toggle, topic))
+        first = message.markers[0] if getattr(message, "markers", None) else message
+        self._frames[topic] = getattr(getattr(first, "header", None), "frame_id", "").lstrip("/")
+        _KINDS[kind](self._drawings[topic], message)
+
+    def _toggle(self, topic: str, event: Any) -> None:
+        (self._hidden.discard if event.target.value else self._hidden.add)(topic)
+
+    def _anchor(self, topic: str, fixed: str, frame: str) -> None:
+        """Put what a topic shows into its frame; it is hidden while nobody knows where that is."""
+        anchor = self._anchors[topic]
+        if not frame or frame == fixed:
+            anchor.visible = topic not in self._hidden
+            return
+        try:
+            found = self._tree.lookup(fixed, frame)
+        except TransformException:
+            anchor.visible = False
+            return
+        anchor.visible = topic not in self._hidden
+        x, y, z, w = found.rotation
+        self._anchors[topic].position = np.array(found.translation)
+        self._anchors[topic].wxyz = np.array((w, x, y, z))
+
+    def _fixed(self) -> str:
+        if self._asked:
+            return self._asked.lstrip("/")
+        names = self._tree.names()
+        return next((name for name in _FIXED if name in names), names[0] if names else "map")

@@ -1,0 +1,198 @@
+"""A ROS graph is shown: its robots where tf says, and what topics carry."""
+
+import io
+
+import numpy as np
+import pytest
+
+pytest.importorskip("viser", reason="the extra 'web' is not installed")
+
+from PIL import Image as Pictures
+
+from gazelle.ros import Master, Node, Time, WallClock, load_message
+from gazelle.viewer.graph import GraphView
+from gazelle.viewer.graph.drawing import points_of
+from tests.ros.graph import until
+
+BODY = '<visual><geometry><box size="1 1 1"/></geometry></visual><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+URDF = (
+    f'<robot name="r"><link name="base_link">{BODY}</link><link name="tip">{BODY}</link>'
+    '<joint name="j" type="revolute"><parent link="base_link"/><child link="tip"/>'
+    '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
+)
+
+
+@pytest.fixture
+def master():
+    with Master("127.0.0.1", 0) as running:
+        yield running
+
+
+@pytest.fixture
+def node(master):
+    made = Node("talker", master_uri=master.uri, clock=WallClock())
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def view(master, node):
+    node.set_param("/robot_description", URDF)
+    with GraphView(master.uri) as made:
+        yield made
+
+
+def message(kind, **fields):
+    return load_message(kind)(**fields)
+
+
+def transform(parent, child, x=0.0, y=0.0):
+    made = message("geometry_msgs/TransformStamped")
+    made.header.frame_id, made.child_frame_id = parent, child
+    made.header.stamp = Time.from_sec(1.0)
+    made.transform.translation.x, made.transform.translation.y = x, y
+    made.transform.rotation.w = 1.0
+    return made
+
+
+def say(node, view, topic, sent, latch=True):
+    """Publish once for all who come, and wait until the view has drawn it."""
+    node.advertise(topic, type(sent), 1, latch=latch).publish(sent)
+
+    def drawn():
+        view._discover()
+        view._picture()
+        return topic in view._drawings
+
+    until(drawn)
+    return view._drawings[topic]
+
+
+def on_frame(kind, frame, **fields):
+    made = message(kind, **fields)
+    made.header.frame_id = frame
+    return made
+
+
+def put_frames(node, view, **places):
+    frames = [transform("map", name, *place) for name, place in places.items()]
+    sent = message("tf2_msgs/TFMessage", transforms=frames)
+    publisher = node.advertise("/tf", type(sent), 10, latch=True)
+    publisher.publish(sent)
+    until(lambda: all(view._tree.has(name) for name in places))
+
+
+def test_robots_stand_where_tf_says(node, view):
+    put_frames(node, view, base_link=(1.0, 2.0), tip=(1.0, 5.0))
+    view._discover()
+    view._picture()
+    (robot,) = view._robots.values()
+    (batch,) = robot._batches._batches
+    assert batch.handle.batched_positions[:, :2].tolist() == [[1.0, 2.0], [1.0, 5.0]]
+    put_frames(node, view, base_link=(1.0, 3.0))
+    node.set_param("/robot_description", URDF.replace("1 1 1", "2 2 2"))
+    view._discover()
+    assert next(iter(view._robots.values())) is not robot
+    node.set_param("/robot_description", "<robot")
+    view._discover()
+    assert "robot_description" in view._status.content
+
+
+def test_links_that_tf_does_not_know_go_along(node, view):
+    put_frames(node, view, base_link=(1.0, 2.0))
+    view._discover()
+    view._picture()
+    (batch,) = next(iter(view._robots.values()))._batches._batches
+    assert batch.handle.batched_positions[:, :2].tolist() == [[1.0, 2.0], [1.0, 2.0]]
+
+
+def test_scans_clouds_maps_paths_and_poses_are_drawn_in_their_frames(node, view):
+    put_frames(node, view, laser=(1.0, 0.0))
+    scan = on_frame("sensor_msgs/LaserScan", "laser", angle_min=0.0, angle_increment=np.pi / 2)
+    scan.range_min, scan.range_max, scan.ranges = 0.1, 5.0, [2.0, 3.0, float("inf"), 0.01]
+    drawn = say(node, view, "/scan", scan)
+    assert drawn.part("points").points == pytest.approx(np.array([[2, 0, 0], [0, 3, 0]]), abs=1e-6)
+    assert view._anchors["/scan"].position.tolist() == [1.0, 0.0, 0.0]
+    lost = on_frame("geometry_msgs/PoseStamped", "nowhere")
+    say(node, view, "/goal", lost)
+    assert view._anchors["/scan"].visible
+    assert not view._anchors["/goal"].visible
+
+    grid = on_frame("nav_msgs/OccupancyGrid", "map", data=[0, 100, -1, 0, 50, 0])
+    grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5
+    grid.info.origin.position.x = -2.0
+    shown = say(node, view, "/map", grid).part("map")
+    assert shown.position == pytest.approx([-2.0, 0.0, -0.005])
+
+    path = on_frame("nav_msgs/Path", "map")
+    for x in (0.0, 1.0, 3.0):
+        pose = message("geometry_msgs/PoseStamped")
+        pose.pose.position.x = x
+        path.poses.append(pose)
+    lines = say(node, view, "/plan", path).part("path")
+    assert lines.points[:, :, 0].tolist() == [[0, 1], [1, 3]]
+
+    odometry = on_frame("nav_msgs/Odometry", "map")
+    odometry.pose.pose.position.y = 4.0
+    axes = say(node, view, "/odom", odometry).part("axes")
+    assert axes.batched_positions.tolist() == [[0, 4, 0]]
+
+
+def test_clouds_of_any_layout_are_read():
+    fields = [
+        message("sensor_msgs/PointField", name=name, offset=offset, datatype=7, count=1)
+        for name, offset in (("x", 4), ("y", 8), ("z", 12), ("rgb", 16))
+    ]
+    rows = np.zeros((2, 3, 24), np.uint8)
+    values = np.arange(18, dtype="<f4").reshape(2, 3, 3)
+    rows[:, :, 4:16] = values.view(np.uint8).reshape(2, 3, 12)
+    rows[:, :, 16:19] = [30, 20, 10]  # blue, green, red
+    cloud = message("sensor_msgs/PointCloud2", height=2, width=3, fields=fields)
+    cloud.point_step, cloud.row_step, cloud.data = 24, 72, rows.tobytes()
+    points, colors = points_of(cloud)
+    assert points.tolist() == values.reshape(6, 3).tolist()
+    assert colors.tolist() == [[10, 20, 30]] * 6
+
+
+def test_images_are_on_the_panel(node, view):
+    buffer = io.BytesIO()
+    Pictures.new("RGB", (40, 30), (200, 0, 0)).save(buffer, "PNG")
+    sent = message("sensor_msgs/CompressedImage", format="png", data=buffer.getvalue())
+    drawn = say(node, view, "/camera/image/compressed", sent)
+    assert drawn.part("image").image.shape == (30, 40, 3)
+
+
+@pytest.mark.parametrize("kind", range(10))
+def test_markers_of_every_type_come_and_go(node, view, kind):
+    marker = on_frame("visualization_msgs/Marker", "map", ns="n", id=3, type=kind, text="hello")
+    marker.scale.x = marker.scale.y = marker.scale.z = 0.5
+    marker.color.r, marker.color.a = 1.0, 1.0
+    marker.pose.orientation.w = 1.0
+    marker.points = [message("geometry_msgs/Point", x=float(x)) for x in range(4)]
+    markers = message("visualization_msgs/MarkerArray", markers=[marker])
+    drawn = say(node, view, "/markers", markers)
+    assert drawn.part("n_3") is not None
+    gone = message("visualization_msgs/Marker", ns="n", id=3, action=2)
+    view._came("/markers", message("visualization_msgs/MarkerArray", markers=[gone]))
+    view._picture()
+    assert drawn.part("n_3") is None
+
+
+def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):
+    monkeypatch.setattr(type(view._server), "watched", property(lambda _: True))
+    view._server._changed.set()
+    bad = message("sensor_msgs/Image", encoding="nonsense", height=1, width=1, step=1, data=b"x")
+    node.advertise("/image", type(bad), 1, latch=True).publish(bad)
+    put_frames(node, view, base_link=(1.0, 2.0))
+    until(lambda: "/image" in view._drawings)
+    until(lambda: "fixed frame **map**" in view._status.content)
+    assert view._thread.is_alive()
+
+
+def test_it_leaves_the_graph_and_gives_the_port_back(master, node):
+    with GraphView(master.uri) as view:
+        assert not view.ended
+    assert view.ended
+    view.close()
+    _, subscribers, _ = node.master.system_state()
+    assert "gazelle_view" not in str(subscribers)
