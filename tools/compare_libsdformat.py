@@ -80,8 +80,8 @@ def judged(path: Path, folder: Path, roots: list[str]) -> Outcome:
                 return Outcome("xacro without a robot")
             file.write_text(text, encoding="utf-8")
         if file.suffix == ".urdf":
-            return compared(file, [folder], test_oracle.oracle(file, roots), robot=True)
-        return compared(file, roots, test_oracle.oracle(file, roots), robot=False)
+            return compared(path, [folder], test_oracle.oracle(file, roots), robot=True)
+        return compared(path, roots, test_oracle.oracle(file, roots), robot=False)
 
 
 def compared(
@@ -125,7 +125,9 @@ def written(file: Path, paths: list[Path] | list[str], *, is_world: bool) -> str
             text = formats.to_string(content, "sdf", folder=file.parent)
         except Error as error:
             return Outcome("refused by Gazelle alone", [str(error)])
-    if file.suffix != ".urdf" and any("not found" in str(each.message) for each in notes):
+    if file.suffix not in {".urdf", ".xacro"} and any(
+        "not found" in str(each.message) for each in notes
+    ):
         return Outcome("includes what is not there")
     return text
 

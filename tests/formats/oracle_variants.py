@@ -405,6 +405,11 @@ _WHOLE = {
     ),
     "plugin of a visual": urdf_link("a", inertial(1) + _painted(_BLUE))
     + gazebo("a", f"<visual>{_PLUGIN.format('<x>1</x>')}</visual>"),
+    "fixed to the world": "<link name='world'/>"
+    + urdf_link("a", inertial(1) + _painted(_BLUE))
+    + urdf_link("b", inertial(1))
+    + urdf_joint("j", "world", "a")
+    + urdf_joint("k", "a", "b"),
     "a package": urdf_link(
         "a", inertial(1) + shape("visual", "0 0 0", "<mesh filename='package://none/a.stl'/>")
     ),

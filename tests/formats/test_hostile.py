@@ -102,6 +102,11 @@ BOMBS = {
     "spaces.sdf": BODY.format("m") + " " * 5_000_000,
     "long_name.sdf": BODY.format("m" * 5_000_000),
     "many.sdf": sdf("<model name='m'>" + "<link name='l'/>" * 50_000 + "</model>"),
+    "many_models.sdf": sdf(
+        "<model name='m'><link name='l'/>"
+        + "<model name='m'><link name='l'/></model>" * 20_000
+        + "</model>"
+    ),
     "attributes.sdf": "<sdf version='1.7' "
     + " ".join(f"a{i}='x'" for i in range(50_000))
     + "><model name='m'><link name='l'/></model></sdf>",
@@ -117,6 +122,7 @@ BOMBS = {
 QUICK = [
     "deep.sdf",
     "laughs.sdf",
+    "many.sdf",
     "laughs.xacro",
     "external.sdf",
     "macro_bomb.xacro",

@@ -235,6 +235,26 @@ def test_a_state_that_no_longer_fits_is_left_out_with_a_warning():
         assert again(moved).models[0].pose == Pose(2.0)
 
 
+def test_what_joints_hold_to_the_world_is_static_again_but_not_for_gazebo():
+    """Of a static model Gazebo has no joints."""
+    text = "<link name='world'/>{0}<joint name='j' type='{1}'><parent link='world'/><child link='a'/></joint>"
+    body = (
+        "<link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+        "ixz='0' iyz='0'/></inertial></link>"
+    )
+    for kind, flag, tags in (
+        ("fixed", "", {"{urn:gazelle}static"}),
+        ("continuous", "", set()),
+        ("continuous", "<gazebo><static>true</static></gazebo>", {"static"}),
+    ):
+        robot = f"<robot name='r'>{text.format(body, kind)}{flag}</robot>"
+        found = formats.load_model_string(robot)
+        written = formats.to_string(found, "sdf")
+        assert formats.load_model_string(written) == found
+        children = {child.tag for child in ET.fromstring(written).find("model")}
+        assert {tag for tag in children if tag.endswith("static")} == tags
+
+
 @pytest.mark.parametrize("kind", ["ray", "gpu_ray", "lidar", "gpu_lidar"])
 @pytest.mark.parametrize("tag", ["ray", "lidar"])
 def test_the_rays_of_a_sensor_keep_the_name_of_their_element(kind, tag):

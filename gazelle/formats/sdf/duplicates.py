@@ -20,32 +20,47 @@ def with_own_names(node: Parameters, tags: Collection[str], reading: Reading) ->
 
     Of two joints the first stays; of others the second is called ``NAME_1``.
     """
-    taken: dict[str, set[str]] = {tag: set() for tag in (*tags, *_LEFT_OUT)}
+    seen: dict[str, set[str]] = {tag: set() for tag in (*tags, *_LEFT_OUT)}
+    free_names: dict[str, FreeNames] = {}
     children: list[Parameters] = []
     for child in node.children:
         name = child.attributes.get("name", "")
-        names = taken.get(child.tag)
+        names = seen.get(child.tag)
         if names is None or name not in names:
             children.append(child)
         elif child.tag in _LEFT_OUT:
             reading.fault(f"{_already(child, name)}: this one is left out", child)
         else:
-            free = free_name(name, names | _all_names(node, child.tag))
+            if child.tag not in free_names:
+                free_names[child.tag] = FreeNames(_all_names(node, child.tag))
+            free = free_names[child.tag].after(name)
             reading.fault(f"{_already(child, name)}: this one is called '{free}'", child)
             children.append(with_attributes(child, name=free))
-            name = free
         if names is not None:
             names.add(name)
     same = len(children) == len(node.children) and all(map(_is, children, node.children))
     return node if same else replace(node, children=tuple(children))
 
 
-def free_name(name: str, taken: Collection[str]) -> str:
-    """The name with the first number behind it that none of the others has."""
-    number = 1
-    while f"{name}_{number}" in taken:
-        number += 1
-    return f"{name}_{number}"
+class FreeNames:
+    """Names with a number behind, found in one pass however many are asked for.
+
+    Attributes:
+        taken: Names that are not free.
+    """
+
+    def __init__(self, taken: set[str]) -> None:
+        self.taken = taken
+        self._last: dict[str, int] = {}
+
+    def after(self, name: str) -> str:
+        """The name with the first number behind it that is free; it is taken from now on."""
+        number = self._last.get(name, 0) + 1
+        while f"{name}_{number}" in self.taken:
+            number += 1
+        self._last[name] = number
+        self.taken.add(f"{name}_{number}")
+        return f"{name}_{number}"
 
 
 def _is(one: Parameters, other: Parameters) -> bool:

@@ -12,7 +12,7 @@ from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.model_frames import ModelFrames
-from gazelle.formats.sdf.own import own_transmissions
+from gazelle.formats.sdf.own import own_static, own_transmissions
 from gazelle.formats.sdf.plugin import read_plugin, read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 
@@ -38,7 +38,7 @@ def read_model(draft: ModelFrames, outer: Scope, reading: Reading) -> Model:
 
 def _content(draft: ModelFrames, reading: Reading) -> Model:
     node, scope = draft.node, draft.scope
-    static = values.flag(node, "static", default=False) or draft.static is True
+    static = values.flag(node, "static", default=own_static(node)) or draft.static is True
     if not (static or scope.canonical or scope.missing or _holds_static(draft)):
         reading.fault(f"the model '{draft.name}' has no link", node)
     return Model(

@@ -15,7 +15,7 @@ from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import with_attributes
-from gazelle.formats.sdf.duplicates import MODEL_PARTS, free_name, with_own_names
+from gazelle.formats.sdf.duplicates import MODEL_PARTS, FreeNames, with_own_names
 from gazelle.formats.sdf.frames import ANY, MODEL, WORLD, NamedFrame, Scope
 from gazelle.formats.sdf.merge import is_merge, with_merges
 from gazelle.formats.sdf.own_joint import with_own_joints
@@ -87,6 +87,7 @@ def draft_model(
         node.attributes.get("placement_frame", ""),
         scope=Scope(MODEL, reading=reading),
     )
+    names = FreeNames(set())
     for child in node.children:
         draft_part(child, draft.scope)
         if child.tag in {"model", "include"}:
@@ -98,7 +99,7 @@ def draft_model(
             if inner is None:
                 draft.scope.missing |= missing_names(child)
             else:
-                _rename_second(inner, draft, reading)
+                _rename_second(inner, names, reading)
                 draft.nested.append(inner)
                 add_model(draft.scope, inner)
     draft.scope.canonical = _canonical(draft, reading)
@@ -106,16 +107,16 @@ def draft_model(
     return draft
 
 
-def _rename_second(inner: ModelFrames, outer: ModelFrames, reading: Reading) -> None:
+def _rename_second(inner: ModelFrames, names: FreeNames, reading: Reading) -> None:
     """Another model of one name: Gazebo loads both."""
-    names = {other.name for other in outer.nested}
-    if inner.name in names:
-        free = free_name(inner.name, names)
+    if inner.name in names.taken:
+        free = names.after(inner.name)
         reading.fault(
             f"there is already a model named '{inner.name}': this one is called '{free}'",
             inner.node,
         )
         inner.name = free
+    names.taken.add(inner.name)
 
 
 def missing_names(node: Parameters) -> set[str]:

@@ -5,7 +5,8 @@ SDF lets elements with a prefix stand anywhere; other programs pass over them.
 
 from __future__ import annotations
 
-from gazelle.description import Parameters, SafetyController, Transmission
+from gazelle.description import Model, Parameters, SafetyController, Transmission
+from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.joint import read_safety
 from gazelle.formats.urdf.transmission import read_transmission
@@ -13,6 +14,27 @@ from gazelle.formats.urdf.transmission import read_transmission
 PREFIX = "gazelle"
 TRANSMISSION = f"{PREFIX}:transmission"
 SAFETY = f"{PREFIX}:safety_controller"
+STATIC = f"{PREFIX}:static"
+
+_WORLD = "world"
+
+
+def fixed_whole(model: Model) -> bool:
+    """Whether fixed joints hold all links of a model to the world, so that nothing can move.
+
+    Such a robot of URDF is static to Gazelle. SDF's ``<static>`` would say more: of a static model
+    Gazebo has no joints.
+    """
+    held = {_WORLD}
+    for joint in model.joints:
+        if joint.type == "fixed" and joint.parent in held:
+            held.add(joint.child)
+    return all(link.name in held for link in model.links)
+
+
+def own_static(node: Parameters) -> bool:
+    """Whether a model that joints hold is static."""
+    return values.flag(node, STATIC, default=False)
 
 
 def own_transmissions(node: Parameters, reading: Reading) -> tuple[Transmission, ...]:

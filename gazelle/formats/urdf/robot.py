@@ -25,6 +25,7 @@ from gazelle.formats.sdf.frames import MODEL, Scope
 from gazelle.formats.sdf.joint import read_joint_physics, read_joints
 from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.model_frames import draft_part, name_frames
+from gazelle.formats.sdf.own import fixed_whole
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
@@ -42,7 +43,7 @@ from gazelle.formats.urdf.parts import (
 )
 from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
-from gazelle.formats.urdf.tree import ONLY_MACROS, WORLD, LumpedLink, UrdfTree, bodies, read_tree
+from gazelle.formats.urdf.tree import ONLY_MACROS, LumpedLink, UrdfTree, bodies, read_tree
 from gazelle.formats.urdf.upright import upright
 
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
@@ -278,7 +279,7 @@ def _with_model_extensions(
     static = extensions.yes("", "static")
     return replace(
         model,
-        static=_fixed_whole(model) if static is None else static,
+        static=fixed_whole(model) if static is None else static,
         self_collide=values.flag(sdf, "self_collide", default=False),
         allow_auto_disable=values.flag(sdf, "allow_auto_disable", default=True),
         enable_wind=values.flag(sdf, "enable_wind", default=False),
@@ -293,12 +294,3 @@ def _with_model_extensions(
         plugins=tuple(map(read_plugin, plugin_nodes)),
         extras=tuple(node for node in nodes if node.tag == "gripper"),
     )
-
-
-def _fixed_whole(model: Model) -> bool:
-    """Whether all links are fixed to the world, so that nothing can move."""
-    held = {WORLD}
-    for joint in model.joints:
-        if joint.type == "fixed" and joint.parent in held:
-            held.add(joint.child)
-    return all(link.name in held for link in model.links)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from gazelle.description import Frame, Model, Parameters, Transmission
 from gazelle.errors import FormatError
-from gazelle.formats.sdf.own import TRANSMISSION
+from gazelle.formats.sdf.own import STATIC, TRANSMISSION, fixed_whole
 from gazelle.formats.write.element import distinct, element, inside, leaf, pose_leaf
 from gazelle.formats.write.sdf.joint import write_joint
 from gazelle.formats.write.sdf.link import write_link
@@ -21,7 +21,7 @@ def write_model(model: Model, writing: Writing) -> Parameters:
         return element(
             "model",
             pose_leaf(model.pose),
-            leaf("static", model.static, False),
+            leaf(STATIC if _held_by_joints(model) else "static", model.static, False),
             leaf("self_collide", model.self_collide, False),
             leaf("allow_auto_disable", model.allow_auto_disable, True),
             leaf("enable_wind", model.enable_wind, False),
@@ -50,6 +50,12 @@ def write_part(model: Model, writing: Writing) -> Parameters:
         )
         model = replace(model, static=True)
     return write_model(model, writing)
+
+
+def _held_by_joints(model: Model) -> bool:
+    """Whether the model is a robot of a URDF, static only since its joints hold all of it."""
+    element = (model.source.element if model.source is not None else None) or ""
+    return element.startswith("robot") and bool(model.links) and fixed_whole(model)
 
 
 def _is_complete(model: Model) -> bool:
