@@ -27,7 +27,7 @@ from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene, SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
-from gazelle.planning.time_parameterization import JointLimits, TimedPath, parameterize
+from gazelle.planning.time_parameterization import PathLimits, TimedPath, parameterize
 from gazelle.planning.tree_builder import LinkFrame
 from gazelle.planning.variables import JointBounds, Variable
 
@@ -40,7 +40,6 @@ __all__ = [
     "InverseKinematics",
     "JointBounds",
     "JointConstraint",
-    "JointLimits",
     "JointModelGroup",
     "JumpLimits",
     "LinkFrame",
@@ -48,6 +47,7 @@ __all__ = [
     "MotionPlanner",
     "NoPlanError",
     "OrientationConstraint",
+    "PathLimits",
     "PlanOptions",
     "PlanOutcome",
     "PlanningScene",

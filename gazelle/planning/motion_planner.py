@@ -26,7 +26,7 @@ from gazelle.planning.scene import PlanningScene
 from gazelle.planning.shortcuts import shorten
 from gazelle.planning.state_validity import LONGEST_SEGMENT, StateValidity
 from gazelle.planning.time_parameterization import (
-    JointLimits,
+    PathLimits,
     TimeAlgorithm,
     TimedPath,
     parameterize,
@@ -118,7 +118,7 @@ class MotionPlanner:
         if not self.options.time > 0.0 or not self.options.segment > 0.0:
             raise PlanningError("the time to plan and the segment are above zero")
         self._planner = planner_of(self.options.planner)
-        limits = JointLimits(group.max_velocity, group.max_acceleration)
+        limits = PathLimits(group.max_velocity, group.max_acceleration)
         self._turners: dict[str, InverseKinematics] = {}
         self._limits = limits.scaled(self.options.velocity, self.options.acceleration)
 

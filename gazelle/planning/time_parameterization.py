@@ -32,7 +32,7 @@ _JUMP = 0.02
 
 
 @dataclass(frozen=True, slots=True)
-class JointLimits:
+class PathLimits:
     """What joints may do at most.
 
     Attributes:
@@ -43,7 +43,7 @@ class JointLimits:
     velocity: Floats
     acceleration: Floats
 
-    def scaled(self, velocity: float, acceleration: float) -> JointLimits:
+    def scaled(self, velocity: float, acceleration: float) -> PathLimits:
         """Limits times factors within (0, 1].
 
         Raises:
@@ -54,7 +54,7 @@ class JointLimits:
                 raise PlanningError(f"the scaling factor of {name} is within (0, 1], not {value!r}")
         known = np.where(np.isfinite(self.velocity), self.velocity, DEFAULT_VELOCITY)
         bounded = np.where(np.isfinite(self.acceleration), self.acceleration, DEFAULT_ACCELERATION)
-        return JointLimits(known * velocity, bounded * acceleration)
+        return PathLimits(known * velocity, bounded * acceleration)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,7 @@ class TimedPath:
 
 def parameterize(
     points: Floats,
-    limits: JointLimits,
+    limits: PathLimits,
     algorithm: TimeAlgorithm = "time optimal",
     *,
     tolerance: float = PATH_TOLERANCE,
@@ -122,7 +122,7 @@ def parameterize(
     return _within(_through(times, kept), limits)
 
 
-def _time_optimal(path: PathPieces, limits: JointLimits) -> TimedPath:
+def _time_optimal(path: PathPieces, limits: PathLimits) -> TimedPath:
     """The fastest way along a path, sampled."""
     places = _places(path)
     _, slopes, bends = path.at(np.append((places[:-1] + places[1:]) / 2.0, places[-1]))
@@ -197,7 +197,7 @@ def _through(times: Floats, points: Floats) -> TimedPath:
     return TimedPath(times, points, velocities, accelerations)
 
 
-def _within(made: TimedPath, limits: JointLimits) -> TimedPath:
+def _within(made: TimedPath, limits: PathLimits) -> TimedPath:
     """The same, slower by what it exceeds limits, at its points or on cubics between them."""
     spans = np.diff(made.times)[:, None]
     rates = np.diff(made.positions, axis=0) / spans

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.errors import PlanningError
-from gazelle.planning import JointLimits, parameterize
+from gazelle.planning import PathLimits, parameterize
 from gazelle.planning.blended_path import blended
 
 KINDS = ["time optimal", "iterative parabolic"]
@@ -18,7 +18,7 @@ KINDS = ["time optimal", "iterative parabolic"]
 def test_one_straight_way_is_a_trapezoid(length):
     """v/a + l/v where it gets as fast as it may, 2 sqrt(l/a) where it does not."""
     v, a = 1.2, 2.5
-    limits = JointLimits(np.array([v, 9.0]), np.array([a, 9.0]))
+    limits = PathLimits(np.array([v, 9.0]), np.array([a, 9.0]))
     made = parameterize(np.array([[1.0, 0.0], [1.0 + length, 0.0]]), limits)
     expected = v / a + length / v if length > v * v / a else 2.0 * np.sqrt(length / a)
     assert made.duration == pytest.approx(expected, rel=1e-3)
@@ -30,7 +30,7 @@ def test_one_straight_way_is_a_trapezoid(length):
 def test_limits_are_kept(kind, seed, count, joints):
     random = np.random.default_rng(seed)
     points = random.uniform(-2.0, 2.0, (count, joints))
-    limits = JointLimits(random.uniform(0.1, 3.0, joints), random.uniform(0.1, 5.0, joints))
+    limits = PathLimits(random.uniform(0.1, 3.0, joints), random.uniform(0.1, 5.0, joints))
     made = parameterize(points, limits, kind)
     assert (np.abs(made.velocities) <= limits.velocity * (1 + 1e-9)).all()
     assert (np.abs(made.accelerations) <= limits.acceleration * (1 + 1e-9)).all()
@@ -77,27 +77,27 @@ def test_corners_are_rounded_within_a_tolerance(seed, deviation):
 
 def test_the_parabolic_one_goes_through_its_points():
     points = np.random.default_rng(0).uniform(-1, 1, (6, 4))
-    limits = JointLimits(np.ones(4), np.ones(4))
+    limits = PathLimits(np.ones(4), np.ones(4))
     np.testing.assert_array_equal(parameterize(points, limits, KINDS[1]).positions, points)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_standing_still(kind):
-    limits = JointLimits(np.ones(2), np.ones(2))
+    limits = PathLimits(np.ones(2), np.ones(2))
     made = parameterize(np.ones((3, 2)), limits, kind)
     assert made.duration == 0.0
     assert made.positions.tolist() == [[1.0, 1.0]]
 
 
 def test_going_back_the_same_way():
-    limits = JointLimits(np.ones(1), np.ones(1))
+    limits = PathLimits(np.ones(1), np.ones(1))
     made = parameterize(np.array([[0.0], [1.0], [0.0]]), limits)
     assert made.positions.max() == pytest.approx(1.0, abs=0.02)
     assert made.duration == pytest.approx(4.0, rel=0.1)
 
 
 def test_without_limits_there_are_some():
-    free = JointLimits(np.full(1, np.inf), np.full(1, np.inf)).scaled(0.5, 0.25)
+    free = PathLimits(np.full(1, np.inf), np.full(1, np.inf)).scaled(0.5, 0.25)
     assert (free.velocity.tolist(), free.acceleration.tolist()) == ([0.5], [0.25])
 
 
@@ -106,6 +106,6 @@ def test_without_limits_there_are_some():
     [(np.zeros((0, 2)), KINDS[0], "without points"), (np.zeros((2, 2)), "spline", "no time")],
 )
 def test_what_cannot_be(points, kind, words):
-    limits = JointLimits(np.ones(2), np.ones(2))
+    limits = PathLimits(np.ones(2), np.ones(2))
     with pytest.raises(PlanningError, match=words):
         parameterize(points, limits, kind)
