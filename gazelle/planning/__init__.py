@@ -20,6 +20,8 @@ from gazelle.planning.constraints import (
     PositionConstraint,
     goal_of_pose,
 )
+from gazelle.planning.execution import Execution, ExecutionReport
+from gazelle.planning.group import Group, GroupPlan
 from gazelle.planning.inverse import IkSolutions, InverseKinematics
 from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
@@ -36,6 +38,10 @@ __all__ = [
     "AttachedObject",
     "CartesianPath",
     "ConstraintSet",
+    "Execution",
+    "ExecutionReport",
+    "Group",
+    "GroupPlan",
     "IkSolutions",
     "InverseKinematics",
     "JointBounds",

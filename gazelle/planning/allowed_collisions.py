@@ -31,8 +31,13 @@ class AllowedCollisionMatrix:
         for pair in semantics.enabled_collisions:
             made.set_pair(pair.link1, pair.link2, allowed=False)
         if not semantics.disabled_collisions and not semantics.unchecked_links:
+            parts: dict[str, list[str]] = {}
+            for frame in model.frames:
+                parts.setdefault(frame.attached_to, []).append(frame.name)
             for joint in model.joints:
-                made.set_pair(joint.parent, joint.child, allowed=True)
+                for one in (joint.parent, *parts.get(joint.parent, ())):
+                    for other in (joint.child, *parts.get(joint.child, ())):
+                        made.set_pair(one, other, allowed=True)
         return made
 
     def set_pair(self, first: str, second: str, *, allowed: bool) -> None:

@@ -164,6 +164,17 @@ class RobotModel:
         ordered = [link for link in self.links if link in (*links, tip)]
         return self._made(name, joints, tuple(ordered), (tip,), base)
 
+    def group_of(self, joints: Iterable[str], name: str) -> JointModelGroup:
+        """A group of some joints, without an SRDF.
+
+        Raises:
+            PlanningError: A joint is not there.
+        """
+        chosen = {self.variables[self.column(joint)].joint for joint in joints}
+        links = [joint.child for joint in self.model.joints if joint.name in chosen]
+        ordered = tuple(link for link in self.links if link in links)
+        return self._made(name, chosen, ordered, ends_of(ordered, self._parents()), "")
+
     def _made(
         self, name: str, joints: set[str], links: tuple[str, ...], tips: tuple[str, ...], base: str
     ) -> JointModelGroup:

@@ -79,6 +79,10 @@ class PlanningScene:
         self._models: dict[tuple[str, ...], CollisionModel] = {}
         self.set_padding(padding or {})
         self.set_scale(scale or {})
+        if not robot.semantics.disabled_collisions and not robot.semantics.unchecked_links:
+            # What touches with all joints at zero was drawn so, as MoveIt's setup assistant says.
+            for contact in self.contacts():
+                self.allow(contact.first, contact.second)
 
     # -- what is there -------------------------------------------------------------------
 

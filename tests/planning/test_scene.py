@@ -17,7 +17,7 @@ from gazelle.description import (
     Sphere,
 )
 from gazelle.errors import PlanningError
-from gazelle.formats import MeshData
+from gazelle.formats import MeshData, load_model_string
 from gazelle.planning import AllowedCollisionMatrix, PlanningScene, RobotModel, voxel_boxes
 
 RADIUS = 0.04
@@ -245,6 +245,20 @@ def test_without_an_srdf_links_of_one_joint_may_touch():
     scene = PlanningScene(RobotModel(fetch.model))
     assert scene.allowed.allows("torso_lift_link", "base_link")
     assert not scene.allowed.allows("base_link", "head_pan_link")
+
+
+def test_a_link_may_be_named_world():
+    text = (arms.DATA / "fetch_arm.urdf").read_text()
+    held = (
+        '<link name="world"/><joint name="foot" type="fixed"><parent link="world"/>'
+        '<child link="base_link"/><origin xyz="0 0 1"/></joint></robot>'
+    )
+    robot = RobotModel(load_model_string(text.replace("</robot>", held)))
+    scene = PlanningScene(robot)
+    scene.add("ball", Sphere(0.1), Pose(0.0, 0.0, 1.2))
+    assert {each.second for each in scene.contacts()} | {
+        each.first for each in scene.contacts()
+    } == {"ball", "base_link"}
 
 
 def test_defaults_of_names():

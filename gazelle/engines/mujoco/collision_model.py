@@ -14,6 +14,9 @@ from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.formats import MeshData
 
 Shape = Geometry | MeshData
+_OWN = "/"
+"""Before the names of bodies, as MuJoCo has a body named world itself."""
+
 _HINGE, _SLIDE = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE
 
 
@@ -87,10 +90,12 @@ class CollisionModel:
         self._build(spec, bodies, obstacles)
         for first, second in ignored:
             if first in names and second in names:
-                spec.add_exclude(bodyname1=first, bodyname2=second)
+                spec.add_exclude(bodyname1=_OWN + first, bodyname2=_OWN + second)
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
-        self._names = [self._model.body(index).name for index in range(self._model.nbody)]
+        self._names = [
+            self._model.body(index).name.removeprefix(_OWN) for index in range(self._model.nbody)
+        ]
         self._still = {body.name for body in obstacles}
 
     def _build(
@@ -104,14 +109,16 @@ class CollisionModel:
         root.add_freejoint()
         made = {"": root}
         for body in bodies:
-            handle = made[body.parent].add_body(name=body.name, **weight, **_place(body.pose))
+            handle = made[body.parent].add_body(
+                name=_OWN + body.name, **weight, **_place(body.pose)
+            )
             if body.axis is not None:
                 kind = _SLIDE if body.slides else _HINGE
                 handle.add_joint(type=kind, axis=list(body.axis))
             made[body.name] = handle
             self._add_shapes(handle, body, static=False)
         for body in obstacles:
-            handle = spec.worldbody.add_body(name=body.name, **_place(body.pose))
+            handle = spec.worldbody.add_body(name=_OWN + body.name, **_place(body.pose))
             self._add_shapes(handle, body, static=True)
 
     def _add_shapes(self, handle: mujoco.MjsBody, body: CollisionBody, *, static: bool) -> None:

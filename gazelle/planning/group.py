@@ -1,0 +1,311 @@
+"""A group of joints of a robot in a running simulation: plan from where it is, and go there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import Plane, Pose, Semantics
+from gazelle.errors import PlanningError, did_you_mean
+from gazelle.formats import Resolver, load_srdf
+from gazelle.planning.cartesian_path import JumpLimits
+from gazelle.planning.constraints import ConstraintSet
+from gazelle.planning.execution import Execution, ExecutionReport, begin_execution
+from gazelle.planning.goal_states import Goal
+from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
+from gazelle.planning.robot_model import RobotModel
+from gazelle.planning.scene import PlanningScene
+from gazelle.planning.scene_objects import SceneObject
+from gazelle.planning.variables import JointBounds
+from gazelle.simulation.robot import Robot
+
+START_TOLERANCE = 0.01
+"""How far joints may be from where a plan begins [m or rad] (MoveIt's allowed_start_tolerance)."""
+
+
+@dataclass(frozen=True, slots=True)
+class GroupPlan:
+    """A plan for a robot in a simulation.
+
+    Attributes:
+        plan: What it does.
+        fraction: How much of what was asked it does: less than 1 only for straight ways.
+        reason: Why it ends before.
+    """
+
+    plan: MotionPlan
+    group: Group
+    fraction: float = 1.0
+    reason: str = ""
+
+    @property
+    def duration(self) -> float:
+        """[s]."""
+        return self.plan.trajectory.duration
+
+    def start(self) -> Execution:
+        """Give it to the robot's trajectory controllers; whoever steps the simulation moves it.
+
+        Raises:
+            PlanningError: The robot is not where the plan begins, or no running controllers move
+                these joints.
+        """
+        self.group.check_start(self.plan)
+        return begin_execution(self.group.robot, self.plan, self.group.world)
+
+    def run(self) -> ExecutionReport:
+        """Go there, stepping the simulation; returns when it is done, or takes too long.
+
+        Raises:
+            PlanningError: As ``start``.
+        """
+        return self.start().run()
+
+
+class Group:
+    """A group of joints of a robot in a running simulation.
+
+    Args:
+        robot: The robot, as ``Simulation.spawn`` gave it.
+        name: Of the group in its SRDF; or, without one, of a trajectory controller, whose joints are
+            the group, with ``_controller`` after it or not.
+        semantics: The SRDF, or a file of it. If None, that of the robot's ``NAME_moveit_config``
+            package is looked for.
+        options: How to plan.
+        limits: Limits of joints, in place of the description's.
+        tip: The link that poses are of, where the SRDF does not say.
+        world: Which of the simulation's worlds.
+
+    Attributes:
+        robot: The robot.
+        scene: What must not be touched, in the frame of the robot's root link. Add to it.
+        model: The robot's group.
+        options: How to plan; may be replaced.
+
+    Raises:
+        PlanningError: There is no such group.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        name: str,
+        *,
+        semantics: Semantics | str | PathLike[str] | None = None,
+        options: PlanOptions | None = None,
+        limits: Mapping[str, JointBounds] | None = None,
+        tip: str | None = None,
+        world: int = 0,
+    ) -> None:
+        self.robot, self.world = robot, world
+        self.options = options or PlanOptions()
+        found = _semantics(robot, semantics)
+        model = RobotModel(robot.description, found, limits)
+        self.scene = PlanningScene(model)
+        groups = [group.name for group in found.groups] if found is not None else []
+        if name in groups:
+            self.model = model.group(name)
+        else:
+            self.model = _controlled(robot, model, name, groups)
+        self._tip = tip
+
+    # -- where it is ---------------------------------------------------------------------
+
+    @property
+    def tip(self) -> str:
+        """The link that poses are of.
+
+        Raises:
+            PlanningError: The group has several ends, and none was named.
+        """
+        return self.model.tip if self._tip is None else self._tip
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the joints."""
+        return self.model.names
+
+    @property
+    def positions(self) -> Floats:
+        """Where its joints are [m or rad], shape (n,)."""
+        return self.state()[self.model.columns]
+
+    def state(self) -> Floats:
+        """Where all joints of the robot are, shape (variables,); the scene knows it from now on."""
+        made = self.scene.robot.zero()
+        rows = np.array([self.world])
+        for column, name in enumerate(self.scene.robot.names):
+            if name in self.robot.joints:
+                made[column] = self.robot.joints[name].positions(rows)[0, 0]
+        self.scene.state = made
+        return made.copy()
+
+    def pose(self, link: str | None = None) -> Pose:
+        """Where a link is in the frame of the robot's root link; the tip if None."""
+        return self.scene.robot.pose(self.state(), self.tip if link is None else link)
+
+    @property
+    def base(self) -> Pose:
+        """Where the robot's root link is in the world: ``base.inverse() * pose`` is in its frame."""
+        root, rows = self.scene.robot.root, np.array([self.world])
+        if root in self.robot.links:
+            placed = self.robot.links[root].placement(rows)
+        else:
+            placed = self.robot.placement(rows)
+        return Pose.from_quaternion(placed.position[0].tolist(), placed.quaternion[0].tolist())
+
+    def see(self, *names: str) -> None:
+        """Take other models of the simulation into the scene, as they stand now.
+
+        Each of their links becomes an object ``MODEL::LINK``; seen again it is replaced.
+
+        Args:
+            names: Which ones; all but this robot if none.
+
+        Raises:
+            PlanningError: There is no such model.
+        """
+        others = self.robot.simulation.robots
+        wanted = names or [name for name in others if name != self.robot.name]
+        back, rows = self.base.inverse(), np.array([self.world])
+        for name in wanted:
+            if name not in others:
+                hint = did_you_mean(name, others)
+                raise PlanningError(f"the simulation has no model '{name}'", hint=hint)
+            for link in others[name].description.links:
+                shapes = tuple((each.geometry, each.pose) for each in link.collisions)
+                placed = others[name].links[link.name].placement(rows)
+                pose = Pose.from_quaternion(
+                    placed.position[0].tolist(), placed.quaternion[0].tolist()
+                )
+                if shapes:
+                    made = SceneObject(f"{name}::{link.name}", shapes, back * pose)
+                    self.scene.add_object(made)
+                    self._let_stand(made)
+
+    def _let_stand(self, made: SceneObject) -> None:
+        """What the robot stands on may touch its root link."""
+        if any(isinstance(shape, Plane) for shape, _ in made.shapes):
+            self.scene.allow(made.name, self.scene.robot.root)
+
+    # -- plans ---------------------------------------------------------------------------
+
+    def plan(
+        self, goal: Goal, *, constraints: ConstraintSet | None = None, link: str | None = None
+    ) -> GroupPlan:
+        """A plan from where the robot is to a goal.
+
+        Args:
+            goal: A pose of the tip in the frame of the robot's root link, the name of a state of the
+                group, positions by joint or of all joints, or constraints.
+            constraints: That hold all along.
+            link: What a pose is of; the tip if None.
+
+        Raises:
+            NoPlanError: There is none, and why.
+            PlanningError: The goal names what is not there.
+        """
+        start = self.state()
+        link = (self.tip if isinstance(goal, Pose) else None) if link is None else link
+        found = self._planner().plan(goal, start=start, link=link, constraints=constraints)
+        return GroupPlan(found, self)
+
+    def follow(
+        self,
+        poses: Sequence[Pose],
+        *,
+        max_step: float = 0.01,
+        jumps: JumpLimits | None = None,
+        avoid_collisions: bool = True,
+        constraints: ConstraintSet | None = None,
+    ) -> GroupPlan:
+        """A plan along straight ways of the tip, as far as it can go; see its ``fraction``.
+
+        Args:
+            poses: One after another, in the frame of the robot's root link.
+            max_step: Longest step [m].
+            jumps: Where to cut it off.
+            avoid_collisions: Whether it ends where it would collide.
+            constraints: That hold all along.
+
+        Raises:
+            PlanningError: The step is not above zero.
+        """
+        plan, path = self._planner().follow(
+            poses,
+            max_step=max_step,
+            start=self.state(),
+            link=self.tip,
+            jumps=jumps,
+            avoid_collisions=avoid_collisions,
+            constraints=constraints,
+        )
+        return GroupPlan(plan, self, path.fraction, path.reason)
+
+    def go(self, goal: Goal) -> ExecutionReport:
+        """Plan to a goal and go there: ``plan(goal).run()``."""
+        return self.plan(goal).run()
+
+    def check_start(self, plan: MotionPlan) -> None:
+        """See that the robot is where a plan begins.
+
+        Raises:
+            PlanningError: It is not.
+        """
+        here = self.state()[self.model.columns]
+        there = plan.trajectory.positions[0]
+        away = np.abs(self.model.difference(here, there))
+        if away.max(initial=0.0) > START_TOLERANCE:
+            worst = int(np.argmax(away))
+            raise PlanningError(
+                f"joint '{self.names[worst]}' is at {here[worst]:.4f}, and the plan begins at "
+                f"{there[worst]:.4f}",
+                hint="plan again from where the robot is",
+            )
+
+    def with_options(self, **changes: object) -> None:
+        """Change how it plans, such as ``velocity=0.5``; see ``PlanOptions``."""
+        self.options = replace(self.options, **changes)  # type: ignore[arg-type]
+
+    def _planner(self) -> MotionPlanner:
+        return MotionPlanner(self.scene, self.model, self.options)
+
+
+def _semantics(robot: Robot, given: Semantics | str | PathLike[str] | None) -> Semantics | None:
+    """The SRDF that was given, or that of the robot's MoveIt package, where there is one."""
+    if isinstance(given, Semantics):
+        return given
+    if given is not None:
+        return load_srdf(given)
+    source = robot.description.source
+    file = Path(source.file) if source is not None and source.file else None
+    for name in dict.fromkeys((robot.description.name, robot.name)):
+        uri = f"package://{name}_moveit_config/config/{name}.srdf"
+        found = Resolver(file=file).find(uri)
+        if found is not None:
+            return load_srdf(found)
+    return None
+
+
+def _controlled(
+    robot: Robot, model: RobotModel, name: str, groups: Sequence[str]
+) -> JointModelGroup:
+    """The joints of a trajectory controller as a group."""
+    from gazelle.planning.execution import trajectory_controllers
+
+    joints = trajectory_controllers(robot)
+    for key in (name, f"{name}_controller"):
+        if key in joints:
+            return model.group_of(joints[key], name)
+    raise PlanningError(
+        f"'{robot.name}' has no group '{name}', and no trajectory controller of that name",
+        hint=did_you_mean(name, [*groups, *joints])
+        if groups or joints
+        else "give semantics=, the robot's SRDF",
+    )
