@@ -87,12 +87,16 @@ def run(name: str, hardware: RobotHardware, *, makes_time: bool, offer: Any = No
 
 
 def _keep_time(node: Node, loop: HardwareLoop) -> int:
-    """Periods as long as they are said to be, however late they come: so are the originals' robots'."""
+    """Periods as long as they are said to be; late ones are made up for.
+
+    The originals' robots lose them, and with them time, on a machine that is busy with other things.
+    """
     due = time.monotonic()
     try:
         while not node.closed:
             loop.step(PERIOD_S)
-            due = _rest(due + PERIOD_S)
+            due += PERIOD_S
+            time.sleep(max(0.0, due - time.monotonic()))
     except KeyboardInterrupt:
         pass
     return 0
