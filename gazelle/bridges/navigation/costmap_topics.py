@@ -79,6 +79,11 @@ class CostmapTopics:
 
         return take
 
+    def reset(self) -> None:
+        """Forget what was seen; it is drawn anew before anybody plans on it."""
+        self.costmap.reset()
+        self._updated_ns = -(1 << 62)
+
     def missing(self) -> list[str]:
         """What it waits for, beside frames."""
         return [

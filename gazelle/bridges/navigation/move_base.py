@@ -238,6 +238,6 @@ class MoveBaseNode:
     def _clear(self, request: Any) -> list[Any]:
         del request
         with self._lock:
-            self.stack.whole.costmap.reset()
-            self.stack.local.costmap.reset()
+            self.whole.reset()
+            self.local.reset()
         return []

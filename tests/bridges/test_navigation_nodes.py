@@ -1,0 +1,372 @@
+"""Nodes of navigation on a small graph: a robot in an empty room, driven by hand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from ros.graph import until
+
+from gazelle.bridges.navigation.amcl import AmclNode
+from gazelle.bridges.navigation.diagnosis import NavigationWarning, StartDiagnosis
+from gazelle.bridges.navigation.frames import missing_links
+from gazelle.bridges.navigation.gmapping import GmappingNode
+from gazelle.bridges.navigation.messages import wrong_quaternion
+from gazelle.bridges.navigation.move_base import MoveBaseNode
+from gazelle.description import Pose
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.ros import Master, Node, Time, load_message, load_service
+from gazelle.ros.actions import GoalStatus, SimpleActionClient
+from gazelle.ros.builtin.map_server import MapService
+from gazelle.ros.clock import SimulatedClock
+from gazelle.ros.tf import FrameTree
+
+ROOM = np.zeros((80, 80), np.int8)
+ROOM[[0, -1]] = ROOM[:, [0, -1]] = 100
+DWA = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0, "vx_samples": 8, "acc_lim_trans": 1.0}
+COSTMAP = {
+    "robot_base_frame": "base_footprint", "robot_radius": 0.1, "observation_sources": "scan",
+    "scan": {"data_type": "LaserScan", "topic": "scan", "marking": True, "clearing": True},
+}  # fmt: skip
+PLUGINS = [
+    {"name": "static_layer", "type": "costmap_2d::StaticLayer"},
+    {"name": "obstacle_layer", "type": "costmap_2d::ObstacleLayer"},
+    {"name": "inflation_layer", "type": "costmap_2d::InflationLayer"},
+]
+NESTED = {"plugins": PLUGINS, "robot_base_frame": "base_footprint", "robot_radius": 0.1,
+          "publish_frequency": 5.0, "obstacle_layer": COSTMAP}  # fmt: skip
+MOVE_BASE = {
+    "base_local_planner": "dwa_local_planner/DWAPlannerROS",
+    "controller_frequency": 10.0,
+    "planner_patience": 0.3,
+    "recovery_behavior_enabled": False,
+    "DWAPlannerROS": DWA,
+    "global_costmap": {**NESTED, "global_frame": "map"},
+    "local_costmap": {**NESTED, "global_frame": "odom", "plugins": PLUGINS[1:], "rolling_window": True,
+                      "width": 3, "height": 3},
+}  # fmt: skip
+
+
+class Room:
+    """A robot in a room, whose time, place and scans are the test's."""
+
+    def __init__(self, uri):
+        self.uri = uri
+        self.clock = SimulatedClock()
+        self.now = 0
+        self.pose = [2.0, 2.0, 0.0]
+        self.speed = (0.0, 0.0)
+        self.node = Node("/robot", master_uri=uri, clock=self.clock)
+        tf = load_message("tf2_msgs/TFMessage")
+        self._tf = self.node.advertise("/tf", tf)
+        self._scans = self.node.advertise("/scan", load_message("sensor_msgs/LaserScan"))
+        self._odoms = self.node.advertise("/odom", load_message("nav_msgs/Odometry"))
+        self.node.subscribe("/cmd_vel", load_message("geometry_msgs/Twist"), self._hear)
+        self.serve_map()
+        self.tick()
+
+    def serve_map(self):
+        MapService(self.node, OccupancyMap(ROOM, 0.05, Pose()))
+
+    def _hear(self, message):
+        self.speed = message.linear.x, message.angular.z
+
+    def make(self, name, kind, parameters):
+        self.node.set_param(name, parameters)
+        return kind(Node(name, master_uri=self.uri, clock=self.clock))
+
+    def tick(self, *, located=True):
+        """A tenth of a second."""
+        self.now += 100_000_000
+        self.clock.set(self.now)
+        forward, turn = self.speed
+        self.pose[2] += 0.1 * turn
+        self.pose[0] += 0.1 * forward * math.cos(self.pose[2])
+        self.pose[1] += 0.1 * forward * math.sin(self.pose[2])
+        links = [("odom", "base_footprint", self.pose), ("base_footprint", "base_scan", (0, 0, 0))]
+        links += [("map", "odom", (0, 0, 0))] * located
+        self._tf.publish(
+            load_message("tf2_msgs/TFMessage")(transforms=[self._link(*each) for each in links])
+        )
+        odometry = load_message("nav_msgs/Odometry")()
+        odometry.twist.twist.linear.x, odometry.twist.twist.angular.z = self.speed
+        self._odoms.publish(odometry)
+        self._scans.publish(self.scan())
+
+    def _link(self, parent, child, pose):
+        made = load_message("geometry_msgs/TransformStamped")()
+        made.header.frame_id, made.child_frame_id = parent, child
+        made.header.stamp = Time(nsecs=self.now)
+        made.transform.translation.x, made.transform.translation.y = float(pose[0]), float(pose[1])
+        made.transform.rotation.z = math.sin(pose[2] / 2)
+        made.transform.rotation.w = math.cos(pose[2] / 2)
+        return made
+
+    def scan(self):
+        made = load_message("sensor_msgs/LaserScan")()
+        made.header.frame_id, made.header.stamp = "base_scan", Time(nsecs=self.now)
+        angles = np.radians(np.arange(0.0, 360.0, 2.0))
+        cos, sin = np.cos(angles + self.pose[2]), np.sin(angles + self.pose[2])
+        with np.errstate(divide="ignore"):
+            x = np.where(cos > 0, 3.95 - self.pose[0], 0.05 - self.pose[0]) / cos
+            y = np.where(sin > 0, 3.95 - self.pose[1], 0.05 - self.pose[1]) / sin
+        made.angle_increment, made.range_min, made.range_max = math.radians(2.0), 0.1, 6.0
+        made.angle_max = math.radians(358.0)
+        made.ranges = np.minimum(np.abs(x), np.abs(y)).tolist()
+        return made
+
+
+@pytest.fixture
+def room():
+    with Master(port=0) as master:
+        made = Room(master.uri)
+        made.nodes = [made.node]
+        yield made
+        for node in reversed(made.nodes):
+            node.close()
+
+
+@pytest.fixture
+def move_base(room):
+    made = room.make("/move_base", MoveBaseNode, MOVE_BASE)
+    room.nodes.append(made._node)
+
+    def ready():
+        room.tick()
+        made.cycle()
+        return made._started
+
+    until(ready)
+    return made
+
+
+@pytest.fixture
+def client(room, move_base):
+    made = SimpleActionClient(
+        room.node, "/move_base", load_message("move_base_msgs/MoveBaseAction")
+    )
+    assert made.wait_for_server(60.0)
+    return made
+
+
+def goal_message(x, y, w=1.0):
+    goal = load_message("move_base_msgs/MoveBaseGoal")()
+    goal.target_pose.header.frame_id = "map"
+    goal.target_pose.pose.position.x, goal.target_pose.pose.position.y = x, y
+    goal.target_pose.pose.orientation.w = w
+    return goal
+
+
+def carry_out(room, move_base, client):
+    def done():
+        room.tick()
+        move_base.cycle()
+        return client.get_state() in {
+            GoalStatus.SUCCEEDED,
+            GoalStatus.ABORTED,
+            GoalStatus.PREEMPTED,
+        }
+
+    until(done)
+    return client.get_state(), client.get_goal_status_text()
+
+
+def test_a_goal_of_the_action_is_reached(room, move_base, client):
+    client.send_goal(goal_message(3.0, 2.5))
+    assert carry_out(room, move_base, client) == (GoalStatus.SUCCEEDED, "Goal reached.")
+    assert math.dist(room.pose[:2], (3.0, 2.5)) < 0.15
+
+
+def test_a_simple_goal_is_one_of_the_action(room, move_base):
+    current, plans = [], []
+    room.node.subscribe(
+        "/move_base/current_goal", load_message("geometry_msgs/PoseStamped"), current.append
+    )
+    room.node.subscribe("/move_base/NavfnROS/plan", load_message("nav_msgs/Path"), plans.append)
+    simple = room.node.advertise(
+        "/move_base_simple/goal", load_message("geometry_msgs/PoseStamped"), latch=True
+    )
+    simple.publish(goal_message(2.6, 2.0).target_pose)
+
+    def there():
+        room.tick()
+        move_base.cycle()
+        return math.dist(room.pose[:2], (2.6, 2.0)) < 0.15
+
+    until(there)
+    until(lambda: current and plans)
+    assert current[0].pose.position.x == pytest.approx(2.6)
+    assert plans[0].header.frame_id == "map"
+
+
+def test_a_goal_without_a_plan_is_aborted_with_the_known_words(room, move_base, client):
+    client.send_goal(goal_message(30.0, 2.0))
+    state, text = carry_out(room, move_base, client)
+    assert state == GoalStatus.ABORTED
+    assert text == "Failed to find a valid plan. Even after executing recovery behaviors."
+
+
+def test_a_quaternion_that_is_none_is_refused(room, move_base, client):
+    client.send_goal(goal_message(2.5, 2.0, w=0.0))
+    state, text = carry_out(room, move_base, client)
+    assert state == GoalStatus.ABORTED
+    assert text == "Aborting on goal because it was sent with an invalid quaternion"
+
+
+def test_a_cancelled_goal_is_preempted_and_the_robot_stands(room, move_base, client):
+    client.send_goal(goal_message(3.5, 3.5))
+
+    def moves():
+        room.tick()
+        move_base.cycle()
+        return room.speed[0] > 0.05
+
+    until(moves)
+    client.cancel_goal()
+    assert carry_out(room, move_base, client)[0] == GoalStatus.PREEMPTED
+    until(lambda: room.speed == (0.0, 0.0))
+
+
+def test_a_plan_is_made_without_going(room, move_base):
+    service = load_service("nav_msgs/GetPlan")
+    request = service._request_class()
+    request.start, request.goal = goal_message(1, 1).target_pose, goal_message(3, 3).target_pose
+    plan = room.node.client("/move_base/make_plan", service).call(request, 30.0).plan
+    assert plan.header.frame_id == "map"
+    assert plan.poses[0].pose.position.x == pytest.approx(1.0, abs=0.06)
+    assert plan.poses[-1].pose.position.y == pytest.approx(3.0)
+    request.goal = goal_message(4.05, 3.0).target_pose
+    request.tolerance = 0.6
+    assert len(room.node.client("/move_base/make_plan", service).call(request, 30.0).plan.poses) > 5
+
+
+def test_costmaps_are_published_and_cleared(room, move_base):
+    grids = []
+    room.node.subscribe(
+        "/move_base/global_costmap/costmap", load_message("nav_msgs/OccupancyGrid"), grids.append
+    )
+
+    def shown():
+        room.tick()
+        move_base.cycle()
+        return grids
+
+    until(shown)
+    cells = np.array(grids[0].data).reshape(80, 80)
+    assert cells[0].tolist() == [100] * 80
+    assert cells[40, 40] == 0
+    empty = load_service("std_srvs/Empty")
+    room.node.client("/move_base/clear_costmaps", empty).call(empty._request_class(), 30.0)
+    room.tick()
+    move_base.cycle()
+    assert (move_base.stack.whole.costmap.cells[0] == 254).all()
+
+
+# amcl ------------------------------------------------------------------------------------
+
+
+def spin_amcl(room, node, done):
+    def step():
+        room.tick(located=False)
+        node._scans.work(node._use)
+        return done()
+
+    until(step)
+
+
+def test_amcl_says_where_the_robot_is(room):
+    amcl = room.make("/amcl", AmclNode, {
+        "base_frame_id": "base_footprint", "initial_pose_x": 2.1, "initial_pose_y": 1.9,
+        "initial_cov_xx": 0.02, "initial_cov_yy": 0.02, "initial_cov_aa": 0.01, "min_particles": 300,
+        "max_particles": 500, "transform_tolerance": 0.5,
+    })  # fmt: skip
+    room.nodes.append(amcl._node)
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    poses, tree = [], amcl.frames.tree
+    kind = load_message("geometry_msgs/PoseWithCovarianceStamped")
+    room.node.subscribe("/amcl_pose", kind, poses.append)
+    spin_amcl(room, amcl, lambda: poses and tree.has("map"))
+    empty = load_service("std_srvs/Empty")
+    for _ in range(8):
+        room.node.client("/request_nomotion_update", empty).call(empty._request_class(), 30.0)
+        count = len(poses)
+        spin_amcl(room, amcl, lambda before=count: len(poses) > before)
+    place = poses[-1].pose.pose.position
+    assert (place.x, place.y) == pytest.approx((2.0, 2.0), abs=0.1)
+    assert poses[-1].pose.covariance[0] < 0.02
+    # The transform is dated ahead.
+    until(lambda: tree.latest_common_time("map", "odom") > room.now)
+    amcl._save()
+    assert room.node.get_param("/amcl/initial_pose_x") == pytest.approx(2.0, abs=0.1)
+
+
+def test_amcl_begins_where_it_is_told_and_is_tuned(room):
+    amcl = room.make("/amcl", AmclNode, {"base_frame_id": "base_footprint"})
+    room.nodes.append(amcl._node)
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    kind = load_message("geometry_msgs/PoseWithCovarianceStamped")
+    message = kind()
+    message.header.frame_id = "map"
+    message.pose.pose.position.x, message.pose.pose.orientation.w = 3.0, 1.0
+    message.pose.covariance = [0.0] * 36
+    amcl._begin(message)
+    assert np.allclose(amcl._localizer.filter.poses, [3.0, 0.0, 0.0])
+    empty = load_service("std_srvs/Empty")
+    room.node.client("/global_localization", empty).call(empty._request_class(), 30.0)
+    assert amcl._localizer.filter.poses[:, :2].std() > 0.5
+    service = load_service("dynamic_reconfigure/Reconfigure")
+    request = service._request_class()
+    request.config.ints = [
+        load_message("dynamic_reconfigure/IntParameter")(name="max_particles", value=700)
+    ]
+    room.node.client("/amcl/set_parameters", service).call(request, 30.0)
+    assert amcl.settings.max_particles == 700
+    assert room.node.get_param("/amcl/max_particles") == 700
+
+
+def test_gmapping_publishes_a_map_and_its_frame(room):
+    slam = room.make("/slam_gmapping", GmappingNode, {
+        "base_frame": "base_footprint", "particles": 2, "xmin": -1, "ymin": -1, "xmax": 5, "ymax": 5,
+        "map_update_interval": 0.1, "temporalUpdate": 0.1,
+    })  # fmt: skip
+    room.nodes.append(slam._node)
+    maps = []
+    # A map_server has the name here; it only has to be another message.
+    room.node.subscribe("/map", load_message("nav_msgs/OccupancyGrid"), maps.append)
+    spin_amcl(room, slam, lambda: any(each.info.width > 100 for each in maps))
+    grid = next(each for each in maps if each.info.width > 100)
+    cells = np.array(grid.data, np.int8).reshape(grid.info.height, grid.info.width)
+    assert (cells == 100).sum() > 40
+    assert slam.frames.tree is not None
+    service = load_service("nav_msgs/GetMap")
+    answer = room.node.client("/dynamic_map", service).call(service._request_class(), 30.0)
+    assert answer.map.info.width == grid.info.width
+
+
+# What is missing -------------------------------------------------------------------------
+
+
+def test_missing_links_are_named_with_who_should_send_them():
+    tree = FrameTree()
+    tree.place("odom", "base", 1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    found = missing_links(tree, "map", "odom", "base", "scan")
+    assert len(found) == 2
+    assert "'map' to 'odom' (amcl" in found[0]
+    assert "'base' to 'scan' (robot_state_publisher" in found[1]
+
+
+def test_the_warning_comes_once(room):
+    said = StartDiagnosis(room.node, lambda: ["scans"], patience=0.0)
+    with pytest.warns(NavigationWarning, match="/robot waits for: scans"):
+        assert said.look(waiting=True)
+    assert said.look(waiting=True) is None
+    assert StartDiagnosis(room.node, lambda: ["scans"], patience=0.0).look(waiting=False) is None
+
+
+def test_orientations_have_to_be_upright_quaternions():
+    turn = load_message("geometry_msgs/Quaternion")
+    assert wrong_quaternion(turn(0.0, 0.0, 0.6, 0.8)) is None
+    assert "nans" in wrong_quaternion(turn(math.nan, 0.0, 0.0, 1.0))
+    assert "zero" in wrong_quaternion(turn())
+    assert "vertical" in wrong_quaternion(turn(0.7, 0.0, 0.0, 0.7))
