@@ -107,7 +107,11 @@ class ParticleFilter:
         """
         lost = max(0.0, 1.0 - self._short / self._long) if self._long > 0.0 else 0.0
         sums = np.cumsum(self.weights)
-        drawn = np.searchsorted(sums, self._random.random(self.most) * sums[-1], side="right")
+        # Evenly spaced draws vary less than independent ones; shuffled, any number of the first ones
+        # is a fair sample.
+        even = (np.arange(self.most) + self._random.random()) * (sums[-1] / self.most)
+        drawn = np.searchsorted(sums, even, side="right")
+        self._random.shuffle(drawn)
         poses = self.poses[np.minimum(drawn, len(self.poses) - 1)]
         if lost > 0.0:
             elsewhere = self._random.random(self.most) < lost

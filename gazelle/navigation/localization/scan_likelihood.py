@@ -34,7 +34,8 @@ class LikelihoodField:
     def __init__(
         self, terms: Floats32, origin: tuple[float, float], resolution: float, outside: float
     ) -> None:
-        self._terms = np.ascontiguousarray(terms, np.float32)
+        # A rim of one cell has what is outside, so that a place just off the map needs no case.
+        self._terms = np.pad(np.asarray(terms, np.float32), 1, constant_values=np.float32(outside))
         self._x0, self._y0, self._cell = origin[0], origin[1], resolution
         self._outside = outside
 
@@ -67,17 +68,19 @@ class LikelihoodField:
         columns: cython.int = self._terms.shape[1]
         scale: cython.double = 1.0 / self._cell
         for n in range(count):
-            # Half a cell of room to the left and below lets a cast round down.
+            # One cell to the left and below is the rim; a cast rounds down what is not negative.
             c: cython.double = cos(poses[n, 2]) * scale
             s: cython.double = sin(poses[n, 2]) * scale
-            x0: cython.double = (poses[n, 0] - self._x0) * scale
-            y0: cython.double = (poses[n, 1] - self._y0) * scale
+            x0: cython.double = (poses[n, 0] - self._x0) * scale + 1.0
+            y0: cython.double = (poses[n, 1] - self._y0) * scale + 1.0
             total: cython.double = first
             for i in range(beams):
                 x: cython.double = x0 + c * points[i, 0] - s * points[i, 1]
                 y: cython.double = y0 + s * points[i, 0] + c * points[i, 1]
-                if x >= 0.0 and y >= 0.0 and x < columns and y < rows:
-                    total += self._terms[cython.cast(cython.int, y), cython.cast(cython.int, x)]
+                column: cython.int = cython.cast(cython.int, x)
+                row: cython.int = cython.cast(cython.int, y)
+                if 0 <= column < columns and 0 <= row < rows:
+                    total += self._terms[row, column]
                 else:
                     total += self._outside
             result[n] = total

@@ -119,16 +119,16 @@ def test_a_robot_is_found_anywhere_on_the_map(seed):
 def test_a_robot_that_was_carried_away_is_found_again():
     grid = room()
     settings = AmclSettings.read(
-        {**SURE, "recovery_alpha_slow": 0.001, "recovery_alpha_fast": 0.1, "max_particles": 20000}
+        {**SURE, "recovery_alpha_slow": 0.001, "recovery_alpha_fast": 0.5, "max_particles": 20000}
     )
     localizer, model = Localizer(settings, grid), rays(grid)
     localizer.begin((0.0, -1.0, 0.8), np.diag([0.05, 0.05, 0.02]))
     walk(localizer, model, (0.0, -1.0, 0.8), LOOP[:10])
     odom, pose, random = (9.0, 9.0, 0.0), (3.0, -1.2, 1.2), np.random.default_rng(5)
     localizer._odom = odom
-    for forward, turn in AROUND * 2:
-        pose = composed(pose, (forward / 2, 0.0, turn))
-        odom = composed(odom, (forward / 2, 0.0, turn))
+    for forward, turn in AROUND:
+        pose = composed(pose, (forward, 0.0, turn))
+        odom = composed(odom, (forward, 0.0, turn))
         localizer.force_update()
         localizer.update(odom, scan_at(model, pose, random))
     assert off(localizer.estimate, pose)[0] < 0.3
