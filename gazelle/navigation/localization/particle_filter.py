@@ -88,7 +88,9 @@ class ParticleFilter:
         if not total > 0.0:
             self.weights = np.full(len(self.poses), 1.0 / len(self.poses))
             return
-        average = total / len(self.poses)
+        # Weights summed up to 1, so this is how well the scan fits on average. (amcl divides by the number of
+        # particles once more, and so takes fewer of them for a better fit.)
+        average = total
         self._long = average if not self._long else self._long + self.slow * (average - self._long)
         self._short = (
             average if not self._short else self._short + self.fast * (average - self._short)
