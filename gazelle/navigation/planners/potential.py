@@ -3,8 +3,7 @@
 The potential obeys the eikonal equation: its slope is the price of the cell. Method: each cell from
 its lower neighbours along x and y (J. Sethian, "A fast marching level set method", 1996), cells in
 order of blocks of the least price (K. Konolige, "A gradient method for realtime robot control",
-2000), which is what ``navfn`` does, too. With a target, what the rest of the way costs at least is
-added to a cell's place in that order (as in A*), so that most of what leads away is not looked at.
+2000), which is what ``navfn`` does, too.
 """
 
 # mypy: disallow-untyped-decorators=False
@@ -41,9 +40,6 @@ class PotentialField:
     _next: cython.int
     _over: cython.int
     _threshold: cython.float
-    _least: cython.float
-    _target_x: cython.float
-    _target_y: cython.float
 
     def __init__(self, rows: int, columns: int) -> None:
         self._rows, self._columns = rows, columns
@@ -99,12 +95,7 @@ class PotentialField:
         now: cython.int = 0
         self._next, self._over = 1, 2
         self._next_count = self._over_count = 0
-        self._least = 0.0
-        if last >= 0:
-            # A little less than what it can cost at least, as potentials are rounded.
-            self._least = 0.7 * step
-            self._target_x, self._target_y = last % self._columns, last // self._columns
-        self._threshold = self._ahead(first) + step
+        self._threshold = step
         self._value[first] = 0.0
         self._push(first + 1, 0.0)
         self._push(first - 1, 0.0)
@@ -117,7 +108,7 @@ class PotentialField:
                 # A block is over when all up to its threshold is settled; so is then the target.
                 if last >= 0 and self._value[last] < self._threshold:
                     return
-                self._threshold += 4.0 * step
+                self._threshold += 16.0 * step
                 self._next, self._over = self._over, self._next
                 self._next_count, self._over_count = self._over_count, 0
             now, self._next = self._next, now
@@ -167,22 +158,12 @@ class PotentialField:
         if self._waiting[n] or price <= 0.0 or self._value[n] <= value + 0.7 * price:
             return
         self._waiting[n] = 1
-        if value + self._ahead(n) < self._threshold:
+        if value < self._threshold:
             self._lists[self._next, self._next_count] = n
             self._next_count += 1
         else:
             self._lists[self._over, self._over_count] = n
             self._over_count += 1
-
-    @cython.cfunc
-    @cython.exceptval(check=False)
-    def _ahead(self, n: cython.int) -> cython.float:
-        """What the rest of the way to the target costs at least; 0 without one."""
-        if self._least <= 0.0:
-            return 0.0
-        dx: cython.float = n % self._columns - self._target_x
-        dy: cython.float = n // self._columns - self._target_y
-        return self._least * sqrt(dx * dx + dy * dy)
 
     def way_down(self, start: tuple[int, int], source: tuple[int, int], grid: int = 0) -> Floats:
         """The way of steepest descent from a cell to the source.
