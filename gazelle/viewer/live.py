@@ -28,6 +28,7 @@ from gazelle.viewer.page.world_layer import ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
 
 _BESIDE = 4  # worlds of a batch that are shown if nobody says
+_LENS = PinholeLens(400, 400, 1.25)  # about that of the page
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
 
@@ -101,8 +102,7 @@ class LiveView(Closeable):
         )
         self._root = page.scene.add_frame(ROOT, show_axes=False)
         page.gui.main_panel.dock_right()
-        page.scene.configure_default_lights(enabled=True, cast_shadow=True)
-        page.scene.configure_environment_map(None)
+        self._server.light_up()
         self._look_from(spots)
         with simulation.requests:
             controls = RunControls(context)
@@ -152,7 +152,7 @@ class LiveView(Closeable):
         high = high + spots.max(axis=0)
         low = low + spots.min(axis=0)
         middle, aside = (low + high) / 2.0, np.array([-0.45, -0.75, 0.75])
-        away = aside * distance_to_see((high - low) / 2.0, aside, PinholeLens())
+        away = aside * distance_to_see((high - low) / 2.0, aside, _LENS)
         camera = self._server.viser.initial_camera
         camera.look_at = tuple(middle.tolist())
         camera.position = tuple((middle + away).tolist())

@@ -82,7 +82,7 @@ class GraphView(Closeable):
         )
         page = self._server.viser
         page.gui.main_panel.dock_right()
-        page.scene.configure_environment_map(None)
+        self._server.light_up()
         page.initial_camera.position = (-4.0, -5.0, 5.0)
         page.scene.add_grid("/grid", 20.0, 20.0, position=(0.0, 0.0, -0.01))
         self._status = page.gui.add_markdown("waiting for the graph ...")

@@ -95,6 +95,15 @@ class PageServer(Closeable):
         self._changed.wait(seconds)
         self._changed.clear()
 
+    def light_up(self) -> None:
+        """A sun with shadows, and light from all around, so that no side is black."""
+        scene = self.viser.scene
+        scene.configure_environment_map(None)
+        scene.configure_default_lights(enabled=True, cast_shadow=True)
+        scene.add_light_hemisphere(
+            "/sky", sky_color=(255, 255, 255), ground_color=(150, 150, 150), intensity=1.2
+        )
+
     def wake(self) -> None:
         """End a ``wait``."""
         self._changed.set()
