@@ -1,5 +1,11 @@
 """Joint-level control as ros_control means it: hardware, controllers and their manager, without ROS."""
 
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
 from gazelle.control.controller import Controller, ControllerSetup
 from gazelle.control.goals import ActionPort, Goal, GoalState
 from gazelle.control.hardware import ControllerInfo, RobotHardware, SwitchResult

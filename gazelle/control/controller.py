@@ -27,6 +27,7 @@ any thread. Values that are published hold all worlds; a bridge shows its own. W
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, cast
@@ -35,6 +36,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.goals import ActionPort
 from gazelle.control.interfaces import JointHandles
 from gazelle.control.parameters import ControllerParameters
@@ -130,6 +132,26 @@ class Controller:
         Args:
             time: Now [s].
             period: Since the last update [s].
+        """
+
+    def law(self) -> ControlLaw | None:
+        """What ``update`` does in native code, for controllers of Gazelle's own; None for nothing.
+
+        Such a controller is updated between physics steps without Python, until ``wake_ns``. A
+        subclass that overrides ``update`` is updated by that again.
+        """
+        return None
+
+    def wake_ns(self) -> float:
+        """When ``update`` has to be called all the same, as somebody listens [ns]."""
+        return math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:
+        """It was updated in native code, the last time at ``now_ns``.
+
+        Args:
+            updates: How often.
+            period: Of the last one [s].
         """
 
     def stopping(self, time: float) -> None:
@@ -253,3 +275,9 @@ class Controller:
     def add_action(self, name: str, port: Callable[[str, Serializer], ActionPort[T]]) -> None:
         """Take goals: ``port`` makes the port for a topic."""
         self.actions[name] = port(self.topic(name), self._setup.call)
+
+
+def law_of(controller: Controller) -> ControlLaw | None:
+    """The native code of a controller; None where Python has to update it."""
+    whose = next(kind for kind in type(controller).__mro__ if {"law", "update"} & set(vars(kind)))
+    return controller.law() if "law" in vars(whose) else None

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.commands import rows_of
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
+from gazelle.control.forward_law import ForwardLaw
 from gazelle.control.interfaces import POSITION, JointHandles
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.values import JointTarget, JointTargets
@@ -26,6 +28,7 @@ class Forwarding(Controller):
         """Command these joints."""
         self._joints = joints
         self._commands: Floats = np.zeros((self.nworld, len(joints)))
+        self._law = ForwardLaw(joints, self._commands)
 
     def take(self, values: object, worlds: Worlds | None) -> None:
         """Command from the next update on, in some worlds."""
@@ -42,9 +45,13 @@ class Forwarding(Controller):
         held = self.interfaces == (POSITION,)
         self._commands[rows] = self._joints.position[rows] if held else 0.0
 
-    def update(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
         """Hand the commands on."""
-        self._joints.set_command(self._commands)
+        self._law.act(self.now_ns, period)
+
+    def law(self) -> ControlLaw:
+        """All that it does."""
+        return self._law
 
     def reset(self, worlds: Worlds | None) -> None:
         """Hold what is now."""

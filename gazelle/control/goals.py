@@ -115,6 +115,11 @@ class Goal(Generic[G]):
         """Whether anybody wants feedback."""
         return bool(self._feedback)
 
+    @property
+    def watched(self) -> bool:
+        """Whether anybody wants to know what becomes of it."""
+        return bool(self._feedback or self._listeners)
+
     def tell(self, value: Any) -> None:
         """Give feedback."""
         for listener in tuple(self._feedback):

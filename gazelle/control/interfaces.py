@@ -81,19 +81,43 @@ class JointStateInterface(HardwareInterface):
     Args:
         names: Of the joints.
         nworld: Number of worlds.
-
-    Attributes:
-        position: [m or rad], shape (nworld, joints).
-        velocity: [m/s or rad/s], likewise.
-        effort: [N or N m], likewise.
     """
 
     def __init__(self, names: Sequence[str], nworld: int) -> None:
         super().__init__(JOINT_STATE, names, claims=False)
         shape = (nworld, len(self.resources))
-        self.position: Floats = np.ones(shape)
-        self.velocity: Floats = np.zeros(shape)
-        self.effort: Floats = np.ones(shape)
+        self._arrays: dict[str, Floats] = {
+            "position": np.ones(shape), "velocity": np.zeros(shape), "effort": np.ones(shape)
+        }  # fmt: skip
+
+    # Native code has the addresses of the arrays: what is assigned is copied.
+
+    @property
+    def position(self) -> Floats:
+        """[m or rad], shape (nworld, joints)."""
+        return self._arrays["position"]
+
+    @position.setter
+    def position(self, values: Floats) -> None:
+        self._arrays["position"][:] = values
+
+    @property
+    def velocity(self) -> Floats:
+        """[m/s or rad/s], shape (nworld, joints)."""
+        return self._arrays["velocity"]
+
+    @velocity.setter
+    def velocity(self, values: Floats) -> None:
+        self._arrays["velocity"][:] = values
+
+    @property
+    def effort(self) -> Floats:
+        """[N or N m], shape (nworld, joints)."""
+        return self._arrays["effort"]
+
+    @effort.setter
+    def effort(self, values: Floats) -> None:
+        self._arrays["effort"][:] = values
 
     def columns(self, names: Sequence[str]) -> Indices:
         """Where joints are in the arrays, shape (n,)."""
@@ -147,6 +171,12 @@ class JointHandles:
         states: That hold them.
         columns: Where.
         commands: By field, the array of all commands and the columns in it.
+
+    Attributes:
+        names: Of the joints.
+        states: Arrays of all joints of the robot.
+        columns: Where these joints are in them, shape (joints,).
+        commands: As given.
     """
 
     def __init__(
@@ -157,7 +187,7 @@ class JointHandles:
         commands: Mapping[str, tuple[Floats, Indices]],
     ) -> None:
         self.names = names
-        self._states, self._columns, self._commands = states, columns, commands
+        self.states, self.columns, self.commands = states, columns, commands
 
     def __len__(self) -> int:
         return len(self.names)
@@ -165,22 +195,22 @@ class JointHandles:
     @property
     def position(self) -> Floats:
         """[m or rad], shape (nworld, joints)."""
-        return self._states.position[:, self._columns]
+        return self.states.position[:, self.columns]
 
     @property
     def velocity(self) -> Floats:
         """[m/s or rad/s], shape (nworld, joints)."""
-        return self._states.velocity[:, self._columns]
+        return self.states.velocity[:, self.columns]
 
     @property
     def effort(self) -> Floats:
         """What acts [N or N m], shape (nworld, joints)."""
-        return self._states.effort[:, self._columns]
+        return self.states.effort[:, self.columns]
 
     @property
     def fields(self) -> tuple[str, ...]:
         """What a command consists of; nothing for joints that can only be read."""
-        return tuple(self._commands)
+        return tuple(self.commands)
 
     def command(self, field: str | None = None) -> Floats:
         """What is commanded now, shape (nworld, joints).
@@ -188,7 +218,7 @@ class JointHandles:
         Args:
             field: ``effort``, ``position``, ``velocity`` or ``acceleration``; the only one if None.
         """
-        values, columns = self._commands[field or self.fields[0]]
+        values, columns = self.commands[field or self.fields[0]]
         return values[:, columns]
 
     def set_command(
@@ -201,7 +231,7 @@ class JointHandles:
             field: As of ``command``.
             worlds: Which worlds; all if None.
         """
-        target, columns = self._commands[field or self.fields[0]]
+        target, columns = self.commands[field or self.fields[0]]
         if worlds is None:
             target[:, columns] = values
         else:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.control.angles import distance
 from gazelle.control.commands import rows_of
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
+from gazelle.control.joint_pid_law import JointPidLaw
 from gazelle.control.limits import JointLimits
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
@@ -36,6 +38,7 @@ class PidControl(Controller):
         self._pid = Pid([PidGains.read(part) for _, part in gains], self.nworld)
         self._targets: Floats = np.zeros((self.nworld, len(names)))
         self._error: Floats = np.zeros_like(self._targets)
+        self._law = JointPidLaw(self._joints, self._pid.law, self._targets, self._error)
         self._period = 0.0
         self._updates = 0
         self._states: StatePort[JointControlState] | None = None
@@ -61,15 +64,28 @@ class PidControl(Controller):
         what = f"command of '{self.name}'"
         self._targets[rows] = rows_of(what, values, self._targets.shape[1], len(rows))
 
-    def push(self, error: Floats, period: float) -> None:
-        """Command what the PID makes of the errors, shape (nworld, joints)."""
-        self._error, self._period = error, period
-        self._joints.set_command(self._pid.compute(error, period))
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
+        """Push towards the targets."""
+        self._period = period
+        self._law.act(self.now_ns, period)
         for port in self._statuses:
             port.publish()
         if self._states is not None and self._updates % _EVERY == 0:
             self._states.publish()
         self._updates += 1
+
+    def law(self) -> ControlLaw:
+        """What it does to joints."""
+        return self._law
+
+    def wake_ns(self) -> float:
+        """Always, while somebody listens."""
+        ports = (*self._statuses, *([] if self._states is None else [self._states]))
+        return 0.0 if any(port.wanted for port in ports) else math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:
+        """Count."""
+        self._updates, self._period = self._updates + updates, period
 
     def measured(self) -> tuple[Floats, Floats]:
         """What is controlled, and its rate, shape (nworld, joints)."""
@@ -147,20 +163,14 @@ class PositionTargets(PidControl):
         limits = [JointLimits.of_joint(joint) for joint in described]
         self._lower = np.array([each.lower for each in limits])
         self._upper = np.array([each.upper for each in limits])
-        self._turning = np.array([joint.type != "prismatic" for joint in described], bool)
-        self._endless = self._turning & np.isinf(self._lower) & np.isinf(self._upper)
+        turning = np.array([joint.type != "prismatic" for joint in described], bool)
+        endless = turning & np.isinf(self._lower) & np.isinf(self._upper)
+        self._law.hold_positions((self._lower, self._upper), turning, endless)
 
     def begin(self, rows: Worlds) -> None:
         """Hold positions, within limits."""
         super().begin(rows)
         self._targets[rows] = np.clip(self._joints.position[rows], self._lower, self._upper)
-
-    def update(self, time: float, period: float) -> None:  # noqa: ARG002  at any time
-        """Push towards the targets, the way round that limits allow."""
-        self._targets[:] = np.clip(self._targets, self._lower, self._upper)
-        position = self._joints.position
-        turned = distance(position, self._targets, self._endless, self._lower, self._upper)
-        self.push(np.where(self._turning, turned, self._targets - position), period)
 
 
 class JointPositionController(PositionTargets):
@@ -169,8 +179,8 @@ class JointPositionController(PositionTargets):
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joint`` and ``pid``."""
         names = (parameters.text("joint"),)
-        self.limit(names)
         self.control(names, [("pid", parameters.part("pid"))])
+        self.limit(names)
         self.open_state()
         self.add_input("command", JointTarget, self._receive)
 
@@ -184,8 +194,8 @@ class JointGroupPositionController(PositionTargets):
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joints`` and ``JOINT/pid``."""
         names = parameters.names("joints")
-        self.limit(names)
         self.control(names, [(f"{name}/pid", parameters.part(f"{name}/pid")) for name in names])
+        self.limit(names)
         self.add_input("command", JointTargets, self._receive)
 
     def _receive(self, targets: JointTargets, worlds: Worlds | None) -> None:
@@ -207,7 +217,3 @@ class JointVelocityController(PidControl):
     def measured(self) -> tuple[Floats, Floats]:
         """Velocities; of accelerations nothing is known, and efforts are told as in the original."""
         return self._joints.velocity, self._joints.effort
-
-    def update(self, time: float, period: float) -> None:  # noqa: ARG002  at any time
-        """Push towards the targets."""
-        self.push(self._targets - self._joints.velocity, period)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
 from gazelle.control.interfaces import JOINT_STATE
 from gazelle.control.measurements import JointStates
@@ -61,6 +63,19 @@ class JointStateController(Controller):
         """Publish when it is due."""
         if self._schedule.is_due(self.now_ns):
             self._output.publish()
+
+    def law(self) -> ControlLaw:
+        """It does nothing to joints."""
+        return ControlLaw(self.nworld)
+
+    def wake_ns(self) -> float:
+        """When it publishes."""
+        fresh = self._schedule.next_ns == 0.0
+        return self._schedule.next_ns if fresh or self._output.wanted else math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows
+        """Nobody listened."""
+        self._schedule.skip(self.now_ns, updates)
 
     def _measure(self) -> JointStates:
         measured = (self._joints.position, self._joints.velocity, self._joints.effort)

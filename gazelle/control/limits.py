@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.array_types import Bools, Floats
+from gazelle.array_types import Floats
+from gazelle.control.limit_law import LimitLaw
 from gazelle.control.parameters import ControllerParameters
 from gazelle.description import Joint, SafetyController
 
@@ -114,36 +115,25 @@ def _with_soft(limits: JointLimits, values: ControllerParameters) -> JointLimits
     return replace(limits, soft=SafetyController(*(values.number(name) for name in names)))
 
 
-class _Bounds:
-    """Limits of several joints as arrays, shape (n,)."""
-
-    def __init__(self, limits: Sequence[JointLimits]) -> None:
-        def column(name: str) -> Floats:
-            return np.array([getattr(each, name) for each in limits], np.float64)
-
-        self.lower, self.upper = column("lower"), column("upper")
-        self.velocity, self.effort = column("velocity"), column("effort")
-        self.acceleration = column("acceleration")
-        soft = [each.soft for each in limits]
-        self.soft: Bools = np.array([each is not None for each in soft], bool)
-        filled = [each or SafetyController(0.0) for each in soft]
-        bounded = np.isfinite(self.lower) | np.isfinite(self.upper)
-        self.bounded = bounded & self.soft
-        self.k_position = np.array([each.k_position for each in filled])
-        self.k_velocity = np.array([each.k_velocity for each in filled])
-        self.soft_lower = np.array([each.soft_lower_limit for each in filled])
-        self.soft_upper = np.array([each.soft_upper_limit for each in filled])
-
-    def soft_velocities(self, position: Floats) -> tuple[Floats, Floats]:
-        """The least and the greatest velocity that soft limits let a joint have at a position."""
-        low = _clamp(-self.k_position * (position - self.soft_lower), -self.velocity, self.velocity)
-        high = _clamp(
-            -self.k_position * (position - self.soft_upper), -self.velocity, self.velocity
-        )
-        return (
-            np.where(self.bounded, low, -self.velocity),
-            np.where(self.bounded, high, self.velocity),
-        )
+def limit_law(limits: Sequence[JointLimits]) -> LimitLaw:
+    """Limits of several joints, for native code."""
+    soft = [each.soft or SafetyController(0.0) for each in limits]
+    columns: dict[str, Any] = {
+        name: [getattr(each, name) for each in limits]
+        for name in ("lower", "upper", "velocity", "acceleration", "effort")
+    }
+    columns |= {
+        "k_position": [each.k_position for each in soft],
+        "k_velocity": [each.k_velocity for each in soft],
+        "soft_lower": [each.soft_lower_limit for each in soft],
+        "soft_upper": [each.soft_upper_limit for each in soft],
+        "soft": [each.soft is not None for each in limits],
+        "bounded": [
+            each.soft is not None and (math.isfinite(each.lower) or math.isfinite(each.upper))
+            for each in limits
+        ],
+    }
+    return LimitLaw(columns)
 
 
 class PositionLimiter:
@@ -158,7 +148,7 @@ class PositionLimiter:
     """
 
     def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
-        self._bounds = _Bounds(limits)
+        self._law = limit_law(limits)
         self.previous: Floats = np.full((nworld, len(limits)), math.nan)
 
     def enforce(self, command: Floats, position: Floats, dt: float) -> Floats:
@@ -169,15 +159,7 @@ class PositionLimiter:
             position: Where the joints are [m or rad], likewise.
             dt: Since the last time [s].
         """
-        bounds = self._bounds
-        before = np.where(np.isnan(self.previous), position, self.previous)
-        low, high = bounds.soft_velocities(before)
-        with np.errstate(invalid="ignore"):  # an infinite velocity in no time
-            low = np.where(np.isfinite(low), before + low * dt, -math.inf)
-            high = np.where(np.isfinite(high), before + high * dt, math.inf)
-        # Of an interval that hard limits leave empty the upper end is taken, as by the original.
-        low, high = np.maximum(low, bounds.lower), np.minimum(high, bounds.upper)
-        self.previous = _clamp(command, low, high)
+        self.previous = self._law.hold_positions(command, position, self.previous, dt)
         return self.previous
 
 
@@ -193,7 +175,7 @@ class VelocityLimiter:
     """
 
     def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
-        self._bounds = _Bounds(limits)
+        self._law = limit_law(limits)
         self.previous: Floats = np.zeros((nworld, len(limits)))
 
     def enforce(self, command: Floats, position: Floats, velocity: Floats, dt: float) -> Floats:
@@ -205,13 +187,7 @@ class VelocityLimiter:
             velocity: How fast they are [m/s or rad/s], likewise.
             dt: Since the last time [s].
         """
-        bounds = self._bounds
-        low, high = bounds.soft_velocities(position)
-        # Soft limits go by how fast the joint is, hard ones by the last command.
-        before = np.where(bounds.soft, velocity, self.previous)
-        change = np.where(np.isfinite(bounds.acceleration), bounds.acceleration * dt, math.inf)
-        low, high = np.maximum(low, before - change), np.minimum(high, before + change)
-        self.previous = _clamp(command, low, high)
+        self.previous = self._law.hold_velocities(command, position, velocity, self.previous, dt)
         return self.previous
 
 
@@ -223,7 +199,7 @@ class EffortLimiter:
     """
 
     def __init__(self, limits: Sequence[JointLimits]) -> None:
-        self._bounds = _Bounds(limits)
+        self._law = limit_law(limits)
 
     def enforce(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
         """What may be commanded, shape (nworld, n).
@@ -233,22 +209,4 @@ class EffortLimiter:
             position: Where the joints are [m or rad], likewise.
             velocity: How fast they are [m/s or rad/s], likewise.
         """
-        bounds = self._bounds
-        too_low = (position < bounds.lower) | (velocity < -bounds.velocity)
-        too_high = (position > bounds.upper) | (velocity > bounds.velocity)
-        low = np.where(too_low, 0.0, -bounds.effort)
-        high = np.where(too_high, 0.0, bounds.effort)
-        if bounds.soft.any():
-            least, most = bounds.soft_velocities(position)
-            soft_low, soft_high = (
-                _clamp(-bounds.k_velocity * (velocity - bound), -bounds.effort, bounds.effort)
-                for bound in (least, most)
-            )
-            low = np.where(bounds.soft, soft_low, low)
-            high = np.where(bounds.soft, soft_high, high)
-        return _clamp(command, low, high)
-
-
-def _clamp(values: Floats, low: Floats, high: Floats) -> Floats:
-    held: Floats = np.minimum(np.maximum(values, low), high)
-    return held
+        return self._law.hold_efforts(command, position, velocity)

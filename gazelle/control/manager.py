@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.control import registry
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller, ControllerSetup
 from gazelle.control.hardware import RobotHardware
 from gazelle.control.parameters import ControllerParameters
@@ -230,6 +232,37 @@ class ControllerManager:
                 warnings.warn(ControlWarning(text), stacklevel=2)
         if self._switch is not None:
             self._go_on(self._switch)
+
+    def laws(self) -> list[ControlLaw] | None:
+        """What controllers that run do in native code, in order; None if Python has to update one."""
+        if self._switch is not None:
+            return None
+        found = []
+        for entry in self._loaded.values():
+            if entry.controller.running:
+                if entry.law is None:
+                    return None
+                found.append(entry.law)
+        return found
+
+    def wake_ns(self) -> float:
+        """When ``update`` has to be called although all is native code [ns]."""
+        running = (e.controller for e in self._loaded.values() if e.controller.running)
+        return min((each.wake_ns() for each in running), default=math.inf)
+
+    def catch_up(self, now_ns: int, updates: int, period: float) -> None:
+        """Controllers were updated in native code.
+
+        Args:
+            now_ns: The last time [ns].
+            updates: How often.
+            period: Of an update [s].
+        """
+        self.now_ns = now_ns
+        for entry in self._loaded.values():
+            if entry.controller.running:
+                entry.controller.now_ns = now_ns
+                entry.controller.catch_up(updates, period)
 
     def reset(self, worlds: Worlds | None) -> None:
         """The robot was put back to its initial state in these worlds; all if None."""

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.parameters import ControllerParameters
+from gazelle.control.pid_law import PidLaw
 from gazelle.control.ports import TunableValue
 from gazelle.errors import ControlError
 
@@ -71,15 +72,13 @@ class Pid:
         i_error: Its integral, likewise.
         d_error: Its rate, likewise.
         output: What came out, likewise.
+        law: The same in native code, on the same arrays.
     """
 
     def __init__(self, gains: Sequence[PidGains], nworld: int = 1) -> None:
-        shape = (nworld, len(gains))
-        self.p_error: Floats = np.zeros(shape)
-        self.i_error: Floats = np.zeros(shape)
-        self.d_error: Floats = np.zeros(shape)
-        self.output: Floats = np.zeros(shape)
-        self._last: Floats = np.zeros(shape)
+        shape = (5, nworld, len(gains))
+        self._last, self.p_error, self.i_error, self.d_error, self.output = np.zeros(shape)
+        self.law = PidLaw((self._last, self.p_error, self.i_error, self.d_error, self.output))
         self.set_gains(gains)
 
     @property
@@ -99,17 +98,17 @@ class Pid:
                 raise ControlError(
                     f"the bounds of the integral are the wrong way round: {each.i_min}, {each.i_max}"
                 )
-        columns = np.array([(g.p, g.i, g.d, g.i_min, g.i_max) for g in gains]).reshape(-1, 5).T
-        self._p, self._i, self._d, self._least, self._most = columns
+        given = np.array([(g.p, g.i, g.d, g.i_min, g.i_max) for g in gains], np.float64)
+        p, i, d, least, most = np.ascontiguousarray(given.reshape(-1, 5).T)
         inner = np.array([g.antiwindup and g.i != 0.0 for g in gains], bool)
         outer = np.array([not g.antiwindup for g in gains], bool)
-        divisor = np.where(inner, self._i, 1.0)
+        divisor = np.where(inner, i, 1.0)
         with np.errstate(over="ignore"):  # a tiny gain has no bounds
-            ends = np.sort(np.stack((self._least / divisor, self._most / divisor)), axis=0)
-        self._sum_least = np.where(inner, ends[0], -math.inf)
-        self._sum_most = np.where(inner, ends[1], math.inf)
-        self._term_least = np.where(outer, self._least, -math.inf)
-        self._term_most = np.where(outer, self._most, math.inf)
+            ends = np.sort(np.stack((least / divisor, most / divisor)), axis=0)
+        sum_least, sum_most = np.where(inner, ends[0], -math.inf), np.where(inner, ends[1], math.inf)
+        term_least, term_most = np.where(outer, least, -math.inf), np.where(outer, most, math.inf)
+        self.law.tune((p, i, d, sum_least, sum_most, term_least, term_most))
+        self._term = (i, term_least, term_most)
 
     def compute(self, error: Floats, dt: float, error_dot: Floats | None = None) -> Floats:
         """The outputs for errors now.
@@ -123,37 +122,22 @@ class Pid:
         Returns:
             Shape (nworld, n); 0 for an error that is not finite, which is not remembered either.
         """
-        good = np.isfinite(error)
-        whole = bool(good.all())
-        if dt <= 0.0 or not (whole or good.any()):
-            return np.zeros_like(self._last)
-        if not whole:
-            error = np.where(good, error, 0.0)
-        rate = (error - self._last) / dt if error_dot is None else error_dot
-        before = (self._last, self.p_error, self.i_error, self.d_error)
-        sums = np.minimum(np.maximum(self.i_error + dt * error, self._sum_least), self._sum_most)
-        term = np.minimum(np.maximum(self._i * sums, self._term_least), self._term_most)
-        output: Floats = self._p * error + term + self._d * rate
-        after = (error if error_dot is None else self._last, error, sums, rate)
-        if not whole:
-            after = tuple(np.where(good, new, old) for new, old in zip(after, before, strict=True))  # type: ignore[assignment]
-            output = np.where(good, output, 0.0)
-        self._last, self.p_error, self.i_error, self.d_error = after
-        self.output = output
+        output = np.empty(self.output.shape)
+        rate = None if error_dot is None else np.broadcast_to(error_dot, output.shape)
+        self.law.compute(np.broadcast_to(error, output.shape), dt, rate, output)
         return output
 
     @property
     def i_term(self) -> Floats:
         """The integral terms as they are now, shape (nworld, n)."""
-        return np.clip(self._i * self.i_error, self._term_least, self._term_most)
+        gain, least, most = self._term
+        return np.clip(gain * self.i_error, least, most)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Forget errors and sums."""
         rows = slice(None) if worlds is None else worlds
-        for name in ("p_error", "i_error", "d_error", "output", "_last"):
-            kept = getattr(self, name).copy()
+        for kept in (self.p_error, self.i_error, self.d_error, self.output, self._last):
             kept[rows] = 0.0
-            setattr(self, name, kept)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, gains apart."""
@@ -161,9 +145,8 @@ class Pid:
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self.p_error, self.i_error, self._last = (
-            np.array(state[name], np.float64) for name in ("p", "i", "last")
-        )
+        self.p_error[:], self.i_error[:] = state["p"], state["i"]
+        self._last[:] = state["last"]
 
 
 PID_TUNABLES = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -41,6 +42,24 @@ class PublishingSchedule:
             return False
         self._last_ns += self._period_ns
         return True
+
+    @property
+    def next_ns(self) -> float:
+        """From when on it is due [ns]; at once if it never was."""
+        if not self._period_ns:
+            return math.inf
+        return 0.0 if self._last_ns is None else self._last_ns + self._period_ns + 1
+
+    def skip(self, now_ns: int, updates: int) -> None:
+        """Count as done what was due meanwhile.
+
+        Args:
+            now_ns: Time of the last update [ns].
+            updates: How many there were.
+        """
+        if self._period_ns and self._last_ns is not None:
+            missed = (now_ns - 1 - self._last_ns) // self._period_ns
+            self._last_ns += max(0, min(missed, updates)) * self._period_ns
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """What changes."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from gazelle.control.controller import Controller
+from gazelle.control.control_law import ControlLaw
+from gazelle.control.controller import Controller, law_of
 from gazelle.control.hardware import ControllerInfo, RobotHardware, SwitchResult
 from gazelle.errors import ControlError, did_you_mean
 
@@ -17,10 +18,16 @@ class LoadedController:
     Attributes:
         controller: The law.
         state: ``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
+        law: Its native code; None where Python has to update it.
     """
 
     controller: Controller
     state: str = "initialized"
+    law: ControlLaw | None = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Look for native code, once."""
+        self.law = law_of(self.controller)
 
     @property
     def info(self) -> ControllerInfo:

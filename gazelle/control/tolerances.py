@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Bools, Floats
+from gazelle.array_types import Floats
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.values import JointTolerance, TrajectoryGoal
 
@@ -57,16 +57,3 @@ def _changed(bounds: Floats, given: Iterable[JointTolerance], joints: Sequence[s
                 if value != 0.0:
                     changed[row, column] = max(value, 0.0)
     return changed
-
-
-def within(position: Floats, velocity: Floats, bounds: Floats) -> Bools:
-    """Whether errors are within bounds, shape (nworld, joints).
-
-    Args:
-        position: [m or rad], likewise.
-        velocity: [m/s or rad/s], likewise.
-        bounds: Shape (nworld, joints, 3).
-    """
-    far = (bounds[..., 0] > 0.0) & (np.abs(position) > bounds[..., 0])
-    fast = (bounds[..., 1] > 0.0) & (np.abs(velocity) > bounds[..., 1])
-    return ~(far | fast)

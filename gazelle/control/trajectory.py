@@ -7,7 +7,7 @@ that acts is the last one that has begun; after its end it holds its last positi
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -67,6 +67,9 @@ class TrajectoryTable:
         nworld: Number of worlds.
         joints: Number of joints.
         endless: Which of them turn without limits, shape (joints,).
+
+    Attributes:
+        followers: Called with all segments whenever there are others.
     """
 
     def __init__(self, nworld: int, joints: int, endless: Bools) -> None:
@@ -76,6 +79,13 @@ class TrajectoryTable:
         self.duration: Floats = np.zeros((nworld, joints, 1))
         self.polynomials: Floats = np.zeros((nworld, joints, 1, 6))
         self.goal: Ints64 = np.zeros((nworld, joints, 1), np.int64)
+        self.followers: list[Callable[[Floats, Floats, Floats, Ints64], None]] = []
+
+    def tell(self) -> None:
+        """Hand all segments to those that follow them."""
+        self._kept = None
+        for each in self.followers:
+            each(self.start, self.duration, self.polynomials, self.goal)
 
     def _active(self, time: float, rows: Worlds | slice) -> Indices:
         """Columns of the segments that act, shape (n, joints); the first one before its time."""
@@ -247,10 +257,10 @@ class TrajectoryTable:
             duration = _merged(self.duration, rows, duration, width, 0)
             polynomials = _merged(self.polynomials, rows, polynomials, width, 0)
             goal = _merged(self.goal, rows, goal, width, 0)
-        self._kept = None
         spare = int(np.argmax(np.isfinite(start).any(axis=(0, 1))))
         self.start, self.duration = start[:, :, spare:].copy(), duration[:, :, spare:].copy()
         self.polynomials, self.goal = polynomials[:, :, spare:].copy(), goal[:, :, spare:].copy()
+        self.tell()
 
     def _arrays(self) -> tuple[NDArray[np.generic], ...]:
         return (self.start, self.duration, self.polynomials, self.goal)
@@ -262,11 +272,11 @@ class TrajectoryTable:
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._kept = None
         self.start = np.array(state["start"], np.float64)
         self.duration = np.array(state["duration"], np.float64)
         self.polynomials = np.array(state["polynomials"], np.float64)
         self.goal = np.array(state["goal"], np.int64)
+        self.tell()
 
 
 @dataclass(frozen=True, slots=True)

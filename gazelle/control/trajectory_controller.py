@@ -9,15 +9,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Ints64, Worlds
+from gazelle.array_types import Worlds
 from gazelle.control.angles import shortest
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
 from gazelle.control.goals import ActionPort, Goal, GoalState
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
 from gazelle.control.publishing import PublishingSchedule
-from gazelle.control.tolerances import TrajectoryTolerances, within
-from gazelle.control.trajectory import TrajectorySample, TrajectoryTable
+from gazelle.control.tolerances import TrajectoryTolerances
+from gazelle.control.trajectory import TrajectoryTable
+from gazelle.control.trajectory_law import (
+    LATE,
+    NOTHING,
+    STRAYED,
+    THERE,
+    TrajectoryLaw,
+    TrajectoryMemory,
+)
 from gazelle.control.trajectory_messages import (
     TrajectoryRefusedError,
     check_points,
@@ -58,20 +67,16 @@ class JointTrajectoryController(Controller):
         self._tolerances = TrajectoryTolerances.read(parameters, names)
         self._partial = parameters.flag("allow_partial_joints_goal", default=False)
         self._stop_duration = parameters.number("stop_trajectory_duration", 0.0)
+        memory = self._memory = TrajectoryMemory.empty(self.nworld, len(names))
+        self._law = TrajectoryLaw(self._joints, memory)
         self._adapt(parameters)
         self._open(parameters)
-        shape = (self.nworld, len(names))
-        self._table = TrajectoryTable(*shape, self._endless)
-        self._uptime = 0.0
-        self._period = 0.0
+        self._table = TrajectoryTable(self.nworld, len(names), self._endless)
+        self._table.followers.append(self._law.follow)
+        self._table.tell()
         self._goals: dict[int, Goal[TrajectoryGoal]] = {}
-        self._goal: Ints64 = np.zeros(self.nworld, np.int64)
         self._numbers = 0
-        self._reached: Bools = np.zeros(shape, bool)
-        self._path: Floats = np.zeros((*shape, 3))
-        self._end: Floats = np.zeros((*shape, 3))
-        self._patience: Floats = np.zeros(self.nworld)
-        self._desired: TrajectorySample | None = None
+        self._followed = False  # whether there was an update since it began anew
 
     def _adapt(self, parameters: ControllerParameters) -> None:
         """How what is wanted becomes a command: as it is, or by PID."""
@@ -89,7 +94,8 @@ class JointTrajectoryController(Controller):
                 )
             gains.append(PidGains.read(part))
         self._pid = Pid(gains, self.nworld)
-        self._forward = np.array([parameters.number(f"velocity_ff/{n}", 0.0) for n in self._names])
+        forward = np.array([parameters.number(f"velocity_ff/{n}", 0.0) for n in self._names])
+        self._law.push_by(self._pid.law, forward, self._joints.commands[fields[0]][0])
         for loop, name in enumerate(self._names):
             tell, change = self._gains_of(loop), pid_changer(self._pid, loop)
             self.add_tuning(f"gains/{name}", PID_TUNABLES, tell, change)
@@ -122,9 +128,18 @@ class JointTrajectoryController(Controller):
 
     # -- the loop ----------------------------------------------------------------------
 
+    @property
+    def _uptime(self) -> float:
+        """Since the start, the same in all worlds [s]."""
+        return float(self._memory.uptime[0])
+
+    @property
+    def _period(self) -> float:
+        return float(self._memory.period[0])
+
     def starting(self, time: float) -> None:  # noqa: ARG002  it counts its own time
         """Hold the joints where they are."""
-        self._uptime = 0.0
+        self._memory.uptime[:] = 0.0
         self._begin(np.arange(self.nworld))
         self._state_due.start(self.now_ns, at_once=False)
         self._feedback_due.start(self.now_ns, at_once=False)
@@ -138,36 +153,38 @@ class JointTrajectoryController(Controller):
         for field in self._joints.fields:
             held = position if field == "position" else 0.0
             self._joints.set_command(held, field, rows)
-        self._desired = None
+        self._followed = False
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  it counts its own time
         """Follow."""
-        self._uptime += period
-        self._period = period
-        desired = self._table.sample(self._uptime)
-        self._desired = desired
-        position = self._joints.position
-        position_error = shortest(position, desired.position)
-        velocity_error = desired.velocity - self._joints.velocity
-        if self._goals:
-            self._check(desired, position_error, velocity_error)
-        self._command(desired, position_error, velocity_error, period)
+        self._law.act(self.now_ns, period)
+        self._followed = True
+        heard = tuple(self._goals.values())
+        self._look_back()
         if self._state_due.is_due(self.now_ns):
             self._state_port.publish()
-        if self._goals and self._feedback_due.is_due(self.now_ns):
+        if heard and self._feedback_due.is_due(self.now_ns):
             for goal in tuple(self._goals.values()):
                 if goal.heard:
                     goal.tell(self._tell())
 
-    def _command(
-        self, desired: TrajectorySample, position: Floats, velocity: Floats, period: float
-    ) -> None:
-        if self._pid is not None:
-            pushed = self._pid.compute(position, period, velocity)
-            self._joints.set_command(self._forward * desired.velocity + pushed)
-            return
-        for field in self._joints.fields:
-            self._joints.set_command(getattr(desired, field), field)
+    def law(self) -> ControlLaw:
+        """What it does to joints."""
+        return self._law
+
+    def wake_ns(self) -> float:
+        """Always while somebody wants to know how goals do, else when it publishes."""
+        if any(goal.watched for goal in self._goals.values()):
+            return 0.0
+        return self._state_due.next_ns if self._state_port.wanted else math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its memory has it
+        """End goals that ended meanwhile."""
+        self._followed = True
+        self._state_due.skip(self.now_ns, updates)
+        if self._goals:
+            self._feedback_due.skip(self.now_ns, updates)
+        self._look_back()
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
         """End what is followed; the joints keep their last commands."""
@@ -175,25 +192,25 @@ class JointTrajectoryController(Controller):
 
     # -- goals ---------------------------------------------------------------------------
 
-    def _check(self, desired: TrajectorySample, position: Floats, velocity: Floats) -> None:
+    def _look_back(self) -> None:
         """End goals that are reached, or missed."""
-        own = (desired.goal == self._goal[:, None]) & (self._goal[:, None] > 0)
-        going = own & (self._uptime < desired.end)
-        strayed = going & ~within(position, velocity, self._path)
-        ended = own & ~going & desired.last
-        there = within(position, velocity, self._end)
-        self._reached |= ended & there
-        late = ended & ~there & (self._uptime >= desired.end + self._patience[:, None])
-        for missed, code, what in (
-            (strayed, PATH_TOLERANCE_VIOLATED, "path"),
-            (late, GOAL_TOLERANCE_VIOLATED, "goal"),
+        memory = self._memory
+        if not self._goals or not memory.event.any():
+            return
+        ended = np.flatnonzero(memory.event)
+        codes = memory.event[ended]
+        memory.event[ended] = NOTHING
+        memory.goal[ended] = memory.event_goal[ended]
+        for kind, code, what in (
+            (STRAYED, PATH_TOLERANCE_VIOLATED, "path"),
+            (LATE, GOAL_TOLERANCE_VIOLATED, "goal"),
         ):
-            for world in np.flatnonzero(missed.any(axis=1)).tolist():
-                joint = int(np.argmax(missed[world]))
-                error = f"{self._names[joint]} {what} error {position[world, joint]:.6f}"
+            for world in ended[codes == kind].tolist():
+                joint = self._names[memory.event_joint[world]]
+                error = f"{joint} {what} error {memory.event_error[world]:.6f}"
                 result = TrajectoryResult(code, error)
                 self._end_goals(np.array([world]), GoalState.ABORTED, result, error)
-        done = np.flatnonzero((self._goal > 0) & self._reached.all(axis=1))
+        done = ended[codes == THERE]
         if done.size:
             self._end_goals(done, GoalState.SUCCEEDED, TrajectoryResult(), "")
 
@@ -201,12 +218,12 @@ class JointTrajectoryController(Controller):
         self, rows: Worlds, state: GoalState, result: TrajectoryResult | None, text: str
     ) -> None:
         """End the goals that are active in some worlds."""
-        numbers = self._goal[rows]
-        self._goal[rows] = 0
+        numbers = self._memory.goal[rows]
+        self._memory.goal[rows] = 0
         for number in np.unique(numbers[numbers > 0]).tolist():
             goal = self._goals[number]
             goal.end(state, rows[numbers == number], result, text)
-            if not (self._goal == number).any():
+            if not (self._memory.goal == number).any():
                 del self._goals[number]
 
     def _preempt(self, rows: Worlds, why: str) -> None:
@@ -228,19 +245,20 @@ class JointTrajectoryController(Controller):
         self._numbers += 1
         self._goals[self._numbers] = goal
         rows = goal.worlds
-        self._goal[rows] = self._numbers
+        self._memory.goal[rows] = self._numbers
         named = columns_of(goal.value.trajectory, self._names, partial=True)
-        self._reached[rows] = ~np.isin(np.arange(len(self._names)), named)
+        self._memory.reached[rows] = ~np.isin(np.arange(len(self._names)), named)
         bounds = self._tolerances.with_goal(goal.value, self._names)
-        self._path[rows], self._end[rows] = bounds.path, bounds.goal
-        self._patience[rows] = bounds.goal_time
+        memory = self._memory
+        memory.path[rows], memory.end[rows] = bounds.path, bounds.goal
+        memory.patience[rows] = bounds.goal_time
 
     def _stop_goal(self, goal: Goal[TrajectoryGoal]) -> None:
         """Hold where it is active; elsewhere nothing happens."""
         number = next((n for n, each in self._goals.items() if each is goal), None)
         if number is None:
             return
-        rows = np.flatnonzero(self._goal == number)
+        rows = np.flatnonzero(self._memory.goal == number)
         self._hold(rows)
         self._preempt(rows, "the goal was cancelled")
 
@@ -285,18 +303,25 @@ class JointTrajectoryController(Controller):
     # -- telling -------------------------------------------------------------------------
 
     def _tell(self) -> TrajectoryState:
-        desired = self._desired
-        if desired is None:
-            desired = self._table.sample(self._uptime)
+        wanted = self._wanted()
         position, velocity = self._joints.position, self._joints.velocity
         return TrajectoryState(
             self.now_ns,
             self._names,
-            JointSample(desired.position, desired.velocity, desired.acceleration),
+            wanted,
             JointSample(position, velocity),
-            JointSample(shortest(position, desired.position), desired.velocity - velocity),
+            JointSample(shortest(position, wanted.positions), wanted.velocities - velocity),
             self._uptime - self._table.begins(),
         )
+
+    def _wanted(self) -> JointSample:
+        """What was wanted in the last update; before the first what will be."""
+        memory = self._memory
+        if self._followed:
+            rate, bend = memory.wanted_rate.copy(), memory.wanted_bend.copy()
+            return JointSample(memory.wanted.copy(), rate, bend)
+        now = self._table.sample(self._uptime)
+        return JointSample(now.position, now.velocity, now.acceleration)
 
     def _answer(self, query: TrajectoryQuery) -> TrajectoryAnswer:
         if not self.running:
@@ -333,12 +358,12 @@ class JointTrajectoryController(Controller):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave; goals end."""
         self._preempt(np.arange(self.nworld), "a snapshot was restored")
-        self._uptime, self._period = (float(each) for each in state["uptime"])
+        self._memory.uptime[:], self._memory.period[:] = state["uptime"]
         self._table.restore(_part("table/", state))
         if self._pid is not None:
             self._pid.restore(_part("pid/", state))
         self._state_due.restore(state)
-        self._desired = None
+        self._followed = False
 
 
 def _part(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.generic]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description import World
+from gazelle.engines.carrying import CarryingEngine
 from gazelle.engines.changes import changes_of
 from gazelle.engines.engine import (
     CHANGES,
@@ -25,6 +26,7 @@ __all__ = [
     "CHANGES",
     "PARAMETERS",
     "Call",
+    "CarryingEngine",
     "Contacts",
     "DivergenceError",
     "Engine",

@@ -12,6 +12,10 @@ cdef inline int* integers(size_t address) noexcept nogil:
     return <int*>address
 
 
+cdef inline long long* longs(size_t address) noexcept nogil:
+    return <long long*>address
+
+
 cdef inline size_t word(size_t address) noexcept nogil:
     return (<size_t*>address)[0]
 

@@ -24,6 +24,11 @@ def integers(address: int) -> Any:
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_int))
 
 
+def longs(address: int) -> Any:
+    """The integers of 64 bits from an address on; it can be indexed."""
+    return ctypes.cast(address, ctypes.POINTER(ctypes.c_longlong))
+
+
 def word(address: int) -> int:
     """The address, or the 64-bit integer, that is kept at an address."""
     return ctypes.c_size_t.from_address(address).value

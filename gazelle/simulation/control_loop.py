@@ -10,9 +10,13 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Worlds
 from gazelle.control import ControllerManager
+from gazelle.control.control_cycle import ControlCycle
+from gazelle.control.control_law import ControlLaw
+from gazelle.control.joint_law import JointLaw
 from gazelle.control.limits import JointLimits
 from gazelle.description import Model
 from gazelle.errors import ControlWarning
+from gazelle.native.joint_system import JointSystem
 from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.joint_hardware import (
     INTERFACES,
@@ -61,6 +65,7 @@ class ControlLoop(ModelPlugin):
         self._period_ns: int | None = None
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
+        self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int | None] | None = None
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
@@ -92,8 +97,7 @@ class ControlLoop(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Read, control, write."""
-        now, step = self._clock.now_ns, self._clock.step_ns
-        period = step if self._period_ns is None else self._period_ns
+        now, step, period = self._clock.now_ns, self._clock.step_ns, self._control_ns
         self.hardware.stop_emergency(self.stopped)
         due = self._updated_ns is None or now - self._updated_ns >= period
         if due:
@@ -106,6 +110,44 @@ class ControlLoop(ModelPlugin):
         since = step if self._written_ns is None else now - self._written_ns
         self._written_ns = now
         self.hardware.write(time, since / NANOSECONDS)
+
+    def carried(self) -> tuple[JointSystem, float] | None:
+        """All of ``on_update`` in native code, until somebody wants to know."""
+        hardware = self.hardware
+        if not isinstance(hardware, JointHardware) or self._released.any() or not self.active:
+            return None
+        laws = self.manager.laws()
+        cycle = None if laws is None else hardware.carried
+        if laws is None or cycle is None:
+            return None
+        hardware.stop_emergency(self.stopped)
+        if self._carrying is None or self._carrying[1:] != (hardware.law, laws, self._period_ns):
+            cycle.run(hardware.law, laws, self._control_ns, self._clock.step_ns)
+            self._carrying = (cycle, hardware.law, laws, self._period_ns)
+        cycle.updated_ns[:] = -1 if self._updated_ns is None else self._updated_ns
+        cycle.written_ns[:] = -1 if self._written_ns is None else self._written_ns
+        return cycle, self.manager.wake_ns()
+
+    @property
+    def _control_ns(self) -> int:
+        """The period of control [ns]."""
+        return self._clock.step_ns if self._period_ns is None else self._period_ns
+
+    def catch_up(self) -> None:
+        """Know what was done in native code."""
+        if self._carrying is None:
+            return
+        cycle = self._carrying[0]
+        before, now = self._updated_ns, int(cycle.updated_ns.max())
+        self._updated_ns = None if now < 0 else now
+        written = int(cycle.written_ns.max())
+        self._written_ns = None if written < 0 else written
+        if self._updated_ns == before:
+            return
+        step = self._clock.step_ns
+        each = max(step, -(-self._control_ns // step) * step)
+        updates = 1 if before is None else max(1, round((now - before) / each))
+        self.manager.catch_up(now, updates, each / NANOSECONDS)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew: controllers that run hold the robot where it is put."""

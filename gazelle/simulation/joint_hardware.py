@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.control import (
     EFFORT,
     POSITION,
@@ -24,16 +24,34 @@ from gazelle.control import (
     JointCommandInterface,
     RobotHardware,
 )
-from gazelle.control.angles import distance, shortest
-from gazelle.control.limits import EffortLimiter, JointLimits, PositionLimiter, VelocityLimiter
+from gazelle.control.control_cycle import ControlCycle
+from gazelle.control.interfaces import COMMAND_FIELDS
+from gazelle.control.joint_law import (
+    BY_EFFORT,
+    BY_MOTOR,
+    BY_PLACE,
+    BY_POSITION,
+    BY_VELOCITY,
+    JointLaw,
+    JointMemory,
+)
+from gazelle.control.limits import JointLimits, limit_law
 from gazelle.control.pid import Pid, PidGains
 from gazelle.description import Model
+from gazelle.engines import CarryingEngine
 from gazelle.errors import SimulationError
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.sensor_hardware import sensor_interfaces
 
 INTERFACES = (EFFORT, POSITION, VELOCITY)
 """Those that a simulated joint can be commanded through."""
+
+# How a joint is commanded through an interface, without gains and with them.
+_WAYS = {
+    EFFORT: (BY_EFFORT, BY_EFFORT),
+    POSITION: (BY_PLACE, BY_POSITION),
+    VELOCITY: (BY_MOTOR, BY_VELOCITY),
+}
 
 # A joint that is put somewhere faster than this jumped, and has no velocity [m/s or rad/s].
 _JUMP = 100.0
@@ -129,68 +147,61 @@ class JointHardware(SimulatedHardware):
         for interface in sensor_interfaces(robot):
             self.register(interface)
         described = [robot.joint_description(name) for name in names]
-        self._turning = np.array([each.type != "prismatic" for each in described], bool)
-        self._lower = np.array([each.limits.lower for each in self._joints])
-        self._upper = np.array([each.limits.upper for each in self._joints])
-        self._endless = self._turning & np.isinf(self._lower) & np.isinf(self._upper)
+        lower = np.array([each.limits.lower for each in self._joints])
+        upper = np.array([each.limits.upper for each in self._joints])
+        turning = np.array([each.type != "prismatic" for each in described], bool)
+        endless = turning & np.isinf(lower) & np.isinf(upper)
         self._strength = np.array([each.limits.effort for each in self._joints])
         self._active = [each.interfaces[0] for each in self._joints]
-        self._stopped: Bools = np.zeros(self.nworld, bool)
-        self._held: Floats = np.full((self.nworld, len(names)), math.nan)
-        self._motors: dict[int, Floats] = {}
         self._placed: Floats = np.full((self.nworld, len(names)), math.nan)
-        self._pids: dict[str, Pid] = {}
-        self._applied, self._speeds = np.zeros((2, self.nworld, len(names)))
+        self._memory = JointMemory.empty(self.nworld, len(names))
+        self.cycle = ControlCycle(self.nworld, len(names))
+        self._bound: int | None = None
+        self.law = JointLaw(self._ports(), self._memory, turning, endless)
+        self._limits = limit_law([each.limits for each in self._joints])
+        self._pid = Pid([each.gains or PidGains() for each in self._joints], self.nworld)
+        self._motors: set[int] = set()
         self._arrange()
+
+    def _ports(self) -> dict[str, Any]:
+        """Arrays that native code works on."""
+        cycle, states = self.cycle, self.states
+        ports: dict[str, Any] = {
+            "measured": cycle.position_in, "measured_rate": cycle.velocity_in,
+            "applied": cycle.effort_out, "pushed": cycle.pushed_out,
+            "speed": cycle.speed_out, "driven": cycle.driven_out,
+            "position": states.position, "velocity": states.velocity, "effort": states.effort,
+        }  # fmt: skip
+        for kind in INTERFACES:
+            table, field = self.interfaces.get(kind), COMMAND_FIELDS[kind][0]
+            known = isinstance(table, JointCommandInterface)
+            ports[f"{field}_command"] = table.commands[field] if known else np.zeros((1, 1))  # type: ignore[union-attr]
+        return ports
 
     # -- arranging ---------------------------------------------------------------------
 
     def _arrange(self) -> None:
         """Sort the joints by how they are commanded now."""
-        self._columns: dict[str, Indices] = {}
-        self._commands: dict[str, tuple[Floats, Indices]] = {}
-        for kind in INTERFACES:
-            chosen = [i for i, active in enumerate(self._active) if active == kind]
-            self._columns[kind] = np.array(chosen, np.intp)
-            if chosen:
-                table = self.interfaces[kind]
-                if isinstance(table, JointCommandInterface):
-                    own = [table.resources.index(self._joints[i].name) for i in chosen]
-                    values = next(iter(table.commands.values()))
-                    self._commands[kind] = (values, np.array(own, np.intp))
-        self._limit()
-        self._tune()
-        self._put = set(self._columns[POSITION][~self._with_gains[POSITION]].tolist())
+        kinds, columns = [], []
+        for joint, active in zip(self._joints, self._active, strict=True):
+            kinds.append(_WAYS[active][joint.gains is not None])
+            columns.append(self.interfaces[active].resources.index(joint.name))
+        self._kinds = np.array(kinds, np.int64)
+        self._put = np.flatnonzero(self._kinds == BY_PLACE).tolist()
+        self._memory.previous[:] = math.nan
+        self._pid.reset()
+        self.law.arrange(self._kinds, columns, self._limits, self._pid.law)
         self._move_motors()
-
-    def _limit(self) -> None:
-        limits = {
-            kind: [self._joints[i].limits for i in self._columns[kind]] for kind in INTERFACES
-        }
-        self._effort_limiter = EffortLimiter(limits[EFFORT])
-        self._position_limiter = PositionLimiter(limits[POSITION], self.nworld)
-        self._velocity_limiter = VelocityLimiter(limits[VELOCITY], self.nworld)
-
-    def _tune(self) -> None:
-        """Find out which joints have gains, and which have not."""
-        self._with_gains: dict[str, Bools] = {}
-        for kind in (POSITION, VELOCITY):
-            gains = [self._joints[i].gains for i in self._columns[kind]]
-            self._with_gains[kind] = np.array([each is not None for each in gains], bool)
-            self._pids[kind] = Pid([each for each in gains if each is not None], self.nworld)
 
     def _move_motors(self) -> None:
         """Put motors on joints that hold velocities, and switch those of others off."""
-        wanted = set(self._columns[VELOCITY][~self._with_gains[VELOCITY]].tolist())
-        for index in [*self._motors]:
-            if index not in wanted:
-                self._handles[index].add_motor(0.0)
-                del self._motors[index]
-        for index in sorted(wanted):
-            if index not in self._motors:
-                strength = self._strength[index]
-                self._handles[index].add_motor(min(_STRONG, strength))
-                self._motors[index] = np.full(self.nworld, math.nan)
+        wanted = set(np.flatnonzero(self._kinds == BY_MOTOR).tolist())
+        for index in sorted(self._motors - wanted):
+            self._handles[index].add_motor(0.0)
+        for index in sorted(wanted - self._motors):
+            self._handles[index].add_motor(min(_STRONG, self._strength[index]))
+            self.cycle.speed_out[:, index] = math.nan
+        self._motors = wanted
 
     @property
     def motors(self) -> frozenset[str]:
@@ -209,108 +220,90 @@ class JointHardware(SimulatedHardware):
         pairs = enumerate(zip(before, self._active, strict=True))
         left = np.array([index for index, (old, new) in pairs if old != new], np.intp)
         if left.size:
-            self._set_efforts(left, np.zeros((self.nworld, left.size)))
+            self.cycle.pushed_out[:, left] = self.cycle.effort_out[:, left] != 0.0
+            self.cycle.effort_out[:, left] = 0.0
+            self._act()
             self._arrange()
 
     # -- the loop ----------------------------------------------------------------------
 
     def read(self, time: float, period: float) -> None:  # noqa: ARG002  it asks the engine
         """Measure; joints that turn are followed round and round, and never jump."""
-        if not self._handles:
-            return
-        states = self.states
-        engine = self.robot.simulation.engine
-        measured = np.concatenate([engine.joint_position(name) for name in self._names], axis=1)
-        onward = states.position + shortest(states.position, measured)
-        states.position[:] = np.where(self._turning, onward, measured)
-        states.effort[:] = self._applied
-        for column, name in enumerate(self._names):
-            if column not in self._put:
-                states.velocity[:, column] = engine.joint_velocity(name)[:, 0]
-            else:  # what a step adds to it the next one takes away
-                states.velocity[:, column] = self._speeds[:, column]
+        carrier = self._carrier()
+        if carrier is not None:
+            carrier.read_joints(self.cycle)
+        else:
+            engine = self.robot.simulation.engine
+            for column, name in enumerate(self._names):
+                self.cycle.position_in[:, column] = engine.joint_position(name)[:, 0]
+                self.cycle.velocity_in[:, column] = engine.joint_velocity(name)[:, 0]
+        self.law.read_all()
+
+    def _carrier(self) -> CarryingEngine | None:
+        """The engine, if it is to be told of all joints at once."""
+        carrier = self.robot.simulation.carrier
+        if carrier is None or not self._names:
+            return None
+        if self._bound != carrier.revision:
+            carrier.bind_joints(self.cycle, self._names)
+            self._bound = carrier.revision
+        return carrier
 
     def stop_emergency(self, stopped: Bools) -> None:
         """Take the power from joints, and hold those where they are that hold positions."""
-        begun = stopped & ~self._stopped
-        self._held[begun] = self.states.position[begun]
-        self._stopped = stopped.copy()
+        memory = self._memory
+        begun = stopped & ~memory.stopped
+        memory.held[begun] = self.states.position[begun]
+        memory.stopped[:] = stopped
 
     @property
     def idle(self) -> bool:
         """Whether efforts are all that is commanded, and there are none."""
-        if self._columns[POSITION].size or self._columns[VELOCITY].size:
+        if (self._kinds != BY_EFFORT).any():
             return False
-        commands = [values for values, _ in self._commands.values()]
-        return not (self._applied.any() or any(values.any() for values in commands))
+        commands = [each for each in self.interfaces.values() if each.name == EFFORT]
+        wanted = [each.commands for each in commands if isinstance(each, JointCommandInterface)]
+        return not (
+            self.cycle.effort_out.any() or any(v.any() for each in wanted for v in each.values())
+        )
+
+    @property
+    def carried(self) -> ControlCycle | None:
+        """What an engine may take into its steps; None while Python has to act on joints."""
+        own = type(self)
+        if own.read is not JointHardware.read or own.write is not JointHardware.write:
+            return None
+        carrier = self.robot.simulation.carrier
+        if carrier is None or self._put or self._loads.turns(self._names) or not self._names:
+            return None
+        if not carrier.carries:
+            return None
+        carrier.expect_systems()
+        self._carrier()
+        return self.cycle
 
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
         """Hold the commands within limits, and act on them."""
-        for kind, act in (
-            (EFFORT, self._write_efforts),
-            (POSITION, self._write_positions),
-            (VELOCITY, self._write_velocities),
-        ):
-            if kind in self._commands:
-                act(period)
+        self.law.write_all(period)
+        for index in self._put:
+            self._place(index, self._memory.wanted[:, index], period)
+        self._act()
 
-    def _state(self, kind: str) -> tuple[Floats, Floats]:
-        columns = self._columns[kind]
-        return self.states.position[:, columns], self.states.velocity[:, columns]
-
-    def _write_efforts(self, period: float) -> None:
-        del period
-        values, own = self._commands[EFFORT]
-        limited = self._effort_limiter.enforce(values[:, own], *self._state(EFFORT))
-        values[:, own] = limited
-        efforts = np.where(self._stopped[:, None], 0.0, limited)
-        self._set_efforts(self._columns[EFFORT], efforts)
-
-    def _write_positions(self, period: float) -> None:
-        values, own = self._commands[POSITION]
-        columns = self._columns[POSITION]
-        position, _ = self._state(POSITION)
-        if self._stopped.any():
-            stopped = self._stopped[:, None]
-            values[:, own] = np.where(stopped, self._held[:, columns], values[:, own])
-        wanted = self._position_limiter.enforce(values[:, own], position, period)
-        values[:, own] = wanted
-        pushed = self._with_gains[POSITION]
-        if pushed.any():
-            there = columns[pushed]
-            error = self._error(position[:, pushed], wanted[:, pushed], there)
-            self._push(POSITION, there, error, period)
-        for row in np.flatnonzero(~pushed).tolist():
-            self._place(int(columns[row]), wanted[:, row], period)
-
-    def _error(self, position: Floats, wanted: Floats, columns: Indices) -> Floats:
-        """What is missing, the way round that limits allow."""
-        low, high = self._lower[columns], self._upper[columns]
-        turned = distance(position, wanted, self._endless[columns], low, high)
-        return np.where(self._turning[columns], turned, wanted - position)
-
-    def _write_velocities(self, period: float) -> None:
-        values, own = self._commands[VELOCITY]
-        columns = self._columns[VELOCITY]
-        limited = self._velocity_limiter.enforce(values[:, own], *self._state(VELOCITY), period)
-        values[:, own] = limited
-        wanted = np.where(self._stopped[:, None], 0.0, limited)
-        pushed = self._with_gains[VELOCITY]
-        if pushed.any():
-            there = columns[pushed]
-            error = wanted[:, pushed] - self.states.velocity[:, there]
-            self._push(VELOCITY, there, error, period)
-        for row in np.flatnonzero(~pushed).tolist():
-            index, speeds = int(columns[row]), wanted[:, row]
-            if not np.array_equal(self._motors[index], speeds):
-                self._motors[index] = speeds.copy()
-                self._handles[index].drive(speeds)
-
-    def _push(self, kind: str, columns: Indices, error: Floats, period: float) -> None:
-        """Turn errors into efforts."""
-        most = self._strength[columns]
-        efforts = np.clip(self._pids[kind].compute(error, period), -most, most)
-        self._set_efforts(columns, efforts)
+    def _act(self) -> None:
+        """Let act what changed."""
+        cycle, carrier = self.cycle, self._carrier()
+        if not (cycle.pushed_out.any() or cycle.driven_out.any()):
+            return
+        if carrier is not None and not self._loads.turns(self._names):
+            carrier.push_joints(cycle)
+            return
+        for index in np.flatnonzero(cycle.pushed_out.any(axis=0)).tolist():
+            rows = np.flatnonzero(cycle.pushed_out[:, index])
+            self._loads.set_lasting(self._names[index], cycle.effort_out[rows, index, None], rows)
+        for index in np.flatnonzero(cycle.driven_out.any(axis=0)).tolist():
+            rows = np.flatnonzero(cycle.driven_out[:, index])
+            self._handles[index].drive(cycle.speed_out[rows, index], rows)
+        cycle.pushed_out[:] = cycle.driven_out[:] = 0
 
     def _place(self, index: int, wanted: Floats, period: float) -> None:
         """Put a joint where it has to be after the step, as fast as its command moves."""
@@ -322,7 +315,7 @@ class JointHardware(SimulatedHardware):
             speed[moved] = (wanted[moved] - before[moved]) / period
             speed[np.abs(speed) > _JUMP] = 0.0
         self._placed[:, index] = np.where(good, wanted, before)
-        self._speeds[:, index] = speed
+        self._memory.placed_speed[:, index] = speed
         rows = None if good.all() else np.flatnonzero(good)
         chosen = slice(None) if rows is None else rows
         engine = self.robot.simulation.engine
@@ -330,52 +323,37 @@ class JointHardware(SimulatedHardware):
         engine.set_joint_position(handle.name, start[chosen, None], rows)
         engine.set_joint_velocity(handle.name, speed[chosen, None], rows)
 
-    def _set_efforts(self, columns: Indices, efforts: Floats) -> None:
-        """Let efforts act on joints, shape (nworld, n)."""
-        # What is no number would end the world; the engine is spared it.
-        safe = np.where(np.isfinite(efforts), efforts, 0.0)
-        changed = (safe != self._applied[:, columns]).any(axis=0)
-        # What acts already, such as what Python makes of a joint that nothing controls, stays.
-        for row in np.flatnonzero(changed).tolist():
-            index = int(columns[row])
-            self._applied[:, index] = safe[:, row]
-            self._loads.set_lasting(self._names[index], safe[:, row, None])
-
     # -- beginning anew ----------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
         """Know nothing of these worlds."""
         rows = slice(None) if worlds is None else worlds
-        states = self.states
+        states, memory, cycle = self.states, self._memory, self.cycle
         states.position[rows] = states.effort[rows] = 1.0
-        states.velocity[rows] = self._applied[rows] = self._speeds[rows] = 0.0
-        self._stopped[rows] = False
-        self._held[rows] = self._placed[rows] = math.nan
-        self._position_limiter.previous[rows] = math.nan
-        self._velocity_limiter.previous[rows] = 0.0
-        for pid in self._pids.values():
-            pid.reset(worlds)
+        states.velocity[rows] = memory.placed_speed[rows] = 0.0
+        cycle.effort_out[rows], cycle.speed_out[rows] = 0.0, math.nan
+        cycle.pushed_out[rows] = cycle.driven_out[rows] = 0
+        memory.stopped[rows] = False
+        memory.held[rows] = memory.previous[rows] = self._placed[rows] = math.nan
+        self._pid.reset(worlds)
         for interface in self.interfaces.values():
             if isinstance(interface, JointCommandInterface):
                 for values in interface.commands.values():
                     values[rows] = 0.0
-        for speeds in self._motors.values():
-            speeds[rows] = math.nan
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """All that changes."""
+        memory = self._memory
         own = {
-            "stopped": self._stopped.copy(),
-            "held": self._held.copy(),
+            "stopped": memory.stopped.copy(),
+            "held": memory.held.copy(),
             "placed": self._placed.copy(),
-            "applied": self._applied.copy(),
-            "speeds": self._speeds.copy(),
+            "applied": self.cycle.effort_out.copy(),
+            "speeds": memory.placed_speed.copy(),
             "active": np.array([INTERFACES.index(each) for each in self._active], np.int64),
-            "position_before": self._position_limiter.previous.copy(),
-            "velocity_before": self._velocity_limiter.previous.copy(),
+            "previous": memory.previous.copy(),
         }
-        for kind, pid in self._pids.items():
-            own |= {f"pid.{kind}.{name}": value for name, value in pid.state().items()}
+        own |= {f"pid.{name}": value for name, value in self._pid.state().items()}
         return {**super().state(), **own}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -385,13 +363,10 @@ class JointHardware(SimulatedHardware):
         if active != self._active:
             self._active = active
             self._arrange()
-        self._stopped = np.array(state["stopped"], bool)
-        self._held, self._placed = np.array(state["held"]), np.array(state["placed"])
-        self._applied, self._speeds = np.array(state["applied"]), np.array(state["speeds"])
-        self._position_limiter.previous = np.array(state["position_before"])
-        self._velocity_limiter.previous = np.array(state["velocity_before"])
-        for kind, pid in self._pids.items():
-            begin = f"pid.{kind}."
-            pid.restore({k.removeprefix(begin): v for k, v in state.items() if k.startswith(begin)})
-        for speeds in self._motors.values():
-            speeds[:] = math.nan
+        memory = self._memory
+        memory.stopped[:], memory.held[:] = state["stopped"], state["held"]
+        memory.placed_speed[:], memory.previous[:] = state["speeds"], state["previous"]
+        self._placed[:], self.cycle.effort_out[:] = state["placed"], state["applied"]
+        self.cycle.speed_out[:] = math.nan
+        self.cycle.pushed_out[:] = self.cycle.driven_out[:] = 0
+        self._pid.restore({name: state[f"pid.{name}"] for name in ("p", "i", "last")})

@@ -162,6 +162,10 @@ class Loads:
         known.efforts.append(TimedEffort(joint, start_ns, end_ns, rows))
         self._schedule()
 
+    def turns(self, joints: Iterable[str]) -> bool:
+        """Whether a timed effort acts, or waits, on one of some joints."""
+        return bool(self._joints) and any(joint in self._joints for joint in joints)
+
     def set_lasting(self, joint: str, effort: Floats, worlds: Worlds | None = None) -> None:
         """Set the effort that acts on a joint besides the timed ones."""
         known = self._joints.get(joint)

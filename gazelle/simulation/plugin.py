@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
 
 if TYPE_CHECKING:
@@ -48,6 +49,17 @@ class Plugin:
         that run systems ask: ``Simulation.native``.
         """
         return None
+
+    def carried(self) -> tuple[JointSystem, float] | None:
+        """What does the same as ``on_update`` within steps, and until when [ns].
+
+        It is asked before steps are made where ``Simulation.carrier`` is an engine; ``on_update`` is
+        called instead where it is None, and from that time on. After the steps follows ``catch_up``.
+        """
+        return None
+
+    def catch_up(self) -> None:
+        """What ``carried`` gave made steps."""
 
     def kind(self) -> Hashable | None:
         """Equal for plugins of one class that ``together`` makes one system of; None for none.

@@ -73,6 +73,7 @@ class Recorder(Closeable):
         self._write(first)
         # What systems change is not called: plugins do it themselves meanwhile.
         self._native, simulation.native = simulation.native, None
+        self._carrier, simulation.carrier = simulation.carrier, None
         for name in changes_of(self._engine):
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
 
@@ -83,6 +84,7 @@ class Recorder(Closeable):
                 for name in changes_of(self._engine):
                     delattr(self._engine, name)
                 self._simulation.native = self._native
+                self._simulation.carrier = self._carrier
                 self._flush()
                 self._file.close()
 

@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
@@ -52,6 +53,19 @@ class ScheduledPlugin:
         if self.schedule is None:
             return True
         return plugin.only_publishes and self._ask(lambda: not plugin.active, "when asked") is True
+
+    def carried(self) -> tuple[JointSystem, float] | None:
+        """What does its work within steps, and until when [ns]."""
+        return self._ask(self.plugin.carried, "when asked for its system")
+
+    def catch_up(self) -> None:
+        """Steps were made with it."""
+        self._ask(self.plugin.catch_up, "after steps")
+
+    @property
+    def may_be_carried(self) -> bool:
+        """Whether it is worth asking."""
+        return type(self.plugin).carried is not Plugin.carried
 
     def kind(self) -> Hashable | None:
         """What it has in common with those that are updated together with it."""
@@ -136,6 +150,8 @@ class StepPlan:
         sensors: What is measured from Python: those awake that are in no group.
         groups: Of sensors.
         settled: The systems and schedules of all plugins where Python has a say in none; else None.
+        late: Plugins that steps may carry: they come after the others, carried or not.
+        early: The others.
     """
 
     def __init__(
@@ -151,6 +167,8 @@ class StepPlan:
         if native and not alone:  # sensors first: asking for their kind may change the engine
             self._group_sensors()
         entries = [each for each in plugins if not each.rests]
+        self.late = [entry for entry in entries if entry.may_be_carried]
+        self.early = [entry for entry in entries if not entry.may_be_carried]
         self.plugins: list[ScheduledPlugin | PluginGroup] = [*entries]
         if native:
             self.plugins = _with_groups(entries)

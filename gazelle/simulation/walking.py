@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import sys
 import time
 import warnings
 from collections.abc import Callable, Sequence
@@ -9,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.engines import DivergenceError, Engine
+from gazelle.engines import CarryingEngine, DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
@@ -63,6 +66,7 @@ class StepLoop:
         self._plan = StepPlan((), (), native=False)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
+        self._carried: list[tuple[ScheduledPlugin, JointSystem, float]] = []
         self._schedules: list[Schedule] = []
         self._most = 1
         self.cut = False
@@ -128,6 +132,8 @@ class StepLoop:
             most = 1
         # Nothing is due within a single step: nobody need be asked.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
+        if steps > 1 and self._carried:
+            steps = min(steps, self._steps_carried())
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
@@ -147,12 +153,14 @@ class StepLoop:
         """Run plugins that are due from Python; returns those that are not run by systems."""
         simulation, asked = self._simulation, set[int]()
         while True:
-            plan = self._renew()
+            plan, self._carried = self._renew(), []
             if plan.settled is not None:
                 self._systems, self._schedules = plan.settled
                 set_due(self._systems, self._schedules)
                 return ()
             others: Sequence[ScheduledPlugin | PluginGroup] = plan.plugins
+            if plan.late:
+                others = [*plan.early, *self._not_carried(plan.late)]
             if simulation.native is not None:
                 self._systems, self._schedules, others = with_systems(plan.plugins)
             plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
@@ -161,6 +169,34 @@ class StepLoop:
             if simulation.requests.closed or self._planned == self._now():
                 return plugins
             asked.update(map(id, plugins))
+
+    def _not_carried(self, late: Sequence[ScheduledPlugin]) -> list[ScheduledPlugin]:
+        """Of the plugins that steps may carry those that Python updates now."""
+        simulation, others = self._simulation, []
+        now_ns = simulation.clock.now_ns
+        for entry in late:
+            found = None
+            if simulation.carrier is not None and entry.schedule is not None:
+                found = entry.carried()
+            if found is None or found[1] <= now_ns:
+                others.append(entry)
+            else:
+                self._carried.append((entry, *found))
+        return others
+
+    def _steps_carried(self) -> int:
+        """Steps until Python has to update what is carried now."""
+        clock, soonest = self._simulation.clock, min(until for *_, until in self._carried)
+        return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
+
+    def _carry(self, carrier: CarryingEngine, count: int) -> None:
+        """Make steps that bring systems of controllers."""
+        try:
+            systems = [system for _, system, _ in self._carried]
+            carrier.carry(systems, count, self._simulation.clock.now_ns)
+        finally:
+            for entry, *_ in self._carried:
+                entry.catch_up()
 
     def _look_back(self) -> None:
         """After steps: move what follows, measure, tell who listens."""
@@ -202,6 +238,9 @@ class StepLoop:
         """Make steps, and update systems whenever they are due."""
         native = self._simulation.native
         groups = self._plan.groups
+        if self._carried and self._simulation.carrier is not None:
+            self._carry(self._simulation.carrier, count)
+            return
         if native is None:
             self._engine.step(count)
             return

@@ -62,6 +62,7 @@ class CompilerInput:
         attachments: Pairs of links that can be held together at run time.
         tyres: Links whose shapes may slip in proportion to the force.
         damped: Whether joints may be damped that the world's are not.
+        hooks: Address of what takes commands within steps; 0 for none.
     """
 
     world: World
@@ -71,6 +72,7 @@ class CompilerInput:
     attachments: tuple[Attachment, ...] = ()
     tyres: frozenset[str] = frozenset()
     damped: bool = False
+    hooks: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,6 +221,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
         treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
         exits=exits_of(builder.solids, recipe.world),
         swings=swings(recipe.world, bodies),
+        hooks=recipe.hooks,
     )
     return Draft(
         spec,

@@ -17,9 +17,9 @@ from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of
 from gazelle.engines.mujoco.attachments import Attachment
+from gazelle.engines.mujoco.carrying import CarryingSteps
 from gazelle.engines.mujoco.compiler import Compiled, CompilerInput, compile_world
 from gazelle.engines.mujoco.editing import with_inertial
-from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import MujocoLayout, layout_of
 from gazelle.engines.mujoco.loose import keep_awake
 from gazelle.engines.mujoco.motors import motor_again, motor_of, refuse_motors
@@ -38,7 +38,7 @@ _NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
 _OFF_AXIS = frozenset({"link_centre", "link_inertia"})
 
 
-class MujocoEngine(ForcedSteps):
+class MujocoEngine(CarryingSteps):
     """Many copies of one world in MuJoCo; see ``gazelle.engines.engine.Engine``.
 
     Args:
@@ -91,6 +91,7 @@ class MujocoEngine(ForcedSteps):
         self._placed, self._dropped = False, {}
         self._state = StateViews.of(batch)
         self._tables = {}
+        self._begin_carrying(batch, recipe)
         self._stale = True
 
     # -- what runs ---------------------------------------------------------------------

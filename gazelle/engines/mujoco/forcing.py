@@ -10,7 +10,7 @@ from __future__ import annotations
 import warnings
 from abc import abstractmethod
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import numpy as np
 from mujoco.batch import SimulationError
@@ -29,6 +29,8 @@ class ForcedSteps(ForceAccess):
 
     _spun = False
     """Whether it was said that something turns too fast."""
+    _holds_back = False
+    """Whether efforts are held back within steps."""
 
     @property
     @abstractmethod
@@ -50,7 +52,10 @@ class ForcedSteps(ForceAccess):
         return failed
 
     def _is_forced(self) -> bool:
-        return self._layout.limits.govern(self._state) or self._is_windy()
+        return self._is_governed() or self._is_windy()
+
+    def _is_governed(self) -> bool:
+        return not self._holds_back and self._layout.limits.govern(self._state)
 
     def _step_batch(self, count: int) -> set[int]:
         failed: set[int] = set()
@@ -87,7 +92,10 @@ class ForcedSteps(ForceAccess):
         if not self._is_forced():
             yield
             return
-        with self._layout.limits.held_back(self._state), self._blown():
+        with ExitStack() as stack:
+            if self._is_governed():
+                stack.enter_context(self._layout.limits.held_back(self._state))
+            stack.enter_context(self._blown())
             yield
 
     def _is_windy(self) -> bool:

@@ -32,7 +32,7 @@ def install(*, vital: bool) -> None:
         if vital:
             raise EngineError(
                 what,
-                hint="motors, bounces and friction by direction need it",
+                hint="motors, controllers, bounces and friction by direction need it",
             )
         warnings.warn(
             EngineWarning(

@@ -60,6 +60,7 @@ class Extras:
         treads: Joints of wheels by what may be their treads, a geom.
         exits: Velocities at which geoms leave overlaps, by name [m/s].
         swings: Whether joints get their bias forces at the middle of a step.
+        hooks: Address of what takes commands within steps; 0 for none.
     """
 
     bounces: bool = False
@@ -70,6 +71,7 @@ class Extras:
     treads: Mapping[str, str] = field(default_factory=dict)
     exits: Mapping[str, float] = field(default_factory=dict)
     swings: bool = False
+    hooks: int = 0
 
     @property
     def any(self) -> bool:
@@ -84,7 +86,7 @@ class Extras:
     @property
     def vital(self) -> bool:
         """Whether there is need of one without which the world would move quite differently."""
-        return bool(self.bounces or self.rubs or self.motors)
+        return bool(self.bounces or self.rubs or self.motors or self.hooks)
 
 
 def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
@@ -129,6 +131,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         extras.touches,
         len(swinging),
         spun.ctypes.data,
+        extras.hooks,
+        0.0,
     )
     if swinging:
         after = HEAD + 2 * len(extras.tumbling)

@@ -8,6 +8,7 @@ each is to have, and before it solves for the forces. See ``docs/physics.md`` fo
 
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
+from cython.cimports.gazelle.engines.mujoco.laws.commands import take_commands
 from cython.cimports.gazelle.engines.mujoco.laws.exits import leave_slowly
 from cython.cimports.gazelle.engines.mujoco.laws.lookup import begin_contact, begin_step
 from cython.cimports.gazelle.engines.mujoco.laws.motors import drive_motors
@@ -18,6 +19,7 @@ from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
     ITS_OWN,
     MARK,
     NO_DIRECTION,
+    WORLD,
 )
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
 from cython.cimports.gazelle.engines.mujoco.laws.rolling import hold_loosely
@@ -65,6 +67,13 @@ def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
     head = floats(word(model + AT.model_numeric))
     if head[0] != MARK:
         return
+    if head[9] > 0.0:
+        take_commands(
+            model,
+            data,
+            cython.cast(cython.size_t, head[9]),
+            cython.cast(cython.Py_ssize_t, head[WORLD]),
+        )
     midway: cython.bint = False
     if head[7] > 0.0:
         place = word(model + AT.model_numeric) + 8 * (

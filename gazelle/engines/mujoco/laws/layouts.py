@@ -60,6 +60,7 @@ class Offsets(NamedTuple):
     jacobian: int
     velocity: int
     reference: int
+    qpos: int
     qvel: int
     warmstart: int
     passive: int
@@ -140,6 +141,7 @@ def offsets() -> Offsets:
         jacobian=data.efc_J.offset,
         velocity=data.efc_vel.offset,
         reference=data.efc_aref.offset,
+        qpos=data.qpos.offset,
         qvel=data.qvel.offset,
         warmstart=data.qacc_warmstart.offset,
         passive=data.qfrc_passive.offset,

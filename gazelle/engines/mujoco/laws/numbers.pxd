@@ -1,7 +1,8 @@
 # What numbers.py says, for compiled modules.
 
 cdef enum:
-    HEAD = 9
+    HEAD = 11
+    WORLD = 10
     COM_VEL = 0
     RNE = 1
     SOLVE_M = 2

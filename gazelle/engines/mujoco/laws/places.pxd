@@ -1,7 +1,7 @@
 cdef struct Places:
     size_t ncon, ne, nf, contact, kind, owner, softness, stiffness, frictionloss, userdata
     size_t bias, applied, constraint, smooth, acceleration, rownnz, rowadr, colind, jacobian
-    size_t velocity, reference, qvel, warmstart, passive, xmat, geom_xmat, geom_xpos, xaxis
+    size_t velocity, reference, qpos, qvel, warmstart, passive, xmat, geom_xmat, geom_xpos, xaxis
     size_t cdof, cvel, terms, contact_size, contact_dist, contact_frame, contact_margin
     size_t contact_pos, contact_friction, contact_mu, contact_solref, contact_solreffriction
     size_t contact_dim, contact_geom, contact_address, model_nv, model_njnt, model_nnumeric

@@ -1,0 +1,17 @@
+cimport cython
+
+from gazelle.control.control_law cimport ControlLaw
+from gazelle.control.joint_law cimport JointLaw
+from gazelle.native.joint_system cimport JointSystem
+
+cdef class ControlCycle(JointSystem):
+    cdef JointLaw hardware
+    cdef list laws
+    cdef long long[::1] table
+    cdef readonly object updated_ns, written_ns
+    cdef long long[::1] updated, written
+    cdef long long period, step
+    @cython.locals(w=Py_ssize_t, passed="long long", since="long long")
+    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
+    @cython.locals(index=Py_ssize_t, place="void*")
+    cdef void control(self, Py_ssize_t world, long long time, double period) noexcept nogil

@@ -1,0 +1,70 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc"
+"""Joints read, controllers updated and commands written, step after step without Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import cython
+import numpy as np
+from cython.cimports.gazelle.control.control_law import ControlLaw
+from cython.cimports.gazelle.control.joint_law import JointLaw
+from cython.cimports.gazelle.native.joint_system import JointSystem
+
+
+@cython.cclass
+class ControlCycle(JointSystem):
+    """The controllers of a robot that run, in all worlds.
+
+    Args:
+        nworld: Number of worlds.
+        joints: Number of joints.
+
+    Attributes:
+        updated_ns: When controllers were updated last; -1 for never, shape (nworld,).
+        written_ns: When commands were written last, likewise.
+    """
+
+    def __init__(self, nworld: int, joints: int) -> None:
+        JointSystem.__init__(self, nworld, joints)
+        self.updated_ns, self.written_ns = np.full((2, nworld), -1, np.int64)
+        self.updated, self.written = self.updated_ns, self.written_ns
+        self.table = np.zeros(0, np.int64)
+        self.laws: list[ControlLaw] = []
+
+    def run(
+        self, hardware: JointLaw, laws: Sequence[ControlLaw], period: int, step: int
+    ) -> None:
+        """Say what is done in an update.
+
+        Args:
+            hardware: Reads joints and writes commands.
+            laws: Of controllers that run, in this order.
+            period: Of control [ns].
+            step: Of the physics [ns].
+        """
+        self.hardware, self.laws = hardware, list(laws)
+        self.table = np.array([id(each) for each in laws], np.int64)
+        self.period, self.step = period, step
+
+    def update(self, first: int, last: int, time: int) -> None:
+        """Bring worlds to a time: controllers once a period, limits always."""
+        for w in range(first, last):
+            passed = self.period if self.updated[w] < 0 else time - self.updated[w]
+            if self.updated[w] < 0 or passed >= self.period:
+                self.updated[w] = time
+                self.hardware.read(w)
+                self.control(w, time, passed / 1e9)
+            since = self.step if self.written[w] < 0 else time - self.written[w]
+            self.written[w] = time
+            self.hardware.write(w, since / 1e9)
+
+    def control(self, world: int, time: int, period: float) -> None:
+        """Update controllers."""
+        for index in range(self.table.shape[0]):
+            if cython.compiled:
+                place = cython.cast(cython.p_void, self.table[index])
+                cython.cast(ControlLaw, place).control(world, time, period)
+            else:
+                self.laws[index].control(world, time, period)

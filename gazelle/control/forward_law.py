@@ -1,0 +1,31 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc"
+"""Commands handed on, in native code."""
+
+from __future__ import annotations
+
+import cython
+from cython.cimports.gazelle.control.control_law import ControlLaw
+
+from gazelle.array_types import Floats
+from gazelle.control.interfaces import JointHandles
+
+
+@cython.cclass
+class ForwardLaw(ControlLaw):
+    """Hands commands to joints as they are.
+
+    Args:
+        joints: To be commanded.
+        wanted: The commands, shape (nworld, joints); used in place.
+    """
+
+    def __init__(self, joints: JointHandles, wanted: Floats) -> None:
+        ControlLaw.__init__(self, len(wanted))
+        self.wanted = wanted
+        self.command, self.columns = joints.commands[joints.fields[0]]
+
+    def control(self, world: int, now: int, period: float) -> None:
+        """Copy them."""
+        for i in range(self.columns.shape[0]):
+            self.command[world, self.columns[i]] = self.wanted[world, i]

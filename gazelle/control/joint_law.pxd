@@ -1,0 +1,37 @@
+cimport cython
+
+from gazelle.control.limit_law cimport LimitLaw
+from gazelle.control.pid_law cimport PidLaw
+
+cpdef enum:
+    BY_EFFORT = 0
+    BY_POSITION = 1
+    BY_VELOCITY = 2
+    BY_MOTOR = 3
+    BY_PLACE = 4
+
+cdef class JointLaw:
+    cdef LimitLaw limits
+    cdef PidLaw pid
+    cdef double[:, ::1] measured, measured_rate, position, velocity, effort
+    cdef double[:, ::1] applied, speed, placed_speed, previous, held, wanted
+    cdef double[:, ::1] effort_command, position_command, velocity_command
+    cdef unsigned char[:, ::1] pushed, driven
+    cdef unsigned char[::1] stopped, turning, endless
+    cdef long long[::1] kinds
+    cdef Py_ssize_t[::1] columns
+    @cython.locals(i=Py_ssize_t)
+    cdef void read(self, Py_ssize_t world) noexcept nogil
+    @cython.locals(i=Py_ssize_t, kind="long long", most=double, out=double)
+    cdef void write(self, Py_ssize_t world, double period) noexcept nogil
+    @cython.locals(kind="long long", c=Py_ssize_t, value=double, before=double, at=double, rate=double)
+    cdef double hold(self, Py_ssize_t world, Py_ssize_t i, double period) noexcept nogil
+    @cython.locals(low=double, high=double)
+    cdef double lack(self, Py_ssize_t world, Py_ssize_t i, double wanted) noexcept nogil
+    @cython.locals(safe=double)
+    cdef void push(self, Py_ssize_t world, Py_ssize_t i, double effort) noexcept nogil
+    cdef void drive(self, Py_ssize_t world, Py_ssize_t i, double speed) noexcept nogil
+    @cython.locals(w=Py_ssize_t)
+    cpdef read_all(self)
+    @cython.locals(w=Py_ssize_t, since=double)
+    cpdef write_all(self, double period)

@@ -1,0 +1,175 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="attr-defined, misc"
+"""Joints read and commanded as gazebo_ros_control's DefaultRobotHWSim does, in native code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import cython
+import numpy as np
+from cython.cimports.gazelle.control.angle_law import distance, shortest
+from cython.cimports.gazelle.control.limit_law import LimitLaw, clamp
+from cython.cimports.gazelle.control.pid_law import PidLaw
+from cython.cimports.libc.math import isfinite, isnan
+
+from gazelle.array_types import Bools, Floats
+
+# How a joint is commanded: by an effort, by a position or a velocity that gains turn into one, by
+# a motor, or by being put there.
+if not cython.compiled:  # else what joint_law.pxd says
+    BY_EFFORT, BY_POSITION, BY_VELOCITY, BY_MOTOR, BY_PLACE = 0, 1, 2, 3, 4
+
+
+@dataclass(frozen=True, slots=True)
+class JointMemory:
+    """What is remembered of joints, shape (nworld, joints) but for ``stopped``; used in place.
+
+    Attributes:
+        placed_speed: Of joints that are put somewhere [m/s or rad/s].
+        previous: Last commands that limits of positions and velocities go by; NaN for none.
+        held: Positions that an emergency stop holds [m or rad].
+        wanted: Commands within limits.
+        stopped: Whether the emergency stop is pressed, shape (nworld,).
+    """
+
+    placed_speed: Floats
+    previous: Floats
+    held: Floats
+    wanted: Floats
+    stopped: Bools
+
+    @classmethod
+    def empty(cls, nworld: int, joints: int) -> JointMemory:
+        """Of joints that nobody commanded."""
+        zero, nothing = np.zeros((2, nworld, joints)), np.full((2, nworld, joints), np.nan)
+        return cls(zero[0], nothing[0], nothing[1], zero[1], np.zeros(nworld, bool))
+
+
+@cython.cclass
+class JointLaw:
+    """The joints of a robot.
+
+    Args:
+        ports: Arrays of a ``JointSystem``, and of the interfaces of the robot: ``measured``,
+            ``measured_rate``, ``applied``, ``pushed``, ``speed``, ``driven``; ``position``, ``velocity``,
+            ``effort``, shape (nworld, joints); and ``effort_command``, ``position_command`` and
+            ``velocity_command``, shape (nworld, n).
+        memory: Of the joints.
+        turning: Which joints turn, shape (joints,).
+        endless: Which of them do so without limits.
+    """
+
+    def __init__(
+        self, ports: Mapping[str, Any], memory: JointMemory, turning: Bools, endless: Bools
+    ) -> None:
+        self.measured, self.measured_rate = ports["measured"], ports["measured_rate"]
+        self.applied, self.pushed = ports["applied"], ports["pushed"]
+        self.speed, self.driven = ports["speed"], ports["driven"]
+        self.position, self.velocity = ports["position"], ports["velocity"]
+        self.effort = ports["effort"]
+        self.effort_command = ports["effort_command"]
+        self.position_command = ports["position_command"]
+        self.velocity_command = ports["velocity_command"]
+        self.placed_speed, self.previous = memory.placed_speed, memory.previous
+        self.held, self.wanted = memory.held, memory.wanted
+        self.stopped = memory.stopped.view(np.uint8)
+        self.turning, self.endless = np.array(turning, np.uint8), np.array(endless, np.uint8)
+
+    def arrange(self, kinds: Any, columns: Any, limits: LimitLaw, pid: PidLaw) -> None:
+        """Command joints in other ways.
+
+        Args:
+            kinds: Of each joint, ``BY_EFFORT`` and so on, shape (joints,).
+            columns: Where their commands are.
+            limits: Of the joints.
+            pid: With a loop for each joint.
+        """
+        self.kinds, self.columns = np.array(kinds, np.int64), np.array(columns, np.intp)
+        self.limits, self.pid = limits, pid
+
+    def read(self, world: int) -> None:
+        """Measure; joints that turn are followed round and round, and never jump."""
+        for i in range(self.kinds.shape[0]):
+            if self.turning[i]:
+                self.position[world, i] += shortest(
+                    self.position[world, i], self.measured[world, i]
+                )
+            else:
+                self.position[world, i] = self.measured[world, i]
+            self.effort[world, i] = self.applied[world, i]
+            if self.kinds[i] == BY_PLACE:  # what a step adds to it the next one takes away
+                self.velocity[world, i] = self.placed_speed[world, i]
+            else:
+                self.velocity[world, i] = self.measured_rate[world, i]
+
+    def write(self, world: int, period: float) -> None:
+        """Hold commands within limits, and act on them."""
+        for i in range(self.kinds.shape[0]):
+            kind, out = self.kinds[i], self.hold(world, i, period)
+            self.wanted[world, i] = out
+            if kind == BY_EFFORT:
+                self.push(world, i, out)
+            elif kind == BY_MOTOR:
+                self.drive(world, i, out)
+            elif kind != BY_PLACE:
+                out = self.pid.push(world, i, self.lack(world, i, out), period, False, 0.0)
+                most = self.limits.effort[i]
+                self.push(world, i, clamp(out, -most, most))
+
+    def hold(self, world: int, i: int, period: float) -> float:
+        """A command within limits, and what the emergency stop makes of it."""
+        kind, c = self.kinds[i], self.columns[i]
+        at, rate = self.position[world, i], self.velocity[world, i]
+        if kind == BY_EFFORT:
+            value = self.limits.hold_effort(i, self.effort_command[world, c], at, rate)
+            self.effort_command[world, c] = value
+        elif kind == BY_POSITION or kind == BY_PLACE:
+            value = self.position_command[world, c]
+            if self.stopped[world]:
+                value = self.held[world, i]
+            before = self.previous[world, i]
+            value = self.limits.hold_position(i, value, at if isnan(before) else before, period)
+            self.previous[world, i] = self.position_command[world, c] = value
+            return value
+        else:
+            value, before = self.velocity_command[world, c], self.previous[world, i]
+            before = 0.0 if isnan(before) else before
+            value = self.limits.hold_velocity(i, value, at, rate, before, period)
+            self.previous[world, i] = self.velocity_command[world, c] = value
+        return 0.0 if self.stopped[world] else value
+
+    def lack(self, world: int, i: int, wanted: float) -> float:
+        """What is missing; of a position the way round that limits allow."""
+        if self.kinds[i] == BY_VELOCITY:
+            return wanted - self.velocity[world, i]
+        if not self.turning[i]:
+            return wanted - self.position[world, i]
+        low, high = self.limits.lower[i], self.limits.upper[i]
+        return distance(self.position[world, i], wanted, self.endless[i], low, high)
+
+    def push(self, world: int, i: int, effort: float) -> None:
+        """Let an effort act; what acts already, whoever makes it, stays."""
+        safe = effort if isfinite(effort) else 0.0  # what is no number would end the world
+        if safe != self.applied[world, i]:
+            self.applied[world, i], self.pushed[world, i] = safe, 1
+
+    def drive(self, world: int, i: int, speed: float) -> None:
+        """Let a motor hold a velocity."""
+        if isfinite(speed) and speed != self.speed[world, i]:
+            self.speed[world, i], self.driven[world, i] = speed, 1
+
+    def read_all(self) -> None:
+        """``read`` in all worlds, for callers in Python."""
+        with cython.nogil:
+            for w in range(self.position.shape[0]):
+                self.read(w)
+
+    def write_all(self, period: float) -> None:
+        """``write`` in all worlds, for callers in Python."""
+        since = period
+        with cython.nogil:
+            for w in range(self.position.shape[0]):
+                self.write(w, since)

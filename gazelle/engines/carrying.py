@@ -1,0 +1,50 @@
+"""What engines have that take controllers of joints into their steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
+
+from gazelle.native.joint_system import JointSystem
+
+
+@runtime_checkable
+class CarryingEngine(Protocol):
+    """What an engine has whose steps bring systems that command joints, in native code."""
+
+    @property
+    def revision(self) -> int:
+        """Counts changes of models: systems then have to be bound to joints anew."""
+
+    @property
+    def carries(self) -> bool:
+        """Whether it can, the way it integrates."""
+
+    def expect_systems(self) -> None:
+        """Be ready to carry systems: what has to be compiled for that is."""
+
+    def bind_joints(self, system: JointSystem, joints: Sequence[str]) -> None:
+        """Say where joints are, good for one ``revision``.
+
+        Args:
+            system: To be told.
+            joints: Scoped names, each with one axis.
+        """
+
+    def read_joints(self, system: JointSystem) -> None:
+        """Tell a bound system where its joints are now."""
+
+    def push_joints(self, system: JointSystem) -> None:
+        """Let act what a bound system says."""
+
+    def carry(self, systems: Sequence[JointSystem], count: int, now_ns: int) -> None:
+        """Advance every world, and bring bound systems at the beginning of every step.
+
+        Args:
+            systems: In this order.
+            count: Of physics steps.
+            now_ns: Simulated time [ns].
+
+        Raises:
+            DivergenceError: As ``Engine.step``.
+        """

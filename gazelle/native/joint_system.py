@@ -1,0 +1,131 @@
+# cython: annotation_typing=False, infer_types=True
+# mypy: disable-error-code="misc"
+"""What acts on the joints of a robot between the physics' own steps, in all worlds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import cython
+import numpy as np
+from cython.cimports.gazelle.native.system import System
+from numpy.typing import NDArray
+
+# Systems by their addresses, for Python that runs the sources of compiled modules.
+_KNOWN: dict[int, Any] = {}
+
+
+@cython.cclass
+class JointSystem(System):
+    """Is told where joints are at the beginning of a step, and says what acts on them in it.
+
+    An engine that takes it into its steps (``bind``) calls ``exchange``; else somebody fills
+    ``position_in`` and ``velocity_in``, calls ``bring``, and acts on what came out. A row is a world.
+
+    Args:
+        nworld: Number of worlds.
+        joints: Number of joints, each with one axis.
+
+    Attributes:
+        position_in: Of joints [m or rad], shape (nworld, joints).
+        velocity_in: [m/s or rad/s], likewise.
+        effort_out: What acts on joints [N or N m], likewise.
+        pushed_out: Where that changed, likewise.
+        speed_out: What motors hold [m/s or rad/s], likewise.
+        driven_out: Where that changed, likewise.
+    """
+
+    def __init__(self, nworld: int, joints: int) -> None:
+        System.__init__(self, 1)
+        shape = (nworld, joints)
+        self.position_in, self.velocity_in = np.zeros((2, *shape))
+        self.effort_out, self.speed_out = np.zeros((2, *shape))
+        self.pushed_out, self.driven_out = np.zeros((2, *shape), np.uint8)
+        self.position, self.velocity = self.position_in, self.velocity_in
+        self.effort, self.speed = self.effort_out, self.speed_out
+        self.pushed, self.driven = self.pushed_out, self.driven_out
+        nowhere = np.zeros(joints, np.intp)
+        self.bind(nowhere, nowhere, np.zeros(joints), nowhere - 1)
+
+    def bind(
+        self,
+        places: NDArray[np.intp],
+        dofs: NDArray[np.intp],
+        most: NDArray[np.float64],
+        motors: NDArray[np.intp],
+    ) -> None:
+        """Say where an engine has the joints, shape (joints,) each.
+
+        Args:
+            places: Among its positions.
+            dofs: Among its velocities and efforts.
+            most: Largest efforts that it lets act [N or N m].
+            motors: Among its motors; -1 for none.
+        """
+        self.places, self.dofs, self.most, self.motors = places, dofs, most, motors
+
+    def read(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
+        """Read the joints of all worlds, from arrays as of ``exchange`` of each."""
+        np.take(qpos, np.asarray(self.places), axis=1, out=self.position_in)
+        np.take(qvel, np.asarray(self.dofs), axis=1, out=self.velocity_in)
+
+    def act(self, applied: NDArray[np.float64], user: NDArray[np.float64]) -> None:
+        """Let act what changed, in all worlds."""
+        if self.pushed_out.any():
+            most, rows = np.asarray(self.most), np.nonzero(self.pushed_out)
+            held = np.clip(self.effort_out[rows], -most[rows[1]], most[rows[1]])
+            applied[rows[0], np.asarray(self.dofs)[rows[1]]] = held
+            self.pushed_out[:] = 0
+        if self.driven_out.any():
+            rows = np.nonzero(self.driven_out & (np.asarray(self.motors) >= 0))
+            user[rows[0], np.asarray(self.motors)[rows[1]]] = self.speed_out[rows]
+            self.driven_out[:] = 0
+
+    def update(self, first: int, last: int, time: int) -> None:
+        """Say what acts now; subclasses do."""
+
+    def exchange(self, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int) -> None:
+        """Read the joints of a world, update, and let act what changed.
+
+        Args:
+            world: Which.
+            qpos: All positions of the world.
+            qvel: All velocities.
+            applied: All efforts.
+            user: Velocities that motors hold.
+            time: Simulated time [ns].
+        """
+        for i in range(self.places.shape[0]):
+            self.position[world, i] = qpos[self.places[i]]
+            self.velocity[world, i] = qvel[self.dofs[i]]
+        self.update(world, world + 1, time)
+        for i in range(self.places.shape[0]):
+            if self.pushed[world, i]:
+                self.pushed[world, i] = 0
+                most, value = self.most[i], self.effort[world, i]
+                applied[self.dofs[i]] = -most if value < -most else most if value > most else value
+            if self.driven[world, i]:
+                self.driven[world, i] = 0
+                if self.motors[i] >= 0:
+                    user[self.motors[i]] = self.speed[world, i]
+
+
+def bring_systems(
+    table: Any, count: int, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int
+) -> None:
+    """``exchange`` of systems whose addresses are in a table (``addresses``)."""
+    for index in range(count):
+        if cython.compiled:
+            place = cython.cast(cython.p_void, table[index])
+            cython.cast(JointSystem, place).exchange(world, qpos, qvel, applied, user, time)
+        else:
+            _KNOWN[int(table[index])].exchange(world, qpos, qvel, applied, user, time)
+
+
+def addresses(systems: Sequence[JointSystem]) -> NDArray[np.int64]:
+    """What ``bring_systems`` takes; good as long as the systems are kept."""
+    if not cython.compiled:
+        _KNOWN.clear()
+        _KNOWN.update((id(each), each) for each in systems)
+    return np.array([id(each) for each in systems], np.int64)
