@@ -23,7 +23,7 @@ JOINTS = tuple(f"joint_{number}" for number in range(1, 8))
 TARGETS = (0.3, 0.4, -0.2, 0.3, 0.2, -0.3, 0.1)
 GROUP = "effort_controllers/JointGroupPositionController"
 TRAJECTORY = "effort_controllers/JointTrajectoryController"
-GAINS = {"p": 200.0, "i": 20.0, "d": 20.0, "i_clamp": 10.0}
+GAINS = {"p": 200.0, "i": 20.0, "d": 10.0, "i_clamp": 10.0}
 GOALS = {1: 0.15, 256: 0.05}
 
 
@@ -36,10 +36,10 @@ class SpringDamper(Controller):
         """Read ``joints``."""
         self._joints = self.claim(EFFORT, parameters.names("joints"))
 
-    def update(self, time: float, period: float) -> None:
+    def update(self, time: float, period: float) -> None:  # noqa: ARG002  it needs neither
         """Pull every joint to its target."""
         joints = self._joints
-        joints.set_command(200.0 * (TARGETS - joints.position) - 20.0 * joints.velocity)
+        joints.set_command(200.0 * (TARGETS - joints.position) - 10.0 * joints.velocity)
 
 
 def main() -> None:
@@ -64,7 +64,7 @@ def arm_text() -> str:
         mass, axis = 3.0 - 0.35 * number, "0 0 1" if number % 2 else "0 1 0"
         parts.append(
             f'<link name="link_{number}"><inertial><origin xyz="0 0 -0.1"/><mass value="{mass}"/>'
-            '<inertia ixx="0.02" iyy="0.02" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+            '<inertia ixx="0.06" iyy="0.06" izz="0.04" ixy="0" ixz="0" iyz="0"/></inertial></link>'
             f'<joint name="{name}" type="revolute"><parent link="{parent}"/>'
             f'<child link="link_{number}"/><origin xyz="0 0 {2.0 if number == 0 else -0.2}"/>'
             f'<axis xyz="{axis}"/><limit lower="-2.9" upper="2.9" effort="87" velocity="2.2"/>'

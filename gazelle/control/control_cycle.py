@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """Joints read, controllers updated and commands written, step after step without Python."""
 
 from __future__ import annotations
@@ -33,9 +33,7 @@ class ControlCycle(JointSystem):
         self.table = np.zeros(0, np.int64)
         self.laws: list[ControlLaw] = []
 
-    def run(
-        self, hardware: JointLaw, laws: Sequence[ControlLaw], period: int, step: int
-    ) -> None:
+    def run(self, hardware: JointLaw, laws: Sequence[ControlLaw], period: int, step: int) -> None:
         """Say what is done in an update.
 
         Args:

@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """Commands handed on, in native code."""
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class ForwardLaw(ControlLaw):
         self.wanted = wanted
         self.command, self.columns = joints.commands[joints.fields[0]]
 
-    def control(self, world: int, now: int, period: float) -> None:
+    def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
         """Copy them."""
         for i in range(self.columns.shape[0]):
             self.command[world, self.columns[i]] = self.wanted[world, i]

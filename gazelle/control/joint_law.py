@@ -1,11 +1,11 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """Joints read and commanded as gazebo_ros_control's DefaultRobotHWSim does, in native code."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import cython
@@ -126,7 +126,7 @@ class JointLaw:
         if kind == BY_EFFORT:
             value = self.limits.hold_effort(i, self.effort_command[world, c], at, rate)
             self.effort_command[world, c] = value
-        elif kind == BY_POSITION or kind == BY_PLACE:
+        elif kind in (BY_POSITION, BY_PLACE):
             value = self.position_command[world, c]
             if self.stopped[world]:
                 value = self.held[world, i]

@@ -80,8 +80,9 @@ class PidControl(Controller):
 
     def wake_ns(self) -> float:
         """Always, while somebody listens."""
-        ports = (*self._statuses, *([] if self._states is None else [self._states]))
-        return 0.0 if any(port.wanted for port in ports) else math.inf
+        heard = any(port.wanted for port in self._statuses)
+        heard = heard or (self._states is not None and self._states.wanted)
+        return 0.0 if heard else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:
         """Count."""

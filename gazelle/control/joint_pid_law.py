@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """Joints brought to positions or velocities by PID, in native code."""
 
 from __future__ import annotations
@@ -38,9 +38,7 @@ class JointPidLaw(ControlLaw):
         self.command, self.columns = joints.commands[joints.fields[0]]
         self.by_velocity = True
 
-    def hold_positions(
-        self, limits: Sequence[Floats], turning: Bools, endless: Bools
-    ) -> None:
+    def hold_positions(self, limits: Sequence[Floats], turning: Bools, endless: Bools) -> None:
         """Bring joints to positions instead, within limits.
 
         Args:
@@ -56,7 +54,7 @@ class JointPidLaw(ControlLaw):
     def _flags(values: Bools) -> Any:
         return np.array(values, np.uint8)
 
-    def control(self, world: int, now: int, period: float) -> None:
+    def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
         """Push towards the targets; positions the way round that limits allow."""
         for i in range(self.joints.shape[0]):
             wanted = self.targets[world, i]

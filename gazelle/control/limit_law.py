@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """How commands are held within the limits of joints, in native code (``limits``)."""
 
 from __future__ import annotations
@@ -16,11 +16,7 @@ from gazelle.array_types import Floats
 
 def clamp(value: float, low: float, high: float) -> float:
     """Of an interval that is empty the upper end."""
-    if value < low:
-        value = low
-    if value > high:
-        value = high
-    return value
+    return min(max(value, low), high)
 
 
 @cython.cclass
@@ -43,7 +39,7 @@ class LimitLaw:
         self.soft = np.array(columns["soft"], np.uint8)
         self.bounded = np.array(columns["bounded"], np.uint8)
 
-    def soft_bound(self, i: int, position: float, high: bool) -> float:
+    def soft_bound(self, i: int, position: float, high: bool) -> float:  # noqa: FBT001  native code
         """The least or the greatest velocity that soft limits let a joint have at a position."""
         if not self.bounded[i]:
             return self.velocity[i] if high else -self.velocity[i]
@@ -71,10 +67,7 @@ class LimitLaw:
         low, high = self.soft_bound(i, before, False), self.soft_bound(i, before, True)
         low = before + low * dt if isfinite(low) else -INFINITY
         high = before + high * dt if isfinite(high) else INFINITY
-        if low < self.lower[i]:
-            low = self.lower[i]
-        if high > self.upper[i]:
-            high = self.upper[i]
+        low, high = max(low, self.lower[i]), min(high, self.upper[i])
         return clamp(command, low, high)
 
     def hold_velocity(
@@ -85,10 +78,7 @@ class LimitLaw:
         if isfinite(self.acceleration[i]):
             start = velocity if self.soft[i] else before
             change = self.acceleration[i] * dt
-            if start - change > low:
-                low = start - change
-            if start + change < high:
-                high = start + change
+            low, high = max(low, start - change), min(high, start + change)
         return clamp(command, low, high)
 
     def hold_efforts(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
@@ -123,7 +113,5 @@ class LimitLaw:
         with cython.nogil:
             for w in range(a.shape[0]):
                 for i in range(a.shape[1]):
-                    out[w, i] = self.hold_velocity(
-                        i, a[w, i], b[w, i], c[w, i], out[w, i], period
-                    )
+                    out[w, i] = self.hold_velocity(i, a[w, i], b[w, i], c[w, i], out[w, i], period)
         return held

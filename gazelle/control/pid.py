@@ -105,7 +105,10 @@ class Pid:
         divisor = np.where(inner, i, 1.0)
         with np.errstate(over="ignore"):  # a tiny gain has no bounds
             ends = np.sort(np.stack((least / divisor, most / divisor)), axis=0)
-        sum_least, sum_most = np.where(inner, ends[0], -math.inf), np.where(inner, ends[1], math.inf)
+        sum_least, sum_most = (
+            np.where(inner, ends[0], -math.inf),
+            np.where(inner, ends[1], math.inf),
+        )
         term_least, term_most = np.where(outer, least, -math.inf), np.where(outer, most, math.inf)
         self.law.tune((p, i, d, sum_least, sum_most, term_least, term_most))
         self._term = (i, term_least, term_most)
@@ -131,7 +134,8 @@ class Pid:
     def i_term(self) -> Floats:
         """The integral terms as they are now, shape (nworld, n)."""
         gain, least, most = self._term
-        return np.clip(gain * self.i_error, least, most)
+        terms: Floats = np.clip(gain * self.i_error, least, most)
+        return terms
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Forget errors and sums."""

@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """PID loops in native code, as control_toolbox has them."""
 
 from __future__ import annotations
@@ -34,7 +34,13 @@ class PidLaw:
         self.sum_least, self.sum_most, self.term_least, self.term_most = columns[3:]
 
     def push(
-        self, world: int, loop: int, error: float, dt: float, rated: bool, given: float
+        self,
+        world: int,
+        loop: int,
+        error: float,
+        dt: float,
+        rated: bool,  # noqa: FBT001  native code
+        given: float,
     ) -> float:
         """The output for an error now; 0 in no time, or for one that is not finite.
 
@@ -53,18 +59,11 @@ class PidLaw:
         else:
             rate = (error - self.last[world, loop]) / dt
             self.last[world, loop] = error
-        sum = self.i_error[world, loop] + dt * error
-        if sum < self.sum_least[loop]:
-            sum = self.sum_least[loop]
-        if sum > self.sum_most[loop]:
-            sum = self.sum_most[loop]
-        term = self.i[loop] * sum
-        if term < self.term_least[loop]:
-            term = self.term_least[loop]
-        if term > self.term_most[loop]:
-            term = self.term_most[loop]
+        whole = self.i_error[world, loop] + dt * error
+        whole = min(max(whole, self.sum_least[loop]), self.sum_most[loop])
+        term = min(max(self.i[loop] * whole, self.term_least[loop]), self.term_most[loop])
         out = self.p[loop] * error + term + self.d[loop] * rate
-        self.p_error[world, loop], self.i_error[world, loop] = error, sum
+        self.p_error[world, loop], self.i_error[world, loop] = error, whole
         self.d_error[world, loop], self.output[world, loop] = rate, out
         return out
 

@@ -1,5 +1,5 @@
 # cython: annotation_typing=False, infer_types=True
-# mypy: disable-error-code="attr-defined, misc"
+# mypy: disable-error-code="attr-defined, misc, no-any-return"
 """Trajectories of joints followed and judged, in native code."""
 
 from __future__ import annotations
@@ -118,9 +118,7 @@ class TrajectoryLaw(ControlLaw):
         """
         self.pid, self.forward, self.effort_command, self.by_pid = pid, forward, command, True
 
-    def follow(
-        self, start: Floats, duration: Floats, polynomials: Floats, goals: Ints64
-    ) -> None:
+    def follow(self, start: Floats, duration: Floats, polynomials: Floats, goals: Ints64) -> None:
         """Go by other segments, the arrays of a ``TrajectoryTable``."""
         self.start, self.duration = start, duration
         self.polynomials, self.goals = polynomials, goals
@@ -159,7 +157,7 @@ class TrajectoryLaw(ControlLaw):
             2 * c2 + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))
         )
 
-    def control(self, world: int, now: int, period: float) -> None:
+    def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
         """Follow, judge, command."""
         self.uptime[world] += period
         self.period[world] = period

@@ -85,7 +85,9 @@ class JointSystem(System):
     def update(self, first: int, last: int, time: int) -> None:
         """Say what acts now; subclasses do."""
 
-    def exchange(self, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int) -> None:
+    def exchange(
+        self, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int
+    ) -> None:
         """Read the joints of a world, update, and let act what changed.
 
         Args:
@@ -104,7 +106,7 @@ class JointSystem(System):
             if self.pushed[world, i]:
                 self.pushed[world, i] = 0
                 most, value = self.most[i], self.effort[world, i]
-                applied[self.dofs[i]] = -most if value < -most else most if value > most else value
+                applied[self.dofs[i]] = min(max(value, -most), most)
             if self.driven[world, i]:
                 self.driven[world, i] = 0
                 if self.motors[i] >= 0:

@@ -43,9 +43,7 @@ class Hooks:
         self._speeds = np.ascontiguousarray(limits.speed, np.float64)
         self.kept = np.zeros((len(self._times), len(self._dofs)))
         self._numbers[4] = len(self._dofs)
-        self._numbers[5:] = [
-            each.ctypes.data for each in (self._dofs, self._speeds, self.kept)
-        ]
+        self._numbers[5:] = [each.ctypes.data for each in (self._dofs, self._speeds, self.kept)]
 
     def begin(self, systems: Sequence[JointSystem], now_ns: int, step_ns: int) -> None:
         """Let systems act in the steps that follow."""

@@ -19,12 +19,11 @@ from cython.cimports.gazelle.native.memory import floats, longs, word
 @cython.nogil
 @cython.exceptval(check=False)
 def take_commands(
-    model: cython.size_t, data: cython.size_t, hooks: cython.size_t, world: cython.Py_ssize_t
+    data: cython.size_t, hooks: cython.size_t, world: cython.Py_ssize_t
 ) -> cython.void:
     """Update controllers of a world, and hold back what is too fast.
 
     Args:
-        model: Address of the ``mjModel``.
         data: Address of the ``mjData``.
         hooks: Address of ``Hooks``.
         world: Which.

@@ -69,7 +69,6 @@ def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
         return
     if head[9] > 0.0:
         take_commands(
-            model,
             data,
             cython.cast(cython.size_t, head[9]),
             cython.cast(cython.Py_ssize_t, head[WORLD]),
