@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 
 import gazelle
 from gazelle import formats
-from gazelle.control.values import BaseTwist, GripperGoal, JointTargets
+from gazelle.control import GoalState
+from gazelle.control.values import (
+    BaseTwist,
+    GripperGoal,
+    JointTargets,
+    JointTrajectory,
+    TrajectoryGoal,
+    TrajectoryPoint,
+)
 from gazelle.description import World
 from tests.control.arms import JOINTS, arm
 
@@ -190,3 +198,70 @@ def test_reading_the_manager_of_a_robot_without_one_changes_nothing(name):
         sim.run(0.5)
         ends.append(sim.engine.snapshot())
     assert np.array_equal(*ends)
+
+
+SIX = tuple(f"axis_{number}" for number in range(1, 7))
+ARM_GAINS = (
+    {"p": 3000.0, "i": 2000.0, "d": 120.0, "i_clamp": 60.0},
+    {"p": 4000.0, "i": 3000.0, "d": 160.0, "i_clamp": 120.0},
+    {"p": 2500.0, "i": 2000.0, "d": 80.0, "i_clamp": 80.0},
+    {"p": 400.0, "i": 300.0, "d": 8.0, "i_clamp": 20.0},
+    {"p": 400.0, "i": 300.0, "d": 8.0, "i_clamp": 20.0},
+    {"p": 100.0, "i": 50.0, "d": 2.0, "i_clamp": 5.0},
+)
+
+
+def six_axis_text():
+    """An arm with the axes of most industrial ones: z, y, y, x, y, x."""
+    parts = ['<robot name="six_axis"><link name="world"/>']
+    parent, reach = "world", (0.4, 0.1, 0.45, 0.2, 0.25, 0.1)
+    for number, (name, axis) in enumerate(
+        zip(SIX, ("0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"), strict=True)
+    ):
+        mass, size = 6.0 - number, 0.02 * (6 - number)
+        parts.append(
+            f'<link name="part_{number}"><inertial><origin xyz="0 0 0.1"/><mass value="{mass}"/>'
+            f'<inertia ixx="{size}" iyy="{size}" izz="{size}" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+            f'<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="part_{number}"/>'
+            f'<origin xyz="0 0 {reach[number]}"/><axis xyz="{axis}"/>'
+            '<limit lower="-3" upper="3" effort="300" velocity="3"/></joint>'
+            f'<transmission name="drive_{number}"><type>transmission_interface/SimpleTransmission</type>'
+            f'<joint name="{name}"><hardwareInterface>hardware_interface/EffortJointInterface'
+            f'</hardwareInterface></joint><actuator name="motor_{number}"/></transmission>'
+        )
+        parent = f"part_{number}"
+    plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo></robot>'
+    return "".join([*parts, plugin])
+
+
+def test_an_arm_of_six_axes_follows_a_trajectory_within_the_tolerances_of_its_file():
+    sim = gazelle.Simulation(World("lab"), nworld=2)
+    robot = sim.spawn(formats.load_model_string(six_axis_text()))
+    bounds = {"trajectory": 0.05, "goal": 0.01}
+    robot.controllers.load(
+        "arm",
+        {
+            "type": "effort_controllers/JointTrajectoryController",
+            "joints": list(SIX),
+            "gains": dict(zip(SIX, ARM_GAINS, strict=True)),
+            "constraints": {
+                "goal_time": 0.5,
+                "stopped_velocity_tolerance": 0.05,
+                **dict.fromkeys(SIX, bounds),
+            },
+        },
+    )
+    robot.controllers.start("arm")
+    sim.run(0.2)
+    still, there, on = np.zeros(6), np.array([0.6, 0.5, -0.7, 0.4, 0.5, -0.8]), -0.3 * np.ones(6)
+    points = tuple(
+        TrajectoryPoint(
+            time=t, positions=tuple(at), velocities=tuple(still), accelerations=tuple(still)
+        )
+        for t, at in ((1.5, there), (3.0, on), (4.0, still))
+    )
+    goal = TrajectoryGoal(JointTrajectory(SIX, points))
+    sent = robot.controllers["arm"].actions["follow_joint_trajectory"].send(goal)
+    sim.run(5.0)
+    assert sent.states.tolist() == [GoalState.SUCCEEDED] * 2, sent.text
+    assert [robot.joints[name].position for name in SIX] == pytest.approx(list(still), abs=0.02)
