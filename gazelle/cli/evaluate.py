@@ -48,6 +48,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="save the episodes that failed: .json, .csv, or a picture .png (repeatable)",
     )
+    parser.add_argument(
+        "--best", action="store_true", help="the best policy of the run, not the newest"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
     add_import_option(parser)
     add_file_options(parser)
@@ -66,6 +69,7 @@ def run(args: argparse.Namespace) -> int:
         task=args.task,
         num_envs=args.num_envs,
         imports=args.imports,
+        best=args.best,
         **environment_options(args),
     )
     for file in args.failures:

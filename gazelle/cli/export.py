@@ -29,6 +29,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="onnx (default) or numpy",
     )
     parser.add_argument(
+        "--best", action="store_true", help="the best policy of the run, not the newest"
+    )
+    parser.add_argument(
         "--out", metavar="PATH", type=Path, help="file or folder (default RUN/export)"
     )
 
@@ -37,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     from gazelle.training import export_policy
 
-    files = export_policy(args.run, args.format, args.out)
+    files = export_policy(args.run, args.format, args.out, best=args.best)
     sys.stdout.write(
         f"policy:   {files.policy}\n"
         f"contract: {files.contract}\n"

@@ -56,7 +56,7 @@ class Parser(argparse.ArgumentParser):
 def key_value(text: str) -> tuple[str, Any]:
     """``KEY=VALUE``; the value is read as JSON if it is JSON, else as text."""
     key, equals, value = text.partition("=")
-    if not equals or not key.isidentifier():
+    if not equals or not all(part.isidentifier() for part in key.split(".")):
         raise argparse.ArgumentTypeError(f"expected KEY=VALUE, not '{text}'")
     try:
         return key, json.loads(value)

@@ -7,6 +7,7 @@ run that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
   gazelle train TurtleBot3Stage4 --workers 2     (or --ray auto, on a cluster)
   gazelle train my/Task-v0 --import my_tasks.py
   gazelle train my_package.tasks:my/Task-v0
+  gazelle train TurtleBot3Stage2 --sweep search.yaml
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from gazelle.cli.parsing import (
     add_import_option,
     add_scenario_options,
     environment_options,
+    key_value,
 )
 from gazelle.cli.viewing import add_view, watched
 
@@ -37,7 +39,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "task", nargs="?", metavar="TASK", help="a name from 'gazelle tasks', or MODULE:ID"
     )
-    parser.add_argument("--algo", metavar="NAME", help="ppo, dqn, sac, td3 or ddpg")
+    parser.add_argument(
+        "--algo", metavar="NAME", help="ppo, dqn, sac, td3, ddpg, a2c, tqc, trpo, ..."
+    )
     parser.add_argument(
         "--steps", metavar="N", type=positive_int, help="control steps, all copies together"
     )
@@ -46,6 +50,34 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", metavar="RUN", type=Path, help="go on with this run")
     parser.add_argument(
         "--checkpoint-every", metavar="N", type=positive_int, help="steps between checkpoints"
+    )
+    parser.add_argument(
+        "--eval-every",
+        metavar="N",
+        type=positive_int,
+        help="steps between evaluations; the best policy is kept",
+    )
+    parser.add_argument(
+        "--set",
+        dest="values",
+        metavar="NAME=VALUE",
+        action="append",
+        type=key_value,
+        default=[],
+        help="a value of the recipe, such as net_arch=[128,128] or batch_size=512 (repeatable)",
+    )
+    parser.add_argument(
+        "--callback",
+        metavar="MODULE:CLASS",
+        action="append",
+        default=[],
+        help="a callback of Stable-Baselines3 of your own (repeatable)",
+    )
+    parser.add_argument(
+        "--sweep",
+        metavar="FILE",
+        type=Path,
+        help="search values of the recipe, or go on with a search",
     )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
@@ -74,8 +106,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     _check(args)
-    from gazelle.training import choose_progress, resume, train
+    from gazelle.training import choose_progress, recipe_for, resume, train, with_values
 
+    if args.sweep is not None:
+        return _sweep(args)
     if args.resume is not None:
         result = resume(
             args.resume,
@@ -86,14 +120,18 @@ def run(args: argparse.Namespace) -> int:
             ray=args.ray,
         )
         return report(result)
+    bare = args.task.rpartition(":")[2]
+    recipe = with_values(recipe_for(bare, args.algo), dict(args.values))
     result = train(
         args.task,
-        algo=args.algo,
+        recipe=recipe,
         steps=args.steps,
         num_envs=args.num_envs,
         seed=args.seed or 0,
         out=args.out or Path("runs"),
         checkpoint_every=args.checkpoint_every,
+        callbacks=args.callback,
+        eval_every=args.eval_every or 0,
         progress=watched(choose_progress(), args),
         imports=args.imports,
         workers=args.workers,
@@ -101,6 +139,31 @@ def run(args: argparse.Namespace) -> int:
         **environment_options(args),
     )
     return report(result)
+
+
+def _sweep(args: argparse.Namespace) -> int:
+    """Search hyperparameters; returns the exit code."""
+    from gazelle.training.sweep import SweepPlan, sweep
+
+    found = sweep(
+        args.task,
+        SweepPlan.read(args.sweep),
+        out=args.out or Path("runs"),
+        imports=tuple(args.imports),
+        **environment_options(args),
+    )
+    rows = [("TRIAL", "SCORE", "VALUES", "RUN")]
+    for trial in found.trials:
+        values = ", ".join(f"{name}={_short(value)}" for name, value in trial.values.items())
+        score = "failed" if trial.score is None else f"{trial.score:.4g}"
+        rows.append((str(trial.number), score, values, trial.run))
+    sys.stdout.write(showing.table(rows))
+    sys.stdout.write(f"{found.new} new trials; all is in {found.folder}\n")
+    return 0
+
+
+def _short(value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def report(result: TrainResult) -> int:
@@ -137,9 +200,11 @@ def _check(args: argparse.Namespace) -> None:
         if args.task is None:
             parser.error("which task? (or which run, with --resume)")
         return
-    fixed = ["task", "algo", "num_envs", "seed", "checkpoint_every", "out"]
+    fixed = ["task", "algo", "num_envs", "seed", "checkpoint_every", "eval_every", "out"]
     fixed += ["engine", "world", "robot", "goals", "starts"]
     given = [name for name in fixed if getattr(args, name) is not None]
+    given += ["set"] if args.values else []
+    given += ["callback"] if args.callback else []
     if given or args.option:
         name = (given or ["option"])[0].replace("_", "-")
         name = name if name == "task" else f"--{name}"

@@ -22,10 +22,12 @@ if TYPE_CHECKING:
     from gazelle.training.evaluation import Evaluation, evaluate
     from gazelle.training.goal_reward import GoalReward
     from gazelle.training.learners import ALGORITHMS
+    from gazelle.training.overrides import with_values
     from gazelle.training.policy_files import PolicyFiles, export_policy, load_policy
     from gazelle.training.progress import Progress, choose_progress
     from gazelle.training.recipes import (
         RECIPES,
+        LibrarySettings,
         OffPolicySettings,
         PPOSettings,
         Recipe,
@@ -47,6 +49,7 @@ _HOMES = {
     "EpisodeRecord": "records",
     "Evaluation": "evaluation",
     "GoalReward": "goal_reward",
+    "LibrarySettings": "recipes",
     "OffPolicySettings": "recipes",
     "PPOSettings": "recipes",
     "PolicyFiles": "policy_files",
@@ -75,6 +78,7 @@ _HOMES = {
     "resume": "session",
     "train": "session",
     "wilson_interval": "statistics",
+    "with_values": "overrides",
 }
 
 __all__ = [
@@ -85,6 +89,7 @@ __all__ = [
     "EpisodeRecord",
     "Evaluation",
     "GoalReward",
+    "LibrarySettings",
     "OffPolicySettings",
     "PPOSettings",
     "PolicyFiles",
@@ -111,6 +116,7 @@ __all__ = [
     "resume",
     "train",
     "wilson_interval",
+    "with_values",
 ]
 
 

@@ -15,7 +15,9 @@ from stable_baselines3.common.logger import KVWriter, Logger, TensorBoardOutputF
 
 from gazelle.training.checkpoint import write_checkpoint
 from gazelle.training.event_files import trim_events
+from gazelle.training.export import export_actor
 from gazelle.training.learners import Learner
+from gazelle.training.periodic import PeriodicEvaluation
 from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
@@ -138,6 +140,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self.stop = stop
         self.saved_at = 0
         self.logged_at = 0
+        self.evaluation = PeriodicEvaluation(run)
         self._began = time.monotonic()
         self._seconds_before = 0.0
 
@@ -155,6 +158,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         return {
             "episodes": self.episodes.get_state(),
             "logged_at": self.logged_at,
+            "evaluation": self.evaluation.get_state(),
             "seconds": self._seconds,
         }
 
@@ -163,6 +167,8 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self.episodes.set_state(state["episodes"])
         self.logged_at, self.saved_at = int(state["logged_at"]), steps
         self._seconds_before = float(state["seconds"])
+        if "evaluation" in state:  # runs of before have none
+            self.evaluation.set_state(state["evaluation"], steps)
 
     @property
     def _seconds(self) -> float:
@@ -171,6 +177,8 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
 
     def finish(self) -> None:
         """Write the last point of the curves and the last checkpoint."""
+        if self.run.config.eval_every and self.evaluation.evaluated_at != self.model.num_timesteps:
+            self._evaluate()
         if self.logged_at != self.model.num_timesteps:
             self._log()
         if self.saved_at != self.model.num_timesteps or not self.run.checkpoints():
@@ -179,6 +187,8 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
     def _on_rollout_start(self) -> None:
         steps = self.model.num_timesteps
         self.progress.update(steps, self.episodes.summary())
+        if self.evaluation.due(steps):
+            self._evaluate()
         if steps - self.logged_at >= self.total / _CURVE_POINTS:
             self._log()
         due = steps - self.saved_at >= self.run.config.checkpoint_every
@@ -189,6 +199,13 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
 
     def _on_step(self) -> bool:
         return True
+
+    def _evaluate(self) -> None:
+        steps = self.model.num_timesteps
+        found = self.evaluation.check(export_actor(self.model.policy), steps)
+        if found.success is not None:
+            self.logger.record("evaluation/success_rate", found.success.value)
+        self.logger.record("evaluation/return", found.mean_return)
 
     def _log(self) -> None:
         steps = self.model.num_timesteps

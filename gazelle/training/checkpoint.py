@@ -13,6 +13,7 @@ without the break, as long as the environment can save its state.
 
 from __future__ import annotations
 
+import contextlib
 import pickle
 import random
 import warnings
@@ -24,7 +25,7 @@ import torch
 
 from gazelle.errors import FormatError, SimulationWarning
 from gazelle.training import portable
-from gazelle.training.export import export_actor
+from gazelle.training.export import NoActorError, export_actor
 from gazelle.training.learners import Learner
 
 _COUNTERS = (
@@ -47,13 +48,16 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
         extra: More to remember; see `portable.pack` for what it may hold.
     """
     torch.save(_torch_state(learner), folder / "learner.pt")
-    export_actor(learner.policy).save(folder / "policy.npz")
+    with contextlib.suppress(NoActorError):
+        export_actor(learner.policy).save(folder / "policy.npz")
     state: dict[str, Any] = {
         "counters": {name: getattr(learner, name) for name in _COUNTERS if hasattr(learner, name)},
         "generators": _generators(learner),
         "environment": learner.env.get_state(),
         "extra": extra,
     }
+    if getattr(learner, "_last_lstm_states", None) is not None:
+        state["recurrent"] = [_plain(part) for part in learner._last_lstm_states]  # noqa: SLF001
     memory = getattr(learner, "replay_buffer", None)
     if memory is not None:
         state["memory"] = memory.get_state()
@@ -77,6 +81,9 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
     try:
         for name, value in state["counters"].items():
             setattr(learner, name, value)
+        if "recurrent" in state:
+            kind = type(learner._last_lstm_states)  # noqa: SLF001
+            learner._last_lstm_states = kind(*map(_tensors, state["recurrent"]))  # noqa: SLF001
         if "memory" in state:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)
@@ -88,6 +95,14 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
         ) from error
     extra: dict[str, Any] = state["extra"]
     return extra
+
+
+def _plain(part: tuple[torch.Tensor, ...]) -> list[Any]:
+    return [tensor.numpy() for tensor in part]
+
+
+def _tensors(part: list[Any]) -> tuple[torch.Tensor, ...]:
+    return tuple(torch.as_tensor(array) for array in part)
 
 
 def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:

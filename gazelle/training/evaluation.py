@@ -103,6 +103,7 @@ def evaluate(
     task: str | None = None,
     num_envs: int | None = None,
     imports: Sequence[str] = (),
+    best: bool = False,
     **options: Any,
 ) -> Evaluation:
     """Let a policy act at its best and count how its attempts at goals end.
@@ -122,6 +123,7 @@ def evaluate(
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.
+        best: Of a run, take the best policy of the evaluations during the training.
         options: Options of the environment that differ from the run's, from the task's own for
             evaluations, and from its recipe's ``evaluation_options``.
 
@@ -131,7 +133,9 @@ def evaluate(
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
-    actor, task, options = resolve_policy(run_or_policy, task, load_all(imports), options)
+    actor, task, options = resolve_policy(
+        run_or_policy, task, load_all(imports), options, best=best
+    )
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
     env = make_task(task, copies, **options)
     try:
@@ -200,6 +204,8 @@ def resolve_policy(
     task: str | None,
     modules: tuple[TaskModule, ...],
     options: dict[str, Any],
+    *,
+    best: bool = False,
 ) -> tuple[Actor, str, dict[str, Any]]:
     """The actor, its task, and the options of the environment."""
     given = {key: value for key, value in options.items() if value is not None}
@@ -211,7 +217,7 @@ def resolve_policy(
         trained = run.config.options
         known = trained | evaluation_options(task, trained)
         return (
-            load_actor(run.policy_file()),
+            load_actor(run.policy_file(best=best)),
             task,
             known | dict(run.config.recipe.evaluation_options) | given,
         )

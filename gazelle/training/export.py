@@ -14,6 +14,10 @@ from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, Head
 
 
+class NoActorError(TaskError):
+    """A policy cannot be copied into numpy arrays, so only its training shows how good it is."""
+
+
 def export_actor(policy: Any) -> Actor:
     """Copy the acting part of a policy into numpy arrays.
 
@@ -29,6 +33,8 @@ def export_actor(policy: Any) -> Actor:
     space = policy.action_space
     head, extractor, modules = _parts(policy)
     weights, biases = _linear_layers(modules)
+    if hasattr(policy, "quantile_net"):
+        _take_means(weights, biases, policy.quantile_net.n_quantiles)
     gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
     entries = len(gain)
     biases[0] = biases[0] + offset @ weights[0][:entries]
@@ -50,12 +56,17 @@ def export_actor(policy: Any) -> Actor:
 
 def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
     """The head, the features extractor and the layers in order."""
+    if hasattr(policy, "lstm_actor"):
+        raise NoActorError("a policy with a memory cannot be copied into numpy arrays")
     if hasattr(policy, "mlp_extractor"):
         head: Head = "categorical"
         if isinstance(policy.action_space, gym.spaces.Box):
             head = "gaussian"
         layers = [*policy.mlp_extractor.policy_net, policy.action_net]
         return head, policy.pi_features_extractor, layers
+    if hasattr(policy, "quantile_net"):
+        net = policy.quantile_net
+        return "greedy", net.features_extractor, list(net.quantile_net)
     if hasattr(policy, "q_net"):
         return "greedy", policy.q_net.features_extractor, list(policy.q_net.q_net)
     if hasattr(policy.actor, "latent_pi"):
@@ -71,6 +82,13 @@ def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats32], list[Float
         raise TaskError(f"cannot copy a policy with a {type((other or modules)[0]).__name__} layer")
     weights = [np.ascontiguousarray(_numpy(module.weight).T) for module in linear]
     return weights, [_numpy(module.bias) for module in linear]
+
+
+def _take_means(weights: list[Floats32], biases: list[Floats32], quantiles: int) -> None:
+    """From quantiles of the values of actions to the values: their means, which are linear."""
+    shape = (len(weights[-1]), quantiles, -1)
+    weights[-1] = weights[-1].reshape(shape).mean(axis=1, dtype=np.float64).astype(np.float32)
+    biases[-1] = biases[-1].reshape(quantiles, -1).mean(axis=0)
 
 
 def _numpy(tensor: torch.Tensor) -> Floats32:

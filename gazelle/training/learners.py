@@ -12,8 +12,9 @@ from stable_baselines3.common.noise import NormalActionNoise
 from torch import nn
 
 from gazelle.errors import TaskError
+from gazelle.training.library import build_library_learner
 from gazelle.training.ppo import FastPPO
-from gazelle.training.recipes import OffPolicySettings, PPOSettings, Recipe
+from gazelle.training.recipes import LIBRARY_ALGORITHMS, OffPolicySettings, PPOSettings, Recipe
 from gazelle.training.replay import MaskedReplayBuffer
 from gazelle.training.scaling import ObservationScale, ScaledObservations
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -28,6 +29,8 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     Raises:
         TaskError: The algorithm does not know this kind of actions.
     """
+    if recipe.algo in LIBRARY_ALGORITHMS:
+        return _scaled(build_library_learner(recipe, env, _common(recipe, env, seed)), env)
     continuous = isinstance(env.action_space, gym.spaces.Box)
     discrete = isinstance(env.action_space, gym.spaces.Discrete)
     suits = {"ppo": continuous or discrete, "dqn": discrete}.get(recipe.algo, continuous)
@@ -35,7 +38,11 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         fitting = "ppo or dqn" if discrete else "ppo, sac, td3 or ddpg"
         kind = type(env.action_space).__name__
         raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
-    learner = ALGORITHMS[recipe.algo](recipe, env, seed)
+    return _scaled(ALGORITHMS[recipe.algo](recipe, env, seed), env)
+
+
+def _scaled(learner: Learner, env: VectorEnvAdapter) -> Learner:
+    """The learner, with the scale of its observations told of all that is observed."""
     learner.scale = learner.policy_kwargs["features_extractor_kwargs"]["scale"]
     env.watch(learner.scale.observe)
     return learner

@@ -31,6 +31,8 @@ def export_policy(
     run: str | Path,
     format: str = "onnx",  # noqa: A002  # the word of the command line
     out: str | Path | None = None,
+    *,
+    best: bool = False,
 ) -> PolicyFiles:
     """Write a run's policy for use elsewhere, and its contract beside it.
 
@@ -43,6 +45,7 @@ def export_policy(
         format: ``onnx`` or ``numpy``.
         out: The policy's file, or a folder for it; by default the folder ``export`` of the run.
             Its name is then the task's. The contract's is the same, ending in ``.json``.
+        best: Take the best policy of the evaluations during the training, not the newest.
 
     Raises:
         TaskError: There is no such format, or the files cannot be written.
@@ -53,7 +56,7 @@ def export_policy(
         hint = did_you_mean(format, FORMATS)
         raise TaskError(f"there is no format '{format}' for policies", hint=hint)
     found = Run.open(Path(run))
-    actor = load_actor(found.policy_file())
+    actor = load_actor(found.policy_file(best=best))
     contract = run_contract(found)
     if actor.inputs != contract.size:
         raise TaskError(
@@ -85,7 +88,7 @@ def load_policy(source: str | Path) -> tuple[Path, PolicyContract]:
     if path.is_dir():
         run = Run.open(path)
         return run.policy_file(), run_contract(run)
-    if path.name == "policy.npz" and (path.parent / CONTRACT).is_file():
+    if path.name in {"policy.npz", "best.npz"} and (path.parent / CONTRACT).is_file():
         return path, load_contract(path.parent / CONTRACT)
     return path, load_contract(path.with_suffix(".json"))
 

@@ -19,6 +19,15 @@ Activation = Literal["tanh", "relu"]
 ALGORITHM_NAMES = ("ppo", "dqn", "sac", "td3", "ddpg")
 """The names of the algorithms; `gazelle.training.ALGORITHMS` says how they are built."""
 
+LIBRARY_ALGORITHMS = {
+    "a2c": ("stable_baselines3", "A2C"),
+    "qrdqn": ("sb3_contrib", "QRDQN"),
+    "recurrent_ppo": ("sb3_contrib", "RecurrentPPO"),
+    "tqc": ("sb3_contrib", "TQC"),
+    "trpo": ("sb3_contrib", "TRPO"),
+}
+"""More of them, of which the libraries' own settings are used: package and class."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PPOSettings:
@@ -71,6 +80,17 @@ class OffPolicySettings:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LibrarySettings:
+    """For the algorithms of `LIBRARY_ALGORITHMS`: what their class takes."""
+
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of the class, such as ``{"n_steps": 128}``."""
+
+
+Settings = PPOSettings | OffPolicySettings | LibrarySettings
+
+
+@dataclass(frozen=True, kw_only=True)
 class Recipe:
     """How one task is trained with one algorithm."""
 
@@ -103,7 +123,7 @@ class Recipe:
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that evaluations set differently from the training, beside
     those that the task itself asks for."""
-    settings: PPOSettings | OffPolicySettings = PPOSettings()
+    settings: Settings = PPOSettings()
     """What only this algorithm knows."""
 
     def __post_init__(self) -> None:
@@ -112,17 +132,25 @@ class Recipe:
         Raises:
             TaskError: One of them cannot.
         """
-        if self.algo not in ALGORITHM_NAMES:
-            hint = did_you_mean(self.algo, ALGORITHM_NAMES)
+        known = (*ALGORITHM_NAMES, *LIBRARY_ALGORITHMS)
+        if self.algo not in known:
+            hint = did_you_mean(self.algo, known)
             raise TaskError(f"there is no algorithm '{self.algo}'", hint=hint)
         for name in ("steps", "num_envs", "learning_rate", "reward_scale"):
             if not getattr(self, name) > 0:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
-        wanted = PPOSettings if self.algo == "ppo" else OffPolicySettings
+        wanted = _settings_of(self.algo)
         if not isinstance(self.settings, wanted):
             raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")
+
+
+def _settings_of(algo: str) -> type[Settings]:
+    """What settings an algorithm takes."""
+    if algo in LIBRARY_ALGORITHMS:
+        return LibrarySettings
+    return PPOSettings if algo == "ppo" else OffPolicySettings
 
 
 # Starts, headings, goals and phases of obstacles from all over the free space: what is learnt
@@ -171,6 +199,21 @@ RECIPES: dict[str, Recipe] = {
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 
 
+_ON_POLICY_COPIES = 64
+
+
+def _library(algo: str) -> Recipe:
+    """The library's own settings, but for what many copies ask for."""
+    if algo in {"tqc", "qrdqn"}:
+        options = {"learning_starts": 5_000, "train_freq": 1, "gradient_steps": 4}
+        return Recipe(
+            algo=algo, num_envs=16, steps=200_000, settings=LibrarySettings(options=options)
+        )
+    return Recipe(
+        algo=algo, num_envs=_ON_POLICY_COPIES, learning_rate=7e-4, settings=LibrarySettings()
+    )
+
+
 def _continuous(algo: str) -> Recipe:
     return Recipe(
         algo=algo,
@@ -214,7 +257,10 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
         return own or Recipe()
     if algo == "ppo":
         return Recipe()
-    base = _OFF_POLICY[algo] if algo in _OFF_POLICY else Recipe(algo=algo)
+    if algo in LIBRARY_ALGORITHMS:
+        base = _library(algo)
+    else:
+        base = _OFF_POLICY[algo] if algo in _OFF_POLICY else Recipe(algo=algo)
     if own is None:
         return base
     return dataclasses.replace(
@@ -246,7 +292,7 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     Raises:
         TaskError: A key is not part of a recipe.
     """
-    kind = PPOSettings if values.get("algo", "ppo") == "ppo" else OffPolicySettings
+    kind = _settings_of(values.get("algo", "ppo"))
     settings = kind(**_checked(kind, values.get("settings", {})))
     rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
     if "net_arch" in rest:

@@ -8,6 +8,8 @@
         tensorboard/         the curves for TensorBoard
         checkpoints/000000500000/   state to resume from, named by control steps
         policy.npz           the newest policy, for evaluation without torch
+        evaluations.csv      evaluations during the training, if there were any
+        best.npz             the policy that did best in them
         contract.json        what the policy sees and does, see `PolicyContract`
 """
 
@@ -47,6 +49,12 @@ class RunConfig:
     """Options of the environment."""
     checkpoint_every: int = 100_000
     """Control steps between two checkpoints."""
+    eval_every: int = 0
+    """Control steps between two evaluations during the training; 0 for none."""
+    eval_episodes: int = 100
+    """Episodes of each of them."""
+    callbacks: tuple[str, ...] = ()
+    """Callbacks of Stable-Baselines3 that are called too, each as ``module:Class``."""
     imports: tuple[TaskModule, ...] = ()
     """Modules that register the task, where that is not one of Gazelle's."""
     sharded: bool = False
@@ -130,15 +138,18 @@ class Run:
             raise FormatError("the run has no checkpoint", file=str(self.folder), hint=hint)
         return found[-1]
 
-    def policy_file(self) -> Path:
-        """The newest policy.
+    def policy_file(self, *, best: bool = False) -> Path:
+        """The newest policy, or the best of the evaluations during the training.
 
         Raises:
-            FormatError: There is none yet.
+            FormatError: There is none.
         """
-        file = self.folder / "policy.npz"
+        file = self.folder / ("best.npz" if best else "policy.npz")
+        if best and not file.is_file():
+            hint = "train with --eval-every N to have the best policy kept"
+            raise FormatError("the run kept no best policy", file=str(self.folder), hint=hint)
         if not file.is_file():
-            hint = "it stopped before its first checkpoint; train again"
+            hint = "it stopped before its first checkpoint, or its policy has a memory"
             raise FormatError("the run has no policy", file=str(self.folder), hint=hint)
         return file
 
@@ -159,9 +170,10 @@ class Run:
         write(draft)
         shutil.rmtree(place, ignore_errors=True)
         draft.rename(place)
-        fresh = self.folder / "policy.npz.part"
-        shutil.copyfile(place / "policy.npz", fresh)
-        fresh.replace(self.folder / "policy.npz")
+        if (place / "policy.npz").is_file():
+            fresh = self.folder / "policy.npz.part"
+            shutil.copyfile(place / "policy.npz", fresh)
+            fresh.replace(self.folder / "policy.npz")
         for old in self.checkpoints()[:-_KEPT]:
             shutil.rmtree(old)
         return place
@@ -193,6 +205,9 @@ def _config_to_dict(config: RunConfig) -> dict[str, Any]:
         "seed": config.seed,
         "options": config.options,
         "checkpoint_every": config.checkpoint_every,
+        "eval_every": config.eval_every,
+        "eval_episodes": config.eval_episodes,
+        "callbacks": list(config.callbacks),
         "imports": modules_to_list(config.imports),
         "sharded": config.sharded,
         "recipe": recipe_to_dict(config.recipe),
@@ -210,6 +225,9 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
         seed=int(values["seed"]),
         options=dict(values["options"]),
         checkpoint_every=int(values["checkpoint_every"]),
+        eval_every=int(values.get("eval_every", 0)),
+        eval_episodes=int(values.get("eval_episodes", 100)),
+        callbacks=tuple(values.get("callbacks", ())),
         imports=modules_from_list(values.get("imports", [])),
         sharded=bool(values.get("sharded", False)),
     )

@@ -28,6 +28,7 @@ from gazelle.training.tasks import (
     split_module,
 )
 from gazelle.training.threads import limit_threads
+from gazelle.training.user_callbacks import find_callbacks, make_callbacks
 from gazelle.training.vecenv import VectorEnvAdapter
 from gazelle.training.workers.joining import join_workers
 
@@ -66,6 +67,9 @@ def train(
     seed: int = 0,
     out: str | Path = "runs",
     checkpoint_every: int | None = None,
+    eval_every: int = 0,
+    eval_episodes: int = 100,
+    callbacks: Sequence[str] = (),
     progress: Progress | None = None,
     threads: int = 1,
     imports: Sequence[str] = (),
@@ -84,6 +88,10 @@ def train(
         seed: Seed of everything random.
         out: Folder in which the run's folder is made.
         checkpoint_every: Control steps between two checkpoints; by default a tenth of the total.
+        eval_every: Control steps between two evaluations, of which the best policy is kept; 0 for
+            none. See `PeriodicEvaluation`.
+        eval_episodes: Episodes of each evaluation.
+        callbacks: Callbacks of Stable-Baselines3 to be called as well, each as ``module:Class``.
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
         imports: Modules or files to import first, which register tasks; the run remembers them.
@@ -98,7 +106,8 @@ def train(
         MissingExtraError: torch or Stable-Baselines3 is not installed.
     """
     module, task = split_module(task)
-    modules = load_all([*imports, *([] if module is None else [module])])
+    homes, names = find_callbacks(callbacks)
+    modules = load_all([*imports, *([] if module is None else [module]), *homes])
     task = find_task(task)
     recipe = recipe or recipe_for(task, algo)
     recipe = dataclasses.replace(
@@ -110,12 +119,17 @@ def train(
         raise TaskError(f"seed must be between 0 and 4294967295, not {seed}")
     if checkpoint_every is not None and checkpoint_every < 1:
         raise TaskError(f"checkpoint_every must be above 0, not {checkpoint_every}")
+    if eval_every < 0 or eval_episodes < 1:
+        raise TaskError("eval_every must be 0 or more, eval_episodes 1 or more")
     config = RunConfig(
         task=task,
         recipe=recipe,
         seed=seed,
         options=plain_options({**recipe.training_options, **options}),
         checkpoint_every=checkpoint_every or max(1, recipe.steps // _CHECKPOINTS),
+        eval_every=eval_every,
+        eval_episodes=eval_episodes,
+        callbacks=names,
         imports=modules,
         sharded=workers is not None or ray is not None,
     )
@@ -217,6 +231,7 @@ class _Session:
                 callback.set_state(extra, self.learner.num_timesteps)
             before = self.learner.num_timesteps
             callback.attach(self.learner)
+            self.callbacks = [callback, *make_callbacks(run.config.callbacks)]
             self.progress.start(before, self.total)
             start = time.perf_counter()
             try:
@@ -245,7 +260,7 @@ class _Session:
             return False
         try:
             self.learner.learn(
-                left, callback=callback, log_interval=None, reset_num_timesteps=fresh
+                left, callback=self.callbacks, log_interval=None, reset_num_timesteps=fresh
             )
         except StopRequested:
             return True

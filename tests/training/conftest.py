@@ -25,3 +25,16 @@ def tiny():
         net_arch=(16,),
         settings=PPOSettings(n_steps=16, batch_size=32, n_epochs=2),
     )
+
+
+@pytest.fixture
+def cli(capsys):
+    """Runs the command line; gives the exit code, what it said, and what it complained."""
+    from gazelle.cli.main import main
+
+    def run(*arguments):
+        code = main([str(argument) for argument in arguments])
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return run

@@ -1,15 +1,36 @@
 """Policies on ROS 1: a node without torch that drives a simulated or a real robot.
 
 `DeployNode` is the node, `Pilot` decides without any ROS, and a guard, a process of its own, holds
-the topic of commands and stops the robot however the node ends.
+the topic of commands and stops the robot however the node ends. Nothing is imported until it is
+used: the guard starts quickly.
 """
 
-from gazelle.training.deploy.goals import GoalOutcome, GoalPlace, read_goals
-from gazelle.training.deploy.node import DeployNode
-from gazelle.training.deploy.pilot import Pilot
-from gazelle.training.deploy.policies import Policy, open_policy
-from gazelle.training.deploy.safety import SafetyLimits
-from gazelle.training.deploy.sensing import OdometryReading, ScanReading
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gazelle.training.deploy.goals import GoalOutcome, GoalPlace, read_goals
+    from gazelle.training.deploy.node import DeployNode
+    from gazelle.training.deploy.pilot import Pilot
+    from gazelle.training.deploy.policies import Policy, open_policy
+    from gazelle.training.deploy.safety import SafetyLimits, VelocityCommand
+    from gazelle.training.deploy.sensing import OdometryReading, ScanReading
+
+_HOMES = {
+    "DeployNode": "node",
+    "GoalOutcome": "goals",
+    "GoalPlace": "goals",
+    "OdometryReading": "sensing",
+    "Pilot": "pilot",
+    "Policy": "policies",
+    "SafetyLimits": "safety",
+    "ScanReading": "sensing",
+    "VelocityCommand": "safety",
+    "open_policy": "policies",
+    "read_goals": "goals",
+}
 
 __all__ = [
     "DeployNode",
@@ -20,6 +41,20 @@ __all__ = [
     "Policy",
     "SafetyLimits",
     "ScanReading",
+    "VelocityCommand",
     "open_policy",
     "read_goals",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its module on first use."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'gazelle.training.deploy' has no attribute '{name}'")
+    value = getattr(importlib.import_module(f"gazelle.training.deploy.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

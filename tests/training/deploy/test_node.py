@@ -70,6 +70,7 @@ def test_it_stands_until_it_is_armed_by_the_service(robot, deploy):
     code, _, err = deployed.end(signal.SIGTERM)
     assert code == 1, err  # the goal was not reached
     assert "Traceback" not in err
+    assert "Warning" not in err
     assert robot.last == STAND
 
 

@@ -1,0 +1,72 @@
+"""More algorithms of Stable-Baselines3 and sb3-contrib, by name, with what they themselves take."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import gymnasium as gym
+from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+
+from gazelle.errors import MissingExtraError, TaskError
+from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
+from gazelle.training.replay import MaskedReplayBuffer
+from gazelle.training.vecenv import VectorEnvAdapter
+
+_POLICIES = {"recurrent_ppo": "MlpLstmPolicy"}
+_DISCRETE_ONLY = {"qrdqn"}
+_CONTINUOUS_ONLY = {"tqc"}
+
+
+def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[str, Any]) -> Any:
+    """A learner that Gazelle has no builder of its own for.
+
+    Args:
+        recipe: With `LibrarySettings`.
+        env: The environment.
+        common: What all algorithms take.
+
+    Raises:
+        MissingExtraError: sb3-contrib is not installed.
+        TaskError: The algorithm does not take a setting or this kind of actions.
+    """
+    if not isinstance(recipe.settings, LibrarySettings):
+        raise TaskError(f"a recipe for {recipe.algo} needs LibrarySettings")
+    discrete = isinstance(env.action_space, gym.spaces.Discrete)
+    if recipe.algo in (_CONTINUOUS_ONLY if discrete else _DISCRETE_ONLY):
+        kind = type(env.action_space).__name__
+        fitting = "qrdqn, a2c or trpo" if discrete else "tqc, a2c or trpo"
+        raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
+    algorithm = _rescaling(_find(recipe.algo))
+    options = common | dict(recipe.settings.options)
+    if issubclass(algorithm, OffPolicyAlgorithm):
+        options["replay_buffer_class"] = MaskedReplayBuffer
+    try:
+        return algorithm(_POLICIES.get(recipe.algo, "MlpPolicy"), env, **options)
+    except TypeError as error:
+        if "unexpected keyword argument" not in str(error):
+            raise
+        raise TaskError(f"{recipe.algo} does not take this: {error}") from error
+
+
+def _find(name: str) -> type[Any]:
+    package, kind = LIBRARY_ALGORITHMS[name]
+    try:
+        found: type[Any] = getattr(importlib.import_module(package), kind)
+    except ModuleNotFoundError as error:
+        if error.name != package:
+            raise
+        raise MissingExtraError(package.replace("_", "-"), "train") from error
+    return found
+
+
+def _rescaling(kind: type[Any]) -> type[Any]:
+    """The algorithm, scaling observations anew after each update, when no rollout is under way."""
+
+    class Rescaling(kind):  # type: ignore[misc]  # of a class that is looked up
+        def train(self, *arguments: Any, **options: Any) -> None:
+            super().train(*arguments, **options)
+            self.scale.refresh()
+
+    Rescaling.__name__ = kind.__name__
+    return Rescaling

@@ -1,0 +1,56 @@
+"""Callbacks of the user's own, by name."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterable
+from typing import Any
+
+from stable_baselines3.common.callbacks import BaseCallback
+
+from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.importing import TaskModule, load_all
+
+
+def find_callbacks(texts: Iterable[str]) -> tuple[tuple[TaskModule, ...], tuple[str, ...]]:
+    """Where callbacks are, and their names as a run remembers them.
+
+    Args:
+        texts: Each ``module:Class``, or ``file.py:Class``.
+
+    Raises:
+        TaskError: One is of another form, or is not there.
+    """
+    modules, names = [], []
+    for text in texts:
+        module, colon, name = text.rpartition(":")
+        if not colon:
+            raise TaskError(f"'{text}' is no callback", hint="expected module:Class")
+        (found,) = load_all([module])
+        modules.append(found)
+        names.append(f"{found.name}:{name}")
+    make_callbacks(names)
+    return tuple(modules), tuple(names)
+
+
+def make_callbacks(names: Iterable[str]) -> list[Any]:
+    """Fresh callbacks; their modules were found before.
+
+    Raises:
+        TaskError: One is not there, or is no callback.
+    """
+    made = []
+    for text in names:
+        module, _, name = text.rpartition(":")
+        home = importlib.import_module(module)
+        kind = getattr(home, name, None)
+        if kind is None:
+            hint = did_you_mean(name, [each for each in vars(home) if not each.startswith("_")])
+            raise TaskError(f"{module} has no callback '{name}'", hint=hint)
+        if not (isinstance(kind, type) and issubclass(kind, BaseCallback)):
+            raise TaskError(
+                f"{text} is no callback",
+                hint="derive it from stable_baselines3.common.callbacks.BaseCallback",
+            )
+        made.append(kind())
+    return made
