@@ -193,7 +193,7 @@ def test_evaluations_go_on_where_a_run_stopped(tmp_path, tiny):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-@pytest.mark.parametrize("algo", ["ppo", "dqn"])
+@pytest.mark.parametrize("algo", ["ppo"])
 def test_a_killed_run_goes_on_with_the_same_curve(tmp_path, tiny, algo):
     """SIGKILL anywhere: what came after the last checkpoint is done again."""
     if algo == "ppo":
