@@ -70,3 +70,11 @@ def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
     result = train("AGVFleet", steps=150_000, out=tmp_path)
     found = evaluate(result.run.folder, episodes=64)
     assert found.success.interval[0] > 0.65
+
+
+def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():
+    own = recipe_for("TurtleBot3Stage4").goal_reward
+    for algo in ("sac", "td3", "ddpg"):
+        assert recipe_for("TurtleBot3Stage4Continuous", algo).goal_reward.collision < own.collision
+        assert recipe_for("TurtleBot3Stage1Continuous", algo).goal_reward == own
+    assert recipe_for("TurtleBot3Stage4", "dqn").goal_reward == own
