@@ -1,4 +1,5 @@
-"""Look at a file, or at the ROS graph that runs, live in a browser on this machine.
+"""Look at a file, or at the ROS graph that runs, live in a browser on this
+machine.
 
   gazelle view my_robot.urdf.xacro       # its joints have sliders
   gazelle view turtlebot3_world
