@@ -2,7 +2,7 @@
 graphics card and no screen.
 
   gazelle picture turtlebot3_world world.png --spawn turtlebot3_burger@-2,-0.5
-  gazelle picture my.world --at 5 --eye 2,-3,1.5 --target 0,0,0.2 five_seconds.png
+  gazelle picture my.world --at 5 --eye 2,-3,1.5 --target 0,0,0.2 five.png
   gazelle picture fleet fleet.png --top
   gazelle picture run.jsonl --at 3 crash.png
   gazelle picture runs/TurtleBot3Stage1-ppo-20261105-140302 --at 4 policy.png

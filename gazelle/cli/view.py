@@ -5,9 +5,10 @@ machine.
   gazelle view turtlebot3_world
   gazelle view                           # ROS_MASTER_URI's graph
 
-A file stands still until the page lets it run. Of a graph the page shows robots
-(robot_description and tf), scans, point clouds, maps, paths, poses, markers and images.
-"""  # this is the text of --help
+A file stands still until the page lets it run. Of a graph the page shows
+robots (robot_description and tf), scans, point clouds, maps, paths, poses,
+markers and images.
+"""  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
 
