@@ -9,7 +9,7 @@ from gazelle.array_types import Floats
 
 _SCAN = {"scan": {"data_type": "LaserScan", "marking": True, "clearing": True}}
 _COSTMAP = {
-    "inflation_layer": {"inflation_radius": 0.6, "cost_scaling_factor": 4.0},
+    "inflation_layer": {"inflation_radius": 1.0, "cost_scaling_factor": 3.0},
     "obstacle_layer": {"observation_sources": "scan", "raytrace_range": 3.5, **_SCAN},
     "update_frequency": 5.0,
 }
