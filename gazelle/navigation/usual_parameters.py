@@ -36,7 +36,7 @@ USUAL: Mapping[str, Any] = {
         "max_vel_trans": 0.22, "min_vel_trans": 0.1, "max_vel_theta": 2.0, "min_vel_theta": 0.8,
         "acc_lim_y": 0.0, "xy_goal_tolerance": 0.1, "yaw_goal_tolerance": 0.15, "sim_time": 1.5,
         "vx_samples": 12, "vy_samples": 0, "vth_samples": 30, "path_distance_bias": 32.0,
-        "goal_distance_bias": 20.0, "occdist_scale": 0.02,
+        "goal_distance_bias": 20.0, "occdist_scale": 0.02, "forward_point_distance": 0.1,
     },
 }  # fmt: skip
 
