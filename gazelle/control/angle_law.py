@@ -1,40 +1,30 @@
-"""Distances between two angles, as ``angles`` has them of arrays."""
+"""Distances between two angles, as ``angles`` has them of arrays.
 
-# mypy: disallow-untyped-decorators=False
+Compiled modules take what ``angle_law.pxd`` says; this is the same for Python that runs sources.
+"""
 
-import cython
-from cython.cimports.libc.math import fmod
+from __future__ import annotations
 
-_HALF = cython.declare(cython.double, 3.141592653589793)
-_TURN = cython.declare(cython.double, 6.283185307179586)
+import math
+from typing import Final
+
+_TURN: Final = 2.0 * math.pi
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def shortest(start: cython.double, end: cython.double) -> cython.double:
+def shortest(start: float, end: float) -> float:
     """By how much to turn from one angle to another, the shorter way round [rad]; pi stays pi."""
-    turn: cython.double = end - start
+    turn = end - start
     if not -_TURN < turn < _TURN:
-        turn = fmod(turn, _TURN)
+        turn = math.fmod(turn, _TURN) if math.isfinite(turn) else math.nan
     if turn < 0.0:
         turn += _TURN
-    return turn - _TURN if turn > _HALF else turn
+    return turn - _TURN if turn > math.pi else turn
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def distance(
-    start: cython.double,
-    end: cython.double,
-    continuous: cython.bint,
-    lower: cython.double,
-    upper: cython.double,
-) -> cython.double:
+def distance(start: float, end: float, continuous: bool, lower: float, upper: float) -> float:  # noqa: FBT001  as in C
     """By how much to turn: the shorter way round if that stays within limits, or if neither does."""
-    short: cython.double = shortest(start, end)
+    short = shortest(start, end)
     if continuous or lower <= start + short <= upper:
         return short
-    other: cython.double = short - _TURN if short > 0.0 else short + _TURN
+    other = short - _TURN if short > 0.0 else short + _TURN
     return other if lower <= start + other <= upper else short

@@ -10,6 +10,7 @@ cpdef enum:
     BY_MOTOR = 3
     BY_PLACE = 4
 
+@cython.final
 cdef class JointLaw:
     cdef LimitLaw limits
     cdef PidLaw pid

@@ -1,5 +1,6 @@
 cimport cython
 
+@cython.final
 cdef class LimitLaw:
     cdef double[::1] lower, upper, velocity, acceleration, effort, k_position, k_velocity, soft_lower, soft_upper
     cdef unsigned char[::1] soft, bounded

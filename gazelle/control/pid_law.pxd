@@ -1,5 +1,6 @@
 cimport cython
 
+@cython.final
 cdef class PidLaw:
     cdef double[:, ::1] last, p_error, i_error, d_error, output
     cdef double[::1] p, i, d, sum_least, sum_most, term_least, term_most

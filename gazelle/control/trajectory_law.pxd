@@ -16,16 +16,16 @@ cdef class TrajectoryLaw(ControlLaw):
     cdef double[:, ::1] position_command, velocity_command, acceleration_command, effort_command
     cdef Py_ssize_t[::1] joints, columns
     cdef double[::1] forward, uptime, period, patience, event_error
-    cdef double[:, :, ::1] start, duration, path, end
+    cdef double[:, :, ::1] start, duration, path, end, acting
     cdef double[:, :, :, ::1] polynomials
     cdef long long[:, :, ::1] goals
     cdef Py_ssize_t[:, ::1] at
     cdef long long[::1] goal, event, event_goal, event_joint
     cdef unsigned char[:, ::1] reached
-    @cython.locals(c=Py_ssize_t, last=Py_ssize_t)
+    @cython.locals(c=Py_ssize_t, last=Py_ssize_t, k=Py_ssize_t)
     cdef Py_ssize_t segment(self, Py_ssize_t world, Py_ssize_t joint, double time) noexcept nogil
     @cython.locals(t=double, lasting=double, moving=double, c0=double, c1=double, c2=double, c3=double, c4=double, c5=double)
-    cdef void sample(self, Py_ssize_t world, Py_ssize_t joint, Py_ssize_t c, double time) noexcept nogil
+    cdef void sample(self, Py_ssize_t world, Py_ssize_t joint, double time) noexcept nogil
     @cython.locals(i=Py_ssize_t, c=Py_ssize_t, time=double, lack=double, slow=double, missed=bint, all_there=bint)
     cdef void control(self, Py_ssize_t world, long long now, double period) noexcept nogil
     @cython.locals(end=double, there=bint)

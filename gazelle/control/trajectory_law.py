@@ -123,10 +123,14 @@ class TrajectoryLaw(ControlLaw):
         self.start, self.duration = start, duration
         self.polynomials, self.goals = polynomials, goals
         self.at = np.full(start.shape[:2], -1, np.intp)
+        # What acts, side by side: begin, duration, begin of the next, and a polynomial.
+        self.acting = np.zeros((*start.shape[:2], 9))
 
     def segment(self, world: int, joint: int, time: float) -> int:
         """The segment that acts: the last that has begun, or the first before its time."""
         c, last = self.at[world, joint], self.start.shape[2] - 1
+        if c >= 0 and self.acting[world, joint, 0] <= time < self.acting[world, joint, 2]:
+            return c
         if c < 0 or self.start[world, joint, c] > time:
             c = last
             while c > 0 and self.start[world, joint, c] > time:
@@ -136,19 +140,24 @@ class TrajectoryLaw(ControlLaw):
         while c < last and self.start[world, joint, c + 1] <= time:
             c += 1
         self.at[world, joint] = c
+        self.acting[world, joint, 0] = self.start[world, joint, c]
+        self.acting[world, joint, 1] = self.duration[world, joint, c]
+        self.acting[world, joint, 2] = INFINITY if c == last else self.start[world, joint, c + 1]
+        for k in range(6):
+            self.acting[world, joint, 3 + k] = self.polynomials[world, joint, c, k]
         return c
 
-    def sample(self, world: int, joint: int, c: int, time: float) -> None:
-        """Where a segment wants a joint to be."""
-        t, lasting = time - self.start[world, joint, c], self.duration[world, joint, c]
+    def sample(self, world: int, joint: int, time: float) -> None:
+        """Where the segment that acts wants a joint to be."""
+        t, lasting = time - self.acting[world, joint, 0], self.acting[world, joint, 1]
         moving = 1.0
         if t < 0.0:
             t, moving = 0.0, 0.0
         elif t > lasting:
             t, moving = lasting, 0.0
-        c0, c1 = self.polynomials[world, joint, c, 0], self.polynomials[world, joint, c, 1]
-        c2, c3 = self.polynomials[world, joint, c, 2], self.polynomials[world, joint, c, 3]
-        c4, c5 = self.polynomials[world, joint, c, 4], self.polynomials[world, joint, c, 5]
+        c0, c1 = self.acting[world, joint, 3], self.acting[world, joint, 4]
+        c2, c3 = self.acting[world, joint, 5], self.acting[world, joint, 6]
+        c4, c5 = self.acting[world, joint, 7], self.acting[world, joint, 8]
         self.wanted[world, joint] = c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5))))
         self.wanted_rate[world, joint] = moving * (
             c1 + t * (2 * c2 + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))
@@ -165,7 +174,7 @@ class TrajectoryLaw(ControlLaw):
         missed = self.goal[world] > 0
         for i in range(self.joints.shape[0]):
             c = self.segment(world, i, time)
-            self.sample(world, i, c, time)
+            self.sample(world, i, time)
             lack = shortest(self.position[world, self.joints[i]], self.wanted[world, i])
             slow = self.wanted_rate[world, i] - self.velocity[world, self.joints[i]]
             if missed:
@@ -182,7 +191,7 @@ class TrajectoryLaw(ControlLaw):
         """See whether a joint is where the goal wants it."""
         if self.goals[world, i, c] != self.goal[world]:
             return
-        end = self.start[world, i, c] + self.duration[world, i, c]
+        end = self.acting[world, i, 0] + self.acting[world, i, 1]
         if time < end:
             if not within(lack, slow, self.path[world, i, 0], self.path[world, i, 1]):
                 self.tell(world, STRAYED, i, lack)
