@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
+from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar.roaming import Roaming
 
 ROOM = 8.0  # side [m]
 STEPS = 5  # that robots have made when they are handed out
 
 
-def office(side: float, room: float = ROOM, x: float = 0.0, y: float = 0.0) -> list[Part]:
+def office(side: float, room: float = ROOM, x: float = 0.0, y: float = 0.0) -> list[PlanarPart]:
     """Walls 0.1 m thick around rooms, each with a door of 1.2 m to the next one.
 
     Args:
@@ -32,8 +32,8 @@ def office(side: float, room: float = ROOM, x: float = 0.0, y: float = 0.0) -> l
             if 0 < i < rooms:
                 runs = [(low, door - 0.6), (door + 0.6, high)]
             for a, b in runs:
-                parts.append(Part.box(0.1, b - a, x + at, y + (a + b) / 2.0))
-                parts.append(Part.box(b - a, 0.1, x + (a + b) / 2.0, y + at))
+                parts.append(PlanarPart.box(0.1, b - a, x + at, y + (a + b) / 2.0))
+                parts.append(PlanarPart.box(b - a, 0.1, x + (a + b) / 2.0, y + at))
     return parts
 
 
@@ -44,13 +44,13 @@ def places(count: int, across: int, pitch: float) -> list[tuple[float, float]]:
 
 def roamers(
     spots: Iterable[tuple[float, float]],
-    walls: list[Part],
+    walls: list[PlanarPart],
     fan: Fan | None,
     threads: int,
     seed: int,
 ) -> Roaming:
     """Robots of 0.26 m that have begun to roam."""
-    rng, shape, drive = np.random.default_rng(seed), (Part.box(0.2552, 0.2552),), Drive()
+    rng, shape, drive = np.random.default_rng(seed), (PlanarPart.box(0.2552, 0.2552),), Drive()
     bodies = [Body(shape, (x, y, rng.uniform(-3.0, 3.0)), drive=drive) for x, y in spots]
     fleet = Fleet(bodies, walls, euler=True, threads=threads)
     scanner = None if fan is None else Scanner(fleet, fan, [Mount(i) for i in range(len(bodies))])

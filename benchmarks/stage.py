@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, Scanner
+from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar.roaming import Roaming
 
 if TYPE_CHECKING:
@@ -151,13 +151,13 @@ def batches(args: argparse.Namespace, goals: Goals) -> None:
     )
     rng = np.random.default_rng(0)
     walls, pillars = clutter(rng)
-    statics = [Part((tuple(w[:2]), tuple(w[2:])), closed=False) for w in walls]
-    statics += [Part.circle(*pillar) for pillar in pillars]
+    statics = [PlanarPart((tuple(w[:2]), tuple(w[2:])), closed=False) for w in walls]
+    statics += [PlanarPart.circle(*pillar) for pillar in pillars]
     worst = 0.0
     for beams, wanted in ((24, 2e6), (360, 2e5)):
         slowest = math.inf
         for nworld in BATCHES:
-            body = Body((Part.circle(0.0, 0.0, 0.105),), drive=Drive())
+            body = Body((PlanarPart.circle(0.0, 0.0, 0.105),), drive=Drive())
             fleet = Fleet([body], statics, nworld=nworld, threads=args.threads)
             fleet.place(
                 0, np.column_stack((rng.uniform(-2, 2, (nworld, 2)), rng.uniform(-3, 3, nworld)))

@@ -40,7 +40,7 @@ GIVEN_BY_ROS = frozenset(
 SAME_PROGRAM = {"JointStatePublisher": 2}
 """ROS has a node and a Gazebo plugin of this name, and we have both."""
 
-KNOWN = {"Part": 2, "Pid": 2, "Plugin": 2}
+KNOWN = {"Plugin": 2}
 """How often names outside the ROS room are still used; to be emptied, never to grow."""
 
 

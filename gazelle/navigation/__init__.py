@@ -6,13 +6,14 @@ All on plain numbers, with neither ROS nor learning; only ``GoToGoal`` knows the
 from gazelle.navigation.agv import Limits, Motions, Outcome
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
-from gazelle.navigation.pid import Pid
+from gazelle.navigation.pid import BoundedPid
 from gazelle.navigation.plugin import GoToGoal
 from gazelle.navigation.seeker import GoalSeeker
 from gazelle.navigation.values import GoalPose, Path
 
 __all__ = [
     "BaseLimits",
+    "BoundedPid",
     "GoToGoal",
     "GoalPose",
     "GoalSeeker",
@@ -21,5 +22,4 @@ __all__ = [
     "OccupancyGrid",
     "Outcome",
     "Path",
-    "Pid",
 ]

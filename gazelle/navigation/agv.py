@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Indices
 from gazelle.errors import ControlError
-from gazelle.navigation.pid import Pid
+from gazelle.navigation.pid import BoundedPid
 
 _STANDS = 0.25  # of a tolerance, between two updates
 
@@ -93,7 +93,7 @@ class Motions:
         self._last = math.nan
         self._before = np.full((count, 3), math.nan)  # poses at the last update
         most = self.limits.turn_most
-        self._pid = Pid(
+        self._pid = BoundedPid(
             self.limits.turn_gain,
             self.limits.turn_integral,
             integral=(-most, most),

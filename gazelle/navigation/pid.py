@@ -13,7 +13,7 @@ from gazelle.errors import ControlError
 Rows = NDArray[np.intp] | slice
 
 
-class Pid:
+class BoundedPid:
     """Proportional, integral and derivative action on an error.
 
     The integral term (gain included) and the output are kept within bounds: the integral

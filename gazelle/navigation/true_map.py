@@ -11,7 +11,7 @@ from gazelle.array_types import Bools, Floats
 from gazelle.description import Link, Model, Pose, World
 from gazelle.description.occupancy import FREE, OCCUPIED, OccupancyMap
 from gazelle.engines.planar.cuts import Levels, parts_of
-from gazelle.engines.planar.shapes import Part
+from gazelle.engines.planar.shapes import PlanarPart
 from gazelle.errors import SimulationError
 
 _MOST_CELLS = 16_384
@@ -58,7 +58,7 @@ def true_map(
     return OccupancyMap(data, resolution, Pose(float(corner[0]), float(corner[1])), name=world.name)
 
 
-def _parts(world: World, height: float) -> Iterator[list[Part]]:
+def _parts(world: World, height: float) -> Iterator[list[PlanarPart]]:
     """What stands at a height, one list for each collision, in the frame of the world."""
     levels = Levels((height,), height, height)
     for model in world.models:
@@ -84,7 +84,7 @@ def _links(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
         yield from _links(inner, pose * inner.pose)
 
 
-def _edges(parts: list[Part]) -> Floats:
+def _edges(parts: list[PlanarPart]) -> Floats:
     """Ends of the edges of what is there, shape (n, 4) [m]; circles as polygons."""
     rows: list[tuple[float, float, float, float]] = []
     for part in parts:
@@ -94,7 +94,7 @@ def _edges(parts: list[Part]) -> Floats:
     return np.array(rows, np.float64).reshape(-1, 4)
 
 
-def _circle(part: Part) -> list[tuple[float, float]]:
+def _circle(part: PlanarPart) -> list[tuple[float, float]]:
     (x, y), count = part.points[0], 96
     turns = 2.0 * np.pi * np.arange(count) / count
     ring = np.stack((x + part.radius * np.cos(turns), y + part.radius * np.sin(turns)), axis=1)

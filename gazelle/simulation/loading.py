@@ -11,7 +11,13 @@ from gazelle.description import Link, Model, StagePlugin
 from gazelle.errors import SimulationWarning, located
 from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
-from gazelle.simulation.plugin import ModelPlugin, Plugin, SensorPlugin, VisualPlugin, WorldPlugin
+from gazelle.simulation.plugin import (
+    ModelPlugin,
+    Plugin,
+    SensorPlugin,
+    VisualPlugin,
+    WorldPlugin,
+)
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot

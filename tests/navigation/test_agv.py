@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gazelle.errors import ControlError
-from gazelle.navigation import Limits, Motions, Outcome, Pid
+from gazelle.navigation import BoundedPid, Limits, Motions, Outcome
 
 STEP = 0.1
 
@@ -144,8 +144,8 @@ def test_nonsense_is_refused():
         lambda: motions.move_c(1.0, timeout=0.0),
         lambda: motions.update(np.zeros((3, 3)), 0.0),
         lambda: Limits(linear=0.0),
-        lambda: Pid(1.0, integral=(1.0, -1.0)),
-        lambda: Pid(1.0).update(0.0, -1.0),
+        lambda: BoundedPid(1.0, integral=(1.0, -1.0)),
+        lambda: BoundedPid(1.0).update(0.0, -1.0),
     ):
         with pytest.raises(ControlError):
             bad()
@@ -153,14 +153,14 @@ def test_nonsense_is_refused():
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=50))
 def test_the_integral_never_winds_up(errors):
-    pid = Pid(1.0, 5.0, integral=(-0.5, 0.5), output=(-2.0, 2.0))
+    pid = BoundedPid(1.0, 5.0, integral=(-0.5, 0.5), output=(-2.0, 2.0))
     for error in errors:
         assert abs(pid.update(error, 0.1)[0]) <= 2.0
         assert abs(pid.accumulated[0]) <= 0.5
 
 
 def test_a_pid_does_what_its_letters_say():
-    pid = Pid(2.0, 1.0, 0.5)
+    pid = BoundedPid(2.0, 1.0, 0.5)
     assert pid.update(1.0, 0.1)[0] == pytest.approx(2.0 + 0.1)
     assert pid.update(2.0, 0.1)[0] == pytest.approx(4.0 + 0.3 + 5.0)
     pid.reset()

@@ -11,7 +11,7 @@ __path__ = search_path([str(Path(__file__).parent)])
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
-from gazelle.engines.planar.shapes import Part
+from gazelle.engines.planar.shapes import PlanarPart
 
 __all__ = [
     "Body",
@@ -19,8 +19,8 @@ __all__ = [
     "Fan",
     "Fleet",
     "Mount",
-    "Part",
     "PlanarEngine",
+    "PlanarPart",
     "RangeNoise",
     "Scanner",
 ]

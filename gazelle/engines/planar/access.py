@@ -28,7 +28,6 @@ from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, yaw_
 
 T = TypeVar("T")
 
-
 _MOST = 256  # arrays of rays that are known by where they are
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from gazelle.description import Model, Pose
 from gazelle.engines.planar.cuts import Levels, parts_of
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.shapes import Part
+from gazelle.engines.planar.shapes import PlanarPart
 from gazelle.engines.planar.skeleton import Skeleton, skeleton_of
 
 STEP = 0.01
@@ -139,7 +139,7 @@ def levels_of(models: Iterable[Anatomy], more: Iterable[float]) -> Levels:
     return Levels(tuple(sorted(rays)), low, max(high, low + STEP))
 
 
-def statics_of(each: Anatomy, levels: Levels) -> list[Part]:
+def statics_of(each: Anatomy, levels: Levels) -> list[PlanarPart]:
     """The parts of a model that never moves, in the world."""
     return [
         part
@@ -164,7 +164,7 @@ def body_of(each: Anatomy, levels: Levels) -> Body:
     return Body(tuple(parts), place, each.z, Drive("omni") if each.loose else None)
 
 
-def _lifted(part: Part) -> Part:
+def _lifted(part: PlanarPart) -> PlanarPart:
     """A part that does not bump into what its body can drive over."""
     if not part.solid or part.high - part.low <= 2.0 * STEP:
         return part

@@ -27,7 +27,7 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.engines.planar.shapes import Part, Point
+from gazelle.engines.planar.shapes import PlanarPart, Point
 from gazelle.engines.planar.solids import Solid, cut, solid_of
 from gazelle.errors import EngineWarning
 
@@ -54,7 +54,7 @@ class Levels:
         return Levels(tuple(level - z for level in self.rays), self.low - z, self.high - z)
 
 
-def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) -> list[Part]:
+def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) -> list[PlanarPart]:
     """Parts of a collision whose shape is at a pose; the levels are in the same frame.
 
     Raises:
@@ -78,7 +78,7 @@ def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) 
     return [] if solid is None else _cut(solid, levels, glow, moving=moving)
 
 
-def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[Part]:
+def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[PlanarPart]:
     """Parts of a shape that stands upright; none if it does not."""
     shape = collision.geometry
     _, _, up = pose.rotate((0.0, 0.0, 1.0))
@@ -106,11 +106,11 @@ def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[Part]:
             yield _prism(corners, pose, 0.0, shape.height, glow)
 
 
-def _prism(ring: Sequence[Point], pose: Pose, low: float, high: float, glow: float) -> Part:
+def _prism(ring: Sequence[Point], pose: Pose, low: float, high: float, glow: float) -> PlanarPart:
     corners = [pose.apply((x, y, low)) for x, y in ring]
     top = pose.apply((0.0, 0.0, high))[2]
     bottom = corners[0][2]
-    return Part(
+    return PlanarPart(
         tuple((x, y) for x, y, _ in corners),
         low=min(bottom, top),
         high=max(bottom, top),
@@ -118,11 +118,11 @@ def _prism(ring: Sequence[Point], pose: Pose, low: float, high: float, glow: flo
     )
 
 
-def _circle(pose: Pose, radius: float, low: float, high: float, glow: float) -> Part:
-    return Part(((pose.x, pose.y),), radius, low=low, high=high, glow=glow)
+def _circle(pose: Pose, radius: float, low: float, high: float, glow: float) -> PlanarPart:
+    return PlanarPart(((pose.x, pose.y),), radius, low=low, high=high, glow=glow)
 
 
-def _sphere(shape: Sphere, pose: Pose, levels: Levels, glow: float) -> list[Part]:
+def _sphere(shape: Sphere, pose: Pose, levels: Levels, glow: float) -> list[PlanarPart]:
     parts = []
     for level in levels.rays:
         square = shape.radius**2 - (level - pose.z) ** 2
@@ -137,11 +137,13 @@ def _sphere(shape: Sphere, pose: Pose, levels: Levels, glow: float) -> list[Part
     return parts
 
 
-def _ghost(part: Part) -> Part:
-    return Part(part.points, part.radius, part.closed, part.low, part.high, part.glow, solid=False)
+def _ghost(part: PlanarPart) -> PlanarPart:
+    return PlanarPart(
+        part.points, part.radius, part.closed, part.low, part.high, part.glow, solid=False
+    )
 
 
-def _cut(solid: Solid, levels: Levels, glow: float, *, moving: bool) -> list[Part]:
+def _cut(solid: Solid, levels: Levels, glow: float, *, moving: bool) -> list[PlanarPart]:
     """Parts of a shape that leans, or of a mesh."""
     heights = solid[0][:, 2]
     bottom, top = float(heights.min()), float(heights.max())
@@ -163,12 +165,12 @@ def _cut(solid: Solid, levels: Levels, glow: float, *, moving: bool) -> list[Par
     hull = points[planar_hull(points)] if len(points) >= 3 else points
     if len(hull) >= 3:
         ring = tuple((float(x), float(y)) for x, y in hull)
-        parts.append(Part(ring, low=bottom, high=top, glow=-1.0))
+        parts.append(PlanarPart(ring, low=bottom, high=top, glow=-1.0))
     return parts
 
 
-def _lines(lines: Floats, low: float, high: float, glow: float, *, solid: bool) -> list[Part]:
+def _lines(lines: Floats, low: float, high: float, glow: float, *, solid: bool) -> list[PlanarPart]:
     return [
-        Part(((a, b), (c, d)), 0.0, closed=False, low=low, high=high, glow=glow, solid=solid)
+        PlanarPart(((a, b), (c, d)), 0.0, closed=False, low=low, high=high, glow=glow, solid=solid)
         for a, b, c, d in lines.tolist()
     ]

@@ -21,13 +21,10 @@ from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.refusals import Refusals
-from gazelle.engines.planar.rolling import Joints, Rolling, Turning
+from gazelle.engines.planar.rolling import Joints
+from gazelle.engines.planar.system_steps import SystemSteps
 from gazelle.errors import EngineError, did_you_mean
-from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
-
-NANOSECONDS = 1_000_000_000
-_WORTH = 4  # times what is worth a thread: from so much work on other threads are woken for it
 
 # Columns of a snapshot for each body: its row, command, velocity, stall. The row holds the cosine
 # and sine of the heading too, which steps advance by themselves.
@@ -86,9 +83,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
         self._casters, self._recent, self._tables = {}, {}, {}
-        self._loops: tuple[Sequence[System], SystemLoop, int] | None = None
-        self._before: tuple[System, ...] = ()
-        self._after: tuple[System, ...] = ()
+        self._steps = SystemSteps(fleet, self._joints, layout.axes)
 
     def _joints(self) -> Joints:
         """Joints and rolling bases as kernels see them."""
@@ -104,21 +99,6 @@ class PlanarEngine(Refusals, PlanarAccess):
             column=np.concatenate([np.zeros(0, np.intp), *(each.columns for each in bases)]),
             matrix=np.vstack([np.zeros((0, 3)), *(each.matrix.T for each in bases)]),
         )
-
-    def _loop_of(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
-        """What makes steps with these systems, and on how many threads; kept for the next time."""
-        if self._loops is None or self._loops[0] != systems:
-            fleet, joints = self._fleet, self._joints()
-            last = [Turning(fleet.bodies, joints)] if self._layout.axes else []
-            early = [each for each in systems if not each.late]
-            late = [each for each in systems if each.late]
-            first = [*early, *self._before, Rolling(fleet.bodies, joints)]
-            made = [*first, *fleet.systems(), *last, *self._after, *late]
-            rows = [(fleet.nworld * each.rows, _WORTH * each.least) for each in systems]
-            heavy = any(count >= least > _WORTH for count, least in rows)
-            loop = SystemLoop(made, fleet.nworld, 1, fleet.pool)
-            self._loops = systems, loop, 0 if heavy else fleet.threads
-        return self._loops[1:]
 
     @property
     def nworld(self) -> int:
@@ -180,9 +160,7 @@ class PlanarEngine(Refusals, PlanarAccess):
 
         Those that are given to ``run`` come before them.
         """
-        around = tuple(before), tuple(after)
-        if around != (self._before, self._after):
-            (self._before, self._after), self._loops = around, None
+        self._steps.surround(before, after)
 
     @property
     def bodies(self) -> dict[str, int]:
@@ -203,14 +181,7 @@ class PlanarEngine(Refusals, PlanarAccess):
             count: Of steps.
             now_ns: Time [ns].
         """
-        count = whole_number("the number of steps", count, 0)
-        if not count:
-            return
-        loop, threads = self._loop_of(systems)
-        loop.step = round(self._fleet.time_step * NANOSECONDS)
-        loop.time = now_ns
-        loop.run(now_ns + count * loop.step, threads)
-        self._fleet.changes += 1
+        self._steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
 
     def update(self, system: System) -> None:
         """Update a system now, whatever its rate, on all threads."""
@@ -303,7 +274,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._recipe = replace(self._recipe, motors={**self._recipe.motors, joint: most})
         held = self._targets[:, axes.start]
         held[np.isnan(held)] = 0.0
-        self._loops = None
+        self._steps.forget()
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``."""
@@ -323,7 +294,7 @@ class PlanarEngine(Refusals, PlanarAccess):
             self._revision += 1
         self._fleet.time_step = step
         self._fleet.sweep = bool(world.profile.speculative_contacts)
-        self._loops = None
+        self._steps.forget()
 
     def _cut_at(self, height: float) -> None:
         """Cut shapes at one more height [m], for rays."""

@@ -17,7 +17,7 @@ from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
-from gazelle.engines.planar.shapes import Part, Table, pieces_of, primitives_of
+from gazelle.engines.planar.shapes import PlanarPart, Table, pieces_of, primitives_of
 from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
 from gazelle.native.loop import SystemLoop
@@ -65,7 +65,7 @@ class Body:
         family: Bodies of one family neither see nor bump each other; None for its own.
     """
 
-    parts: tuple[Part, ...]
+    parts: tuple[PlanarPart, ...]
     pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
     z: float = 0.0
     drive: Drive | None = None
@@ -101,7 +101,7 @@ class Fleet:
     def __init__(
         self,
         bodies: Sequence[Body],
-        statics: Sequence[Part] | Table = (),
+        statics: Sequence[PlanarPart] | Table = (),
         *,
         nworld: int = 1,
         time_step: float = 0.1,
@@ -134,7 +134,7 @@ class Fleet:
         """Fill the tables of what the bodies are; equal parts are stored once."""
         self.kinds = np.zeros((self.nbody, c.KIND_OF_BODY))
         self.drives = np.zeros((self.nbody, c.DRIVE))
-        shapes: dict[tuple[Part, ...], int] = {}
+        shapes: dict[tuple[PlanarPart, ...], int] = {}
         drives: dict[Drive | None, Floats] = {}
         for k, body in enumerate(bodies):
             self.kinds[k, c.FIRST_LOOK] = shapes.setdefault(body.parts, len(shapes))
@@ -389,7 +389,7 @@ def _drive_row(drive: Drive | None) -> Floats:
     return row
 
 
-def _radius_of(parts: Sequence[Part]) -> float:
+def _radius_of(parts: Sequence[PlanarPart]) -> float:
     return max(
         (math.hypot(x, y) + part.radius for part in parts for x, y in part.points), default=0.0
     )

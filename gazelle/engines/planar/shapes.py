@@ -17,7 +17,7 @@ Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class PlanarPart:
     """Something that stands on its outline, in the frame of its body or of the world.
 
     Attributes:
@@ -41,12 +41,12 @@ class Part:
     tag: int = 0
 
     @classmethod
-    def circle(cls, x: float, y: float, radius: float, **others: float) -> Part:
+    def circle(cls, x: float, y: float, radius: float, **others: float) -> PlanarPart:
         """A circle."""
         return cls(((x, y),), radius, **others)  # type: ignore[arg-type]
 
     @classmethod
-    def box(cls, width: float, depth: float, x: float = 0.0, y: float = 0.0) -> Part:
+    def box(cls, width: float, depth: float, x: float = 0.0, y: float = 0.0) -> PlanarPart:
         """A rectangle about (x, y), ``width`` along x [m]."""
         w, d = width / 2.0, depth / 2.0
         return cls(((x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d)))
@@ -117,7 +117,7 @@ class _Rows:
     tags: list[NDArray[np.int64]] = field(default_factory=list)
 
 
-def primitives_of(parts: Iterable[Part]) -> Table:
+def primitives_of(parts: Iterable[PlanarPart]) -> Table:
     """The segments and circles of parts.
 
     Raises:
@@ -143,7 +143,7 @@ def primitives_of(parts: Iterable[Part]) -> Table:
     return Table(np.vstack(found.rows), np.concatenate(found.tags).astype(np.int64))
 
 
-def pieces_of(parts: Iterable[Part]) -> CollisionPieces:
+def pieces_of(parts: Iterable[PlanarPart]) -> CollisionPieces:
     """The convex pieces of the solid parts; lines that enclose nothing bump with nothing."""
     rows: list[list[float]] = []
     corners: list[Floats] = []
@@ -169,7 +169,7 @@ def pieces_of(parts: Iterable[Part]) -> CollisionPieces:
     )
 
 
-def check(part: Part, points: Floats) -> None:
+def check(part: PlanarPart, points: Floats) -> None:
     """Refuse a part that is no shape.
 
     Raises:

@@ -19,7 +19,7 @@ from gazelle.description import (
 )
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.shapes import Part, Table
+from gazelle.engines.planar.shapes import PlanarPart, Table
 from gazelle.engines.planar.stage_walls import parts_of, table_of
 
 _FINEST = 1e-6
@@ -223,7 +223,7 @@ class _View:
 class _Shape:
     """What robots of one macro have in common."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[PlanarPart, ...]
     drive: Drive
     rangers: list[tuple[PlacedStageModel, tuple[StageSensor, ...], list[_View]]]
     moved: bool = False
@@ -332,7 +332,7 @@ class _Maker:
         return _View(which, place, (math.sqrt(variance), share, angle))
 
 
-def _all_parts(own: list[PlacedStageModel]) -> Iterator[Part]:
+def _all_parts(own: list[PlacedStageModel]) -> Iterator[PlanarPart]:
     for placed in own:
         yield from parts_of(placed)
 

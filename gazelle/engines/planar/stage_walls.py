@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StageBitmap, StagePose
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.shapes import Part, Raster, Table, primitives_of
+from gazelle.engines.planar.shapes import PlanarPart, Raster, Table, primitives_of
 from gazelle.formats.terrain import rectangles
 
 _TOUCH = 1e-9
 """In Stage bodies meet, and sensors see, also at the very heights where bodies end [m]."""
 
 
-def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
+def parts_of(placed: PlacedStageModel) -> Iterator[PlanarPart]:
     """The blocks of one model, and the walls of its bitmap as rectangles."""
     yield from blocks_of(placed)
     frame, returns = placed.body_pose, placed.model.returns
@@ -30,7 +30,7 @@ def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
     low_z, high_z = _heights(frame, bitmap.z)
     for left, low, right, high in rectangles(bitmap.cells).tolist():
         x0, x1, y0, y1 = x + left * width, x + right * width, y + low * depth, y + high * depth
-        yield Part(
+        yield PlanarPart(
             _turned(frame, ((x0, y0), (x1, y0), (x1, y1), (x0, y1))),
             low=low_z,
             high=high_z,
@@ -39,12 +39,12 @@ def parts_of(placed: PlacedStageModel) -> Iterator[Part]:
         )
 
 
-def blocks_of(placed: PlacedStageModel) -> Iterator[Part]:
+def blocks_of(placed: PlacedStageModel) -> Iterator[PlanarPart]:
     """The blocks of one model."""
     frame, returns = placed.body_pose, placed.model.returns
     for block in placed.model.blocks:
         low_z, high_z = _heights(frame, block.z)
-        yield Part(
+        yield PlanarPart(
             _turned(frame, block.points),
             low=low_z,
             high=high_z,
@@ -60,7 +60,7 @@ def _heights(frame: StagePose, z: tuple[float, float]) -> tuple[float, float]:
 
 def table_of(models: Iterable[PlacedStageModel]) -> Table:
     """The primitives of models that stand still; of bitmaps only their outlines."""
-    parts: list[Part] = []
+    parts: list[PlanarPart] = []
     pictures: list[tuple[PlacedStageModel, StageBitmap]] = []
     for placed in models:
         if placed.model.bitmap is not None:

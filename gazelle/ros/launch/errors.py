@@ -36,6 +36,12 @@ class MissingArgumentError(SubstitutionError):
         super().__init__(message, hint=hint)
         self.argument = argument
 
+    def ask_for_it_at(self, file: str | None, line: int | None) -> None:
+        """Say that an <include> should give it, unless one is named already."""
+        if self.hint and "include" not in self.hint:
+            self.hint = f"give it in the <include> at {file}:{line}"
+            self.args = (f"{self.args[0].rpartition('; ')[0]}; {self.hint}",)
+
 
 def place_error(error: LaunchError, file: str, line: int, element: str) -> None:
     """Say where an error was found; one that knows its place keeps it."""

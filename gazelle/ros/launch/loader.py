@@ -22,8 +22,7 @@ from gazelle.ros.launch.plan import (
 from gazelle.ros.launch.scope import LaunchScope
 from gazelle.ros.launch.substitution import Substitution
 
-_DEEPEST = 50
-_MACHINE_DEFAULTS = {"true": True, "false": True, "never": False}
+_DEEPEST, _MACHINE_DEFAULTS = 50, {"true": True, "false": True, "never": False}
 _GONE = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
 
 ATTRIBUTES = {
@@ -359,7 +358,8 @@ class _Loader:
         try:
             self._launch(document, inner)
         except MissingArgumentError as error:
-            _explain_missing(error, element, inner)
+            if error.argument in inner.declared:
+                error.ask_for_it_at(element.file, element.line)
             raise
         finally:
             self._depth -= 1
@@ -398,10 +398,3 @@ class _Loader:
                 inner.words.arguments.setdefault(name, default)
             passed.add(name)
         return passed
-
-
-def _explain_missing(error: MissingArgumentError, element: Element, inner: LaunchScope) -> None:
-    """An included file lacks an argument: say who should give it."""
-    if error.argument in inner.declared and error.hint and "include" not in error.hint:
-        error.hint = f"give it in the <include> at {element.file}:{element.line}"
-        error.args = (f"{error.args[0].rpartition('; ')[0]}; {error.hint}",)

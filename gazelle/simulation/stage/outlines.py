@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
-from gazelle.engines.planar.shapes import Part
+from gazelle.engines.planar.shapes import PlanarPart
 from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
 
 
@@ -89,6 +89,6 @@ def distances(x: float, y: float, angles: Floats, there: Outlines) -> Floats:
     return found
 
 
-def _lines_of(part: Part) -> Floats:
+def _lines_of(part: PlanarPart) -> Floats:
     ring = np.asarray(part.points, np.float64)
     return np.hstack((ring, np.roll(ring, -1, axis=0)))

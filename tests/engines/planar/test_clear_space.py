@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
-from gazelle.engines.planar import Body, Fan, Fleet, Mount, Part, Scanner
+from gazelle.engines.planar import Body, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clearing import clearing_of
@@ -169,7 +169,7 @@ def test_a_picture_of_a_million_cells_is_left_out_where_much_more_is_around_it()
 
 
 def test_nothing_static_is_clear_all_over():
-    bodies = [Body((Part.circle(0.0, 0.0, 0.2),), (1.0 * i, 0.0, 0.0)) for i in range(60)]
+    bodies = [Body((PlanarPart.circle(0.0, 0.0, 0.2),), (1.0 * i, 0.0, 0.0)) for i in range(60)]
     scanner = Scanner(Fleet(bodies), Fan(0.0, 1.0, 1, 3.0), [Mount(i) for i in range(60)])
     ranges = scanner.scan()[0, :, 0]
     assert ranges[:-1] == pytest.approx(0.8)
@@ -180,7 +180,7 @@ def test_nothing_static_is_clear_all_over():
 def test_any_number_of_threads_sees_the_same(count):
     rng = np.random.default_rng(8)
     bodies = [
-        Body((Part.box(0.3, 0.2),), (*rng.uniform(-4.0, 4.0, 2), rng.uniform(-3.0, 3.0)))
+        Body((PlanarPart.box(0.3, 0.2),), (*rng.uniform(-4.0, 4.0, 2), rng.uniform(-3.0, 3.0)))
         for _ in range(300)
     ]
     mounts = [Mount(i, yaw=yaw) for i in range(300) for yaw in rng.uniform(-3.0, 3.0, 16)]

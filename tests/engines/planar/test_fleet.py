@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, Part, RangeNoise, Scanner
+from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, PlanarPart, RangeNoise, Scanner
 from gazelle.engines.planar.roaming import Manner, Roaming
 from gazelle.errors import EngineError
 
@@ -17,7 +17,7 @@ SPEEDS = st.floats(-1.5, 1.5)
 
 
 def one(drive, pose=(0.0, 0.0, 0.0), **options):
-    return Fleet([Body((Part.box(0.3, 0.2),), pose, drive=drive)], **options)
+    return Fleet([Body((PlanarPart.box(0.3, 0.2),), pose, drive=drive)], **options)
 
 
 @given(v=SPEEDS, w=SPEEDS, yaw=st.floats(-3.0, 3.0), dt=st.sampled_from([0.01, 0.1, 1.0]))
@@ -92,8 +92,8 @@ def test_bounds_of_a_car_hold_for_its_body_not_its_steering():
 
 
 def test_a_move_into_a_wall_is_not_made_at_all():
-    wall = Part.box(0.1, 4.0, x=1.0)
-    fleet = Fleet([Body((Part.box(0.3, 0.2),), drive=Drive())], [wall])
+    wall = PlanarPart.box(0.1, 4.0, x=1.0)
+    fleet = Fleet([Body((PlanarPart.box(0.3, 0.2),), drive=Drive())], [wall])
     fleet.command[:] = 0.4, 0.0, 0.1
     fleet.step(100)
     before = fleet.pose.copy()
@@ -107,18 +107,18 @@ def test_a_move_into_a_wall_is_not_made_at_all():
 
 
 def test_a_robot_may_be_inside_an_outline():
-    room = Part.box(3.0, 3.0)
-    fleet = Fleet([Body((Part.box(0.3, 0.2),), drive=Drive())], [room])
+    room = PlanarPart.box(3.0, 3.0)
+    fleet = Fleet([Body((PlanarPart.box(0.3, 0.2),), drive=Drive())], [room])
     fleet.command[:] = 0.4, 0.0, 0.0
     fleet.step(20)
     assert fleet.pose[0, 0, 0] == pytest.approx(0.8)
 
 
 def test_bodies_at_other_heights_pass():
-    low = Part(Part.box(0.3, 0.2).points, low=0.0, high=0.2)
+    low = PlanarPart(PlanarPart.box(0.3, 0.2).points, low=0.0, high=0.2)
     fleet = Fleet(
         [Body((low,), drive=Drive()), Body((low,), (1.0, 0.0, 0.0), z=0.2)],
-        [Part(Part.box(0.3, 0.3, x=2.0).points, low=0.2, high=1.0)],
+        [PlanarPart(PlanarPart.box(0.3, 0.3, x=2.0).points, low=0.2, high=1.0)],
     )
     fleet.command[0, 0] = 0.5, 0.0, 0.0
     fleet.step(100)
@@ -135,10 +135,10 @@ def outline(part, x, y, yaw):
 
 
 SHAPES = [
-    (Part.box(0.5, 0.3),),
-    (Part.circle(0.1, 0.0, 0.2),),
-    (Part(((-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2))), Part.circle(0.0, 0.3, 0.1)),
-    (Part(((-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (0.1, 0.3), (0.1, -0.1), (-0.3, -0.1))),),
+    (PlanarPart.box(0.5, 0.3),),
+    (PlanarPart.circle(0.1, 0.0, 0.2),),
+    (PlanarPart(((-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2))), PlanarPart.circle(0.0, 0.3, 0.1)),
+    (PlanarPart(((-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (0.1, 0.3), (0.1, -0.1), (-0.3, -0.1))),),
 ]
 
 
@@ -152,8 +152,8 @@ def test_robots_never_overlap_after_a_step(seed, count, dt):
         pose = (1.0 * (i % side), 1.0 * (i // side), rng.uniform(-3.0, 3.0))
         kind = ("diff", "omni")[int(rng.integers(2))]
         bodies.append(Body(SHAPES[int(rng.integers(4))], pose, drive=Drive(kind)))
-    walls = [Part.box(side + 0.2, side + 0.2, x=(side - 1) / 2, y=(side - 1) / 2)]
-    walls += [Part.circle(x + 0.5, y + 0.5, 0.08) for x in range(2) for y in range(2)]
+    walls = [PlanarPart.box(side + 0.2, side + 0.2, x=(side - 1) / 2, y=(side - 1) / 2)]
+    walls += [PlanarPart.circle(x + 0.5, y + 0.5, 0.08) for x in range(2) for y in range(2)]
     fleet = Fleet(bodies, walls, time_step=dt, threads=1)
     stalls = 0
     for _ in range(12):
@@ -184,12 +184,14 @@ def check(fleet, bodies, walls):
 def roam(threads, nworld=1, count=300):
     rng = np.random.default_rng(3)
     side = math.ceil(math.sqrt(count))
-    shape = (Part.box(0.25, 0.25),)
+    shape = (PlanarPart.box(0.25, 0.25),)
     bodies = [
         Body(shape, (0.8 * (i % side), 0.8 * (i // side), rng.uniform(-3, 3)), drive=Drive())
         for i in range(count)
     ]
-    room = Part.box(0.8 * side + 0.4, 0.8 * side + 0.4, x=0.4 * side - 0.4, y=0.4 * side - 0.4)
+    room = PlanarPart.box(
+        0.8 * side + 0.4, 0.8 * side + 0.4, x=0.4 * side - 0.4, y=0.4 * side - 0.4
+    )
     fleet = Fleet(bodies, [room], nworld=nworld, threads=threads, euler=True)
     mounts = [Mount(i) for i in range(count)]
     scanner = Scanner(
@@ -211,8 +213,10 @@ def test_any_number_of_threads_gives_the_same_bits():
 
 def test_worlds_of_a_batch_are_as_they_are_alone():
     def drive(nworld):
-        bodies = [Body((Part.box(0.3, 0.2),), (0.5 * i, 0.0, i), drive=Drive()) for i in range(5)]
-        fleet = Fleet(bodies, [Part.box(4.0, 3.0, x=1.0)], nworld=nworld, threads=2)
+        bodies = [
+            Body((PlanarPart.box(0.3, 0.2),), (0.5 * i, 0.0, i), drive=Drive()) for i in range(5)
+        ]
+        fleet = Fleet(bodies, [PlanarPart.box(4.0, 3.0, x=1.0)], nworld=nworld, threads=2)
         fleet.command[:] = np.linspace(-0.5, 0.5, 15).reshape(5, 3)
         fleet.step(30)
         return fleet.pose
@@ -237,7 +241,7 @@ def test_what_cannot_be_is_refused():
     with pytest.raises(EngineError, match="drive must be one of"):
         one(Drive("hover"))
     with pytest.raises(EngineError, match="at least 3"):
-        Fleet([Body((Part(((0.0, 0.0), (1.0, 0.0))),))])
+        Fleet([Body((PlanarPart(((0.0, 0.0), (1.0, 0.0))),))])
     with pytest.raises(EngineError, match="nworld"):
         Fleet([], nworld=0)
     with pytest.raises(EngineError, match="threads"):
@@ -245,7 +249,7 @@ def test_what_cannot_be_is_refused():
 
 
 def test_memory_and_loading_stay_small():
-    shape = (Part.box(0.25, 0.25),)
+    shape = (PlanarPart.box(0.25, 0.25),)
     drive = Drive()
     bodies = [
         Body(shape, (1.0 * (i % 100), 1.0 * (i // 100), 0.0), drive=drive) for i in range(5000)
@@ -276,10 +280,10 @@ def test_roaming_alone_and_in_a_crew_is_the_same(noise):
     poses = []
     for threads in (1, 2):
         bodies = [
-            Body((Part.box(0.3, 0.2),), (0.6 * (i % 13), 0.6 * (i // 13), i), drive=Drive())
+            Body((PlanarPart.box(0.3, 0.2),), (0.6 * (i % 13), 0.6 * (i // 13), i), drive=Drive())
             for i in range(150)
         ]
-        fleet = Fleet(bodies, [Part.box(9.0, 9.0, x=3.6, y=3.6)], threads=threads)
+        fleet = Fleet(bodies, [PlanarPart.box(9.0, 9.0, x=3.6, y=3.6)], threads=threads)
         mounts = [Mount(i) for i in range(150)]
         scanner = Scanner(fleet, Fan.spread(3.0, 40, 3.0), mounts, noise=noise)
         Roaming(fleet, scanner).run(25)

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.engines.planar import Body, Drive, Fleet, Part
+from gazelle.engines.planar import Body, Drive, Fleet, PlanarPart
 
 STEPS = 40
 SHAPES = {
-    "disc": Part.circle(0.02, 0.0, 0.15),
-    "bar": Part(((-0.3, -0.05), (0.3, -0.05), (0.3, 0.05), (-0.3, 0.05))),
+    "disc": PlanarPart.circle(0.02, 0.0, 0.15),
+    "bar": PlanarPart(((-0.3, -0.05), (0.3, -0.05), (0.3, 0.05), (-0.3, 0.05))),
 }
 BOUNDS = {
     "free": {},
@@ -24,8 +24,11 @@ BOUNDS = {
 def clutter(rng, count):
     """Walls and pillars in a square of 4 m."""
     ends = rng.uniform(-2.0, 2.0, (count, 4))
-    walls = [Part(((a, b), (c, d)), closed=False) for a, b, c, d in ends]
-    return [*walls, *(Part.circle(*rng.uniform(-2.0, 2.0, 2), 0.2) for _ in range(count // 3))]
+    walls = [PlanarPart(((a, b), (c, d)), closed=False) for a, b, c, d in ends]
+    return [
+        *walls,
+        *(PlanarPart.circle(*rng.uniform(-2.0, 2.0, 2), 0.2) for _ in range(count // 3)),
+    ]
 
 
 def run(seed, *, shape, kind, bounds, walls, nworld, forget, euler=False, threads=1):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gazelle import EngineError, native
-from gazelle.engines.planar import Body, Fleet, Part
+from gazelle.engines.planar import Body, Fleet, PlanarPart
 from gazelle.engines.planar.pictures import CameraMount, Lens, Painter, Scenery, prism
 
 LENS = Lens(48, 36, (1.3, 1.0), 0.3, 30.0)
@@ -28,7 +28,7 @@ def outline(random, away):
 def painted(seed, threads=1):
     """A painter of two worlds with three bodies, its views, and its scenery."""
     random = np.random.default_rng(seed)
-    fleet = Fleet([Body((Part.circle(0.0, 0.0, 0.1),))] * 3, nworld=2, threads=threads)
+    fleet = Fleet([Body((PlanarPart.circle(0.0, 0.0, 0.1),))] * 3, nworld=2, threads=threads)
     for body in range(3):
         fleet.place(body, random.normal(0.0, 2.0, (2, 3)))
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.engines.planar import Body, Fan, Fleet, Mount, Part, RangeNoise, Scanner
+from gazelle.engines.planar import Body, Fan, Fleet, Mount, PlanarPart, RangeNoise, Scanner
 from gazelle.errors import EngineError
 
 shapely = pytest.importorskip("shapely")
@@ -61,20 +61,20 @@ def test_ranges_are_exact_to_a_nanometre(seed, fan, many, begin):
     for _ in range(60 if many else 6):
         points = moved(polygon(rng), *rng.uniform(-9.0, 9.0, 2), 0.0)
         rings.append(shapely.LinearRing(points))
-        statics.append(Part(tuple(points)))
+        statics.append(PlanarPart(tuple(points)))
     for _ in range(20 if many else 3):
         x, y = rng.uniform(-9.0, 9.0, 2)
         circles.append((x, y, rng.uniform(0.05, 0.5)))
-        statics.append(Part.circle(*circles[-1]))
+        statics.append(PlanarPart.circle(*circles[-1]))
     ends = rng.uniform(-9.0, 9.0, (2, 2))
     rings.append(shapely.LineString(ends))
-    statics.append(Part(tuple(map(tuple, ends)), closed=False))
-    bodies = [Body((Part.box(0.1, 0.1),), tuple(rng.uniform(-4.0, 4.0, 3)))]
+    statics.append(PlanarPart(tuple(map(tuple, ends)), closed=False))
+    bodies = [Body((PlanarPart.box(0.1, 0.1),), tuple(rng.uniform(-4.0, 4.0, 3)))]
     for _ in range(8):
         pose = rng.uniform(-5.0, 5.0, 3)
         shape = polygon(rng, 0.4)
         rings.append(shapely.LinearRing(moved(shape, *pose)))
-        bodies.append(Body((Part(shape),), tuple(pose)))
+        bodies.append(Body((PlanarPart(shape),), tuple(pose)))
     fleet = Fleet(bodies, statics)
     mount = Mount(0, 0.05, -0.02, 0.3)
     ranges = Scanner(fleet, fan, [mount]).scan()[0, 0]
@@ -92,7 +92,7 @@ def test_a_box_of_ten_metres_is_no_worse_than_stages(resolution):
     """Stage 4.3 is 4.0 mm off on average at 0.02 m; here resolution does not matter."""
     rng = np.random.default_rng(7)
     poses = np.hstack((rng.uniform(-4.5, 4.5, (20, 2)), rng.uniform(-3.0, 3.0, (20, 1))))
-    wall = Part(((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)))
+    wall = PlanarPart(((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)))
     fleet = Fleet([Body((), tuple(pose), family=1) for pose in poses], [wall], cell=resolution * 20)
     fan = Fan.spread(2 * math.pi, 361, 30.0)
     ranges = Scanner(fleet, fan, [Mount(i) for i in range(20)]).scan()[0]
@@ -104,7 +104,7 @@ def test_a_box_of_ten_metres_is_no_worse_than_stages(resolution):
 
 
 def test_a_body_sees_no_one_of_its_family_and_all_others():
-    ring = Part.box(1.0, 1.0)
+    ring = PlanarPart.box(1.0, 1.0)
     bodies = [
         Body((ring,), (0.0, 0.0, 0.0), family=3),
         Body((ring,), (2.0, 0.0, 0.0), family=3),
@@ -115,11 +115,11 @@ def test_a_body_sees_no_one_of_its_family_and_all_others():
 
 
 def test_rays_pass_over_what_is_low_and_what_is_invisible():
-    low = Part.box(1.0, 1.0, x=2.0)
+    low = PlanarPart.box(1.0, 1.0, x=2.0)
     parts = [
-        Part(low.points, low=0.0, high=0.3),
-        Part(Part.box(1.0, 1.0, x=4.0).points, glow=-1.0),
-        Part(Part.box(1.0, 1.0, x=6.0).points, low=0.0, high=1.0, glow=7.0, tag=42),
+        PlanarPart(low.points, low=0.0, high=0.3),
+        PlanarPart(PlanarPart.box(1.0, 1.0, x=4.0).points, glow=-1.0),
+        PlanarPart(PlanarPart.box(1.0, 1.0, x=6.0).points, low=0.0, high=1.0, glow=7.0, tag=42),
     ]
     fleet = Fleet([Body((), z=0.1)], parts)
     fan = Fan(0.0, 1.0, 1, 9.0)
@@ -132,7 +132,7 @@ def test_rays_pass_over_what_is_low_and_what_is_invisible():
 
 
 def test_what_is_met_is_told():
-    bodies = [Body(()), Body((Part.circle(0.0, 0.0, 0.5, glow=3.0, tag=9),), (2.0, 0.0, 0.0))]
+    bodies = [Body(()), Body((PlanarPart.circle(0.0, 0.0, 0.5, glow=3.0, tag=9),), (2.0, 0.0, 0.0))]
     scanner = Scanner(Fleet(bodies, nworld=2), Fan.spread(6.0, 25, 9.0), [Mount(0)], named=True)
     scanner.scan()
     assert scanner.bodies()[1, 0, 12] == 1
@@ -143,7 +143,7 @@ def test_what_is_met_is_told():
 
 
 def test_some_worlds_are_scanned_alone():
-    fleet = Fleet([Body((), (0.0, 0.0, 0.0))], [Part.circle(3.0, 0.0, 1.0)], nworld=4)
+    fleet = Fleet([Body((), (0.0, 0.0, 0.0))], [PlanarPart.circle(3.0, 0.0, 1.0)], nworld=4)
     fleet.place(0, [[0.5 * w, 0.0, 0.0] for w in range(4)])
     scanner = Scanner(fleet, Fan(0.0, 1.0, 1, 9.0), [Mount(0)])
     assert scanner.scan()[:, 0, 0] == pytest.approx([2.0, 1.5, 1.0, 0.5])
@@ -151,14 +151,14 @@ def test_some_worlds_are_scanned_alone():
 
 
 def test_a_scan_from_inside_meets_the_far_side_from_inside():
-    fleet = Fleet([Body(())], [Part.circle(0.2, 0.0, 1.0)])
+    fleet = Fleet([Body(())], [PlanarPart.circle(0.2, 0.0, 1.0)])
     scanner = Scanner(fleet, Fan.spread(6.0, 99, 9.0), [Mount(0)], named=True)
     assert scanner.scan()[0, 0, 49] == pytest.approx(1.2)
     assert (scanner.names < 0.0).all()
 
 
 def test_noise_has_its_deviation_and_is_the_same_again():
-    wall = Part(((4.0, -50.0), (4.0, 50.0)), closed=False)
+    wall = PlanarPart(((4.0, -50.0), (4.0, 50.0)), closed=False)
 
     def measure(seed):
         fleet = Fleet([Body(())], [wall])
@@ -190,7 +190,9 @@ def test_a_crowd_of_statics_hides_none_that_can_be_seen():
     rng = np.random.default_rng(5)
     lines = rng.uniform(-12.0, 12.0, (700, 2))
     ends = lines + rng.uniform(-0.8, 0.8, lines.shape)
-    statics = [Part((tuple(a), tuple(b)), closed=False) for a, b in zip(lines, ends, strict=True)]
+    statics = [
+        PlanarPart((tuple(a), tuple(b)), closed=False) for a, b in zip(lines, ends, strict=True)
+    ]
     poses = [(0.0, 0.0, 0.3), (-11.9, 3.0, 0.0), (14.0, -2.0, 3.0), (5.0, 13.5, -1.6)]
     fleet = Fleet([Body((), pose) for pose in poses], statics)
     mounts = [Mount(i) for i in range(len(poses))]
@@ -205,9 +207,12 @@ def test_a_crowd_of_statics_hides_none_that_can_be_seen():
 
 def test_single_beams_measure_what_fans_do():
     rng = np.random.default_rng(6)
-    statics = [Part.box(*rng.uniform(0.1, 0.6, 2), *rng.uniform(-9.0, 9.0, 2)) for _ in range(80)]
+    statics = [
+        PlanarPart.box(*rng.uniform(0.1, 0.6, 2), *rng.uniform(-9.0, 9.0, 2)) for _ in range(80)
+    ]
     bodies = [
-        Body((Part.circle(0.1, 0.0, 0.3),), tuple(rng.uniform(-9.0, 9.0, 3))) for _ in range(60)
+        Body((PlanarPart.circle(0.1, 0.0, 0.3),), tuple(rng.uniform(-9.0, 9.0, 3)))
+        for _ in range(60)
     ]
     fleet = Fleet(bodies, statics)
     mounts = [Mount(i, yaw=yaw) for i in range(60) for yaw in (0.0, 0.25 * math.pi, 2.0)]

@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 from gazelle import Pose, Simulation
 from gazelle.description import Box
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
-from gazelle.engines.planar.shapes import Part, slimness
+from gazelle.engines.planar.shapes import PlanarPart, slimness
 from gazelle.simulation.stage import StageSimulation
 
 HALF = 2.0  # of the room's side [m]
 BODIES = {
-    "disc": Part.circle(0.0, 0.0, 0.1),
-    "box": Part(((-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1))),
-    "bar": Part(((-0.5, -0.05), (0.5, -0.05), (0.5, 0.05), (-0.5, 0.05))),
+    "disc": PlanarPart.circle(0.0, 0.0, 0.1),
+    "box": PlanarPart(((-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1))),
+    "bar": PlanarPart(((-0.5, -0.05), (0.5, -0.05), (0.5, 0.05), (-0.5, 0.05))),
 }
 
 
@@ -28,7 +28,7 @@ def room():
     """Four walls without thickness."""
     corners = [(-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF)]
     pairs = zip(corners, corners[1:] + corners[:1], strict=True)
-    return [Part(pair, closed=False) for pair in pairs]
+    return [PlanarPart(pair, closed=False) for pair in pairs]
 
 
 def fleet(shape, kind="omni", **options):
@@ -110,7 +110,9 @@ def test_a_world_does_not_depend_on_how_fast_others_go():
 def test_a_crowd_by_many_threads_is_as_by_one():
     random = np.random.default_rng(1)
     places = [(x, y) for x in np.linspace(-1.8, 1.8, 13) for y in np.linspace(-1.8, 1.8, 13)]
-    bodies = [Body((Part.circle(0, 0, 0.05),), (x, y, 0.0), drive=Drive("omni")) for x, y in places]
+    bodies = [
+        Body((PlanarPart.circle(0, 0, 0.05),), (x, y, 0.0), drive=Drive("omni")) for x, y in places
+    ]
     made = [Fleet(bodies, room(), sweep=True, threads=count) for count in (1, 2)]
     for _ in range(5):
         command = random.uniform(-10.0, 10.0, (1, len(bodies), 3))

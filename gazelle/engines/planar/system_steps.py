@@ -1,0 +1,69 @@
+"""Steps of a fleet, with systems that are updated before, in and after them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.rolling import Joints, Rolling, Turning
+from gazelle.native.loop import SystemLoop
+from gazelle.native.system import System
+
+NANOSECONDS = 1_000_000_000
+_WORTH = 4  # times what is worth a thread: from so much work on other threads are woken for it
+
+
+class SystemSteps:
+    """Makes steps of a fleet and of joints; what it is made of is kept from call to call.
+
+    Args:
+        fleet: Moves bodies.
+        joints: Gives joints and rolling bases as kernels see them.
+        axes: How many joints' axes there are.
+    """
+
+    def __init__(self, fleet: Fleet, joints: Callable[[], Joints], axes: int) -> None:
+        self._fleet, self._joints, self._axes = fleet, joints, axes
+        self._before: tuple[System, ...] = ()
+        self._after: tuple[System, ...] = ()
+        self._kept: tuple[Sequence[System], SystemLoop, int] | None = None
+
+    def forget(self) -> None:
+        """Joints or the step changed: put all together anew."""
+        self._kept = None
+
+    def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
+        """Have systems updated at the beginning and the end of every step, besides those given."""
+        around = tuple(before), tuple(after)
+        if around != (self._before, self._after):
+            (self._before, self._after), self._kept = around, None
+
+    def make(self, systems: Sequence[System], count: int, now_ns: int) -> None:
+        """Make steps.
+
+        Args:
+            systems: Updated whenever they are due, in this order.
+            count: How many.
+            now_ns: Time [ns].
+        """
+        if not count:
+            return
+        if self._kept is None or self._kept[0] != systems:
+            self._kept = systems, *self._put_together(systems)
+        _, loop, threads = self._kept
+        loop.step = round(self._fleet.time_step * NANOSECONDS)
+        loop.time = now_ns
+        loop.run(now_ns + count * loop.step, threads)
+        self._fleet.changes += 1
+
+    def _put_together(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
+        """What makes steps with these systems, and on how many threads."""
+        fleet, joints = self._fleet, self._joints()
+        last = [Turning(fleet.bodies, joints)] if self._axes else []
+        early = [each for each in systems if not each.late]
+        late = [each for each in systems if each.late]
+        first = [*early, *self._before, Rolling(fleet.bodies, joints)]
+        made = [*first, *fleet.systems(), *last, *self._after, *late]
+        rows = [(fleet.nworld * each.rows, _WORTH * each.least) for each in systems]
+        heavy = any(count >= least > _WORTH for count, least in rows)
+        return SystemLoop(made, fleet.nworld, 1, fleet.pool), 0 if heavy else fleet.threads
