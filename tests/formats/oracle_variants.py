@@ -357,6 +357,14 @@ def _painted(material, name=""):
     )
 
 
+_LAMP = (
+    "<gazebo><model name='lamp'><pose>1 0 0 0 0 .5</pose><link name='body'><pose>0 0 1 0 0 0"
+    "</pose></link></model></gazebo>"
+)
+_ON = (
+    "<gazebo><joint name='{}' type='fixed'><parent>a</parent><child>lamp::body</child></joint>"
+    "</gazebo>"
+)
 _WHOLE = {
     "named collisions": _LUMPS
     + "".join(gazebo(link, f"<mu1>.{n}</mu1><kp>{n}e5</kp>") for n, link in enumerate("abc", 1)),
@@ -405,6 +413,7 @@ _WHOLE = {
     ),
     "plugin of a visual": urdf_link("a", inertial(1) + _painted(_BLUE))
     + gazebo("a", f"<visual>{_PLUGIN.format('<x>1</x>')}</visual>"),
+    "a model on a link": urdf_link("a", inertial(1)) + _LAMP + _ON.format("on"),
     "fixed to the world": "<link name='world'/>"
     + urdf_link("a", inertial(1) + _painted(_BLUE))
     + urdf_link("b", inertial(1))

@@ -353,3 +353,15 @@ def test_a_box_without_size_is_left_out_with_a_word():
     with pytest.warns(FormatWarning, match="a box without size is left out"):
         m = urdf(urdf_link("a", f"{INERTIAL}{nothing}<collision>{BOX}</collision>"))
     assert [each.geometry for each in m.links[0].collisions] == [Box((1, 1, 1))]
+
+
+@pytest.mark.parametrize("name", ["on", "lamp"])
+@pytest.mark.parametrize("model_first", [True, False])
+def test_a_model_within_a_robot_and_the_joint_that_holds_it(name, model_first):
+    """The joint may be called as the model is."""
+    lamp = "<gazebo><model name='lamp'><pose>1 0 0 0 0 0</pose><link name='body'/></model></gazebo>"
+    on = f"<joint name='{name}' type='fixed'><parent>a</parent><child>lamp::body</child></joint>"
+    parts = (lamp, f"<gazebo>{on}</gazebo>")
+    m = urdf(urdf_link("a") + "".join(parts if model_first else reversed(parts)))
+    assert [(inner.name, inner.pose) for inner in m.models] == [("lamp", Pose(1.0))]
+    assert (joint(m, name).parent, joint(m, name).child) == ("a", "lamp::body")

@@ -37,7 +37,7 @@ JOINT = {
 """Children on a joint."""
 
 MODEL = {
-    "allow_auto_disable", "canonicalBody", "enable_wind", "gripper", "joint", "link", "plugin",
+    "allow_auto_disable", "canonicalBody", "enable_wind", "gripper", "joint", "link", "model", "plugin",
     "self_collide", "static",
 }  # fmt: skip
 """Children of a ``<gazebo>`` without a reference."""

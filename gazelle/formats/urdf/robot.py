@@ -24,7 +24,14 @@ from gazelle.formats.sdf.build import made, with_child
 from gazelle.formats.sdf.frames import MODEL, Scope
 from gazelle.formats.sdf.joint import read_joint_physics, read_joints
 from gazelle.formats.sdf.link import read_link
-from gazelle.formats.sdf.model_frames import draft_part, name_frames
+from gazelle.formats.sdf.model import read_model
+from gazelle.formats.sdf.model_frames import (
+    ModelFrames,
+    add_model,
+    draft_model,
+    draft_part,
+    name_frames,
+)
 from gazelle.formats.sdf.own import fixed_whole
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
@@ -46,6 +53,8 @@ from gazelle.formats.urdf.transmission import read_transmission
 from gazelle.formats.urdf.tree import ONLY_MACROS, LumpedLink, UrdfTree, bodies, read_tree
 from gazelle.formats.urdf.upright import upright
 
+_SDF = (1, 7)
+"""The version that SDF within a URDF is read as."""
 _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "projector"}
 
 
@@ -274,8 +283,7 @@ def _with_model_extensions(
     sdf = Parameters("model", children=tuple(reversed(nodes)))
     scope = Scope(MODEL, canonical=model.links[0].name if model.links else "")
     name_frames(scope, model)
-    for node in nodes:
-        draft_part(node, scope)
+    nested = _draft_parts(nodes, scope, robot.reading)
     static = extensions.yes("", "static")
     return replace(
         model,
@@ -289,8 +297,27 @@ def _with_model_extensions(
         ),
         joints=(
             *model.joints,
-            *read_joints(Parameters("model", children=tuple(nodes)), scope, (1, 7), robot.reading),
+            *read_joints(Parameters("model", children=tuple(nodes)), scope, _SDF, robot.reading),
         ),
+        models=tuple(read_model(inner, scope, robot.reading) for inner in nested),
         plugins=tuple(map(read_plugin, plugin_nodes)),
         extras=tuple(node for node in nodes if node.tag == "gripper"),
     )
+
+
+def _draft_parts(nodes: list[Parameters], scope: Scope, reading: Reading) -> list[ModelFrames]:
+    """The SDF models among some elements; the scope knows the frames of all of them then.
+
+    A joint may be called as the model that it holds, and means that model's links.
+    """
+    nested = [draft_model(node, _SDF, reading, _leave_out) for node in nodes if node.tag == "model"]
+    for inner in nested:
+        add_model(scope, inner)
+    for node in nodes:
+        draft_part(node, scope)
+    return nested
+
+
+def _leave_out(node: Parameters, _: tuple[int, int], reading: Reading) -> None:
+    """What an SDF model within a URDF includes."""
+    reading.note("an <include> within a URDF is left out", node)
