@@ -26,6 +26,7 @@ from gazelle.envs.errors import ClosedEnvError, ResetNeededError
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.registry import register_all, task_ids
+from gazelle.envs.simulation_task import Outcome, SimulationTask
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
@@ -36,9 +37,11 @@ __all__ = [
     "FloorPlan",
     "GoalTable",
     "ObservationPart",
+    "Outcome",
     "PolicyContract",
     "ResetNeededError",
     "ScanRule",
+    "SimulationTask",
     "TaskEnv",
     "TaskVectorEnv",
     "Transition",

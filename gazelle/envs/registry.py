@@ -52,7 +52,17 @@ def _agv_fleet() -> RegisteredTask:
     )
 
 
-ENTRIES = (*_turtlebot3(), _agv_fleet())
+def _cartpole() -> RegisteredTask:
+    home = "gazelle.envs.cartpole.envs"
+    return RegisteredTask(
+        id="gazelle/CartPoleStayUp-v0",
+        env=f"{home}:CartPoleStayUpEnv",
+        vector_env=f"{home}:CartPoleStayUpVectorEnv",
+        max_episode_steps=1000,
+    )
+
+
+ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole())
 
 
 def register_all() -> None:

@@ -119,6 +119,22 @@ class JointHandle:
         return self._engine.joint_velocity(self.name, worlds)
 
     @between_steps
+    def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Put it somewhere in some worlds (all if None) [m or rad], shape as `positions` or (axes,)."""
+        width = self.positions(np.array([0])).shape[1]
+        count = size_of(worlds, self._engine.nworld)
+        what = f"the position of joint '{self.name}'"
+        self._engine.set_joint_position(self.name, finite(what, position, width, count), worlds)
+
+    @between_steps
+    def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Give it a velocity in some worlds [m/s or rad/s], shape as `velocities` or (axes,)."""
+        count = size_of(worlds, self._engine.nworld)
+        what = f"the velocity of joint '{self.name}'"
+        given = finite(what, velocity, self.axes, count, alike=True)
+        self._engine.set_joint_velocity(self.name, given, worlds)
+
+    @between_steps
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
         """What the child exerts on the parent, about the joint's origin, in the world frame."""
         return self._engine.joint_wrench(self.name, worlds)

@@ -182,6 +182,11 @@ RECIPES: dict[str, Recipe] = {
         gamma=0.99,
         settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
     ),
+    "CartPoleStayUp": Recipe(
+        steps=300_000,
+        learning_rate=2e-3,
+        settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
+    ),
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),
     "TurtleBot3Stage2": _NAVIGATION,
     "TurtleBot3Stage3": _NAVIGATION,

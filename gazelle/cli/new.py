@@ -1,0 +1,64 @@
+"""Write the beginning of something of yours into this folder. There is one kind: a
+task, with a robot, a test, and a pole that a cart learns to keep up in a minute.
+
+  gazelle new task Balance
+"""  # noqa: D205  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from importlib import resources
+from pathlib import Path
+
+from gazelle.cli import showing
+from gazelle.errors import TaskError
+
+_FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("kind", choices=["task"], metavar="task", help="what: a task")
+    parser.add_argument("name", metavar="NAME", help="what it is called, such as Balance")
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, default=Path(), help="folder (default: this one)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Do it; returns the exit code."""
+    files = write_task(args.name, args.out)
+    sys.stdout.write("".join(f"wrote {file}\n" for file in files))
+    program, task = showing.program(), f"{files[0]}:my/{args.name}-v0"
+    sys.stdout.write(
+        f"train it:   {program} train {task}\n"
+        f"test it:    python -m pytest {files[-1]}\n"
+        "change it:  what is seen, done and rewarded is in the first file\n"
+    )
+    return 0
+
+
+def write_task(name: str, folder: Path) -> list[Path]:
+    """Write a task, its robot and its test; all or nothing.
+
+    Raises:
+        TaskError: The name cannot be a class's, or a file is there already.
+    """
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name):
+        hint = "letters and digits, such as Balance"
+        raise TaskError(f"'{name}' cannot be the name of a task", hint=hint)
+    stem = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+    wanted = {folder / pattern.format(stem): source for source, pattern in _FILES.items()}
+    for file in wanted:
+        if file.exists():
+            hint = "give another name, or another folder with --out"
+            raise TaskError(f"{file} is there already", hint=hint)
+    folder.mkdir(parents=True, exist_ok=True)
+    home = resources.files("gazelle.cli") / "templates"
+    for file, source in wanted.items():
+        text = (home / f"{source}.txt").read_text(encoding="utf-8")
+        text = text.replace("TESTFILE", f"test_{stem}").replace("TASKFILE", stem)
+        file.write_text(text.replace("NAME", name), encoding="utf-8")
+    return list(wanted)

@@ -1,0 +1,189 @@
+"""A task in a simulation of its own: a subclass says what is seen, done, and what comes of it."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass, field
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
+from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.errors import TaskError
+from gazelle.sensors import View, look_at
+from gazelle.simulation import Simulation
+from gazelle.streams import Stream
+
+_VIEW = View(look_at((3.0, -3.0, 2.0), (0.0, 0.0, 0.5)), width=480, height=400, samples=1)
+_CLOSE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a control step was worth; arrays over worlds.
+
+    Attributes:
+        reward: Shape (nworld,).
+        terminated: Whether the episode came to its end, shape (nworld,).
+        info: More arrays, shape (nworld, ...), such as ``is_success``.
+    """
+
+    reward: Floats
+    terminated: Bools
+    info: Info = field(default_factory=dict)
+
+
+class SimulationTask(BatchedTask):
+    """One task in all worlds of a simulation, which it owns.
+
+    A subclass sets ``observation_space`` and ``action_space`` and says what happens in `start`,
+    `observe`, `act` and `outcome`, all on arrays over worlds; resets, seeds, saved states, pickles
+    and pictures come with this class.
+
+    Args:
+        simulation: Where it happens, as it is at the start of every episode.
+        control_period: Simulated time of a control step [s], a multiple of the physics step.
+        max_episode_steps: Control steps until an episode is truncated; None for no limit.
+
+    Raises:
+        TaskError: The control period is no multiple of the physics step.
+
+    Attributes:
+        simulation: Where it happens.
+        memory: Arrays that the task keeps between steps, by name; they are saved with it.
+        view: From where pictures are taken.
+    """
+
+    view: View = _VIEW
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        *,
+        control_period: float,
+        max_episode_steps: int | None = None,
+    ) -> None:
+        super().__init__(simulation.nworld, max_episode_steps)
+        step = simulation.engine.time_step
+        if (
+            control_period < step
+            or abs(round(control_period / step) * step - control_period) > _CLOSE
+        ):
+            raise TaskError(
+                f"control_period {control_period} s is no multiple of the step {step} s"
+            )
+        self.simulation = simulation
+        self.control_period = control_period
+        self.memory: dict[str, NDArray[Any]] = {}
+        self._stream = Stream(simulation.seed, type(self).__name__, simulation.nworld)
+
+    def start(self, worlds: Worlds) -> None:
+        """Change what an episode begins with, after these worlds were reset; shape (n,)."""
+
+    @abstractmethod
+    def observe(self, worlds: Worlds | None) -> Floats:
+        """What is seen in these worlds (all if None), shape (n, size)."""
+
+    @abstractmethod
+    def act(self, actions: NDArray[Any]) -> None:
+        """Command what the control step does; int64 of shape (nworld,), or float64 of (nworld, n)."""
+
+    @abstractmethod
+    def outcome(self, observation: Floats32) -> Outcome:
+        """What came of the step, given what is seen after it, shape (nworld, size)."""
+
+    def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:
+        """Random numbers for these worlds, shape (n, count): those of a world do not depend on others."""
+        return low + (high - low) * self._stream.uniform(count, worlds)
+
+    @property
+    def lasting(self) -> Bools:
+        """Where the running control step is the last one of its episode's time, shape (nworld,)."""
+        if self.max_episode_steps is None:
+            return np.zeros(self.nworld, np.bool_)
+        return self.elapsed + 1 >= self.max_episode_steps
+
+    def render(self, world: int) -> NDArray[np.uint8]:
+        """A picture of one world from ``view``."""
+        return self.simulation.render(self.view, world)
+
+    def close(self) -> None:
+        """Free the simulation; a second call does nothing."""
+        self.simulation.close()
+
+    def _seed(self, seed: int) -> None:
+        self.simulation.reset(seed=seed)
+        self._stream = Stream(seed, type(self).__name__, self.nworld)
+
+    def _begin(self, worlds: Worlds) -> None:
+        self.simulation.reset(worlds)
+        self.start(worlds)
+
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
+        return self._seen(worlds), {}
+
+    def _act(self, actions: ArrayLike) -> Verdict:
+        self.act(checked_actions(actions, self.action_space, self.nworld))
+        self.simulation.run(self.control_period)
+        observation = self._seen(None)
+        came = self.outcome(observation)
+        return Verdict(observation, came.reward, came.terminated, dict(came.info))
+
+    def _seen(self, worlds: Worlds | None) -> Floats32:
+        seen = np.asarray(self.observe(worlds), dtype=np.float32)
+        shape = (self.nworld if worlds is None else len(worlds), *self.observation_space.shape)
+        if seen.shape != shape:
+            raise TaskError(
+                f"observe gave an array of shape {seen.shape}, and observation_space wants {shape}",
+                hint="a row a world, an entry for each bound of the space",
+            )
+        return seen
+
+    def _hold(self, worlds: Worlds) -> Any:
+        return self._stream.counters[worlds], {
+            name: array[worlds].copy() for name, array in self.memory.items()
+        }
+
+    def _release(self, worlds: Worlds, kept: Any) -> None:
+        self._stream.counters[worlds], memory = kept
+        for name, rows in memory.items():
+            self.memory[name][worlds] = rows
+
+    def _state(self) -> dict[str, Any]:
+        return {
+            "simulation": self.simulation.snapshot(),
+            "draws": self._stream.counters.copy(),
+            "keys": self._stream.keys.copy(),
+            **{f"memory/{name}": array.copy() for name, array in self.memory.items()},
+        }
+
+    def _set_state(self, state: dict[str, Any]) -> None:
+        self.simulation.restore(bytes(state["simulation"]))
+        self._stream.keys[:], self._stream.counters[:] = state["keys"], state["draws"]
+        for name, array in self.memory.items():
+            array[:] = state[f"memory/{name}"]
+
+
+def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> NDArray[Any]:
+    """Actions of all worlds as an array.
+
+    Raises:
+        TaskError: They have the wrong shape or values.
+    """
+    given = np.asarray(actions)
+    if isinstance(space, gym.spaces.Discrete):
+        first, last = int(space.start), int(space.start + space.n) - 1
+        whole = np.issubdtype(given.dtype, np.integer) and given.shape == (nworld,)
+        if not whole or given.min(initial=first) < first or given.max(initial=last) > last:
+            raise TaskError(
+                f"actions must be {nworld} ints from {first} to {last}, "
+                f"not {given.dtype} of shape {given.shape}: {given!r}"[:200]
+            )
+        return given.astype(np.int64)
+    shape = (nworld, *(space.shape or ()))
+    if given.shape != shape or not np.isfinite(given.astype(np.float64)).all():
+        raise TaskError(f"actions must be finite, of shape {shape}, not {given.shape}")
+    return given.astype(np.float64)
