@@ -10,7 +10,7 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 9
+    assert len(task_ids()) == 10
     for task in task_ids():
         spec = gym.spec(task)
         assert spec.max_episode_steps == (501 if "TurtleBot3" in task else 500)
