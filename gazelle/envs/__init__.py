@@ -14,7 +14,9 @@ The batched tasks are the implementation: arrays with a leading axis over worlds
 environment wraps one with many worlds, a single environment one with one world.
 """
 
+import importlib
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from gazelle.native import search_path
 
@@ -26,9 +28,11 @@ from gazelle.envs.errors import ClosedEnvError, ResetNeededError
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.registry import register_all, task_ids
-from gazelle.envs.simulation_task import Outcome, SimulationTask
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
+
+if TYPE_CHECKING:
+    from gazelle.envs.simulation_task import Outcome, SimulationTask
 
 __all__ = [
     "ActionRule",
@@ -49,5 +53,15 @@ __all__ = [
     "register_all",
     "task_ids",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """What needs a simulation is imported when it is used first."""
+    if name not in {"Outcome", "SimulationTask"}:
+        raise AttributeError(f"module 'gazelle.envs' has no attribute '{name}'")
+    value = getattr(importlib.import_module("gazelle.envs.simulation_task"), name)
+    globals()[name] = value
+    return value
+
 
 register_all()

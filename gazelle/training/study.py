@@ -29,7 +29,7 @@ from gazelle.native.processors import processors
 from gazelle.training.importing import TaskModule
 from gazelle.training.workers.clusters import RayLink, connect
 from gazelle.training.workers.processes import ProcessLink
-from gazelle.training.workers.team import Link, WorkerLostError
+from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _TRIES = 3
 _OWN = ("seed", "seconds", "error")
@@ -138,7 +138,7 @@ def conduct(
         connect(ray)
     threads = max(1, processors() // count)
 
-    def link() -> Link:
+    def link() -> WorkerLink:
         if ray is None:
             return ProcessLink(ExperimentHost, module, name, threads=threads)
         return RayLink(ExperimentHost, module, name)
@@ -168,14 +168,14 @@ class _Caller:
 
     def __init__(
         self,
-        link: Callable[[], Link],
+        link: Callable[[], WorkerLink],
         left: queue.SimpleQueue[dict[str, Any]],
         done: Callable[[dict[str, Any]], None],
     ) -> None:
         self._start, self._left, self._done = link, left, done
         self._error: BaseException | None = None
         self._stopped = threading.Event()
-        self._link: Link | None = None
+        self._link: WorkerLink | None = None
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 

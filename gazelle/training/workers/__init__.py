@@ -9,6 +9,6 @@ workers there are nor on which of them are lost on the way.
 from __future__ import annotations
 
 from gazelle.training.workers.shards import Blueprint, ShardHost, divided
-from gazelle.training.workers.team import Link, Team, WorkerLostError
+from gazelle.training.workers.team import Team, WorkerLink, WorkerLostError
 
-__all__ = ["Blueprint", "Link", "ShardHost", "Team", "WorkerLostError", "divided"]
+__all__ = ["Blueprint", "ShardHost", "Team", "WorkerLink", "WorkerLostError", "divided"]

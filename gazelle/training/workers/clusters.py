@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.native.processors import VARIABLE
 from gazelle.training.workers.shards import Blueprint, ShardHost
-from gazelle.training.workers.team import Link, WorkerLostError
+from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 LOCAL = "local"
 """The address of a cluster that is started on this machine and ends with the program."""
@@ -34,11 +34,11 @@ class RayLink:
         self._answer: Any = None
 
     def send(self, method: str, *arguments: Any) -> None:
-        """See `Link.send`."""
+        """See `WorkerLink.send`."""
         self._answer = getattr(self.actor, method).remote(*arguments)
 
     def receive(self) -> Any:
-        """See `Link.receive`."""
+        """See `WorkerLink.receive`."""
         ray = connected()
         try:
             return ray.get(self._answer)
@@ -90,6 +90,6 @@ def connected() -> Any:
     return ray
 
 
-def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], Link]:
+def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], WorkerLink]:
     """What starts a worker, see `Team`."""
     return lambda numbers: RayLink(ShardHost, blueprint, tuple(numbers))

@@ -14,7 +14,7 @@ from typing import IO, Any
 
 from gazelle.native.processors import VARIABLE, processors
 from gazelle.training.workers.shards import Blueprint, ShardHost
-from gazelle.training.workers.team import Link, WorkerLostError
+from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _LENGTH = struct.Struct("<Q")
 _PATIENCE = 10.0  # until a worker that was asked to end is killed [s]
@@ -48,11 +48,11 @@ class ProcessLink:
         return self._process.pid
 
     def send(self, method: str, *arguments: Any) -> None:
-        """See `Link.send`."""
+        """See `WorkerLink.send`."""
         self._write((method, arguments))
 
     def receive(self) -> Any:
-        """See `Link.receive`."""
+        """See `WorkerLink.receive`."""
         try:
             error, answer = read(_open(self._process.stdout))
         except (EOFError, OSError) as gone:
@@ -79,7 +79,7 @@ class ProcessLink:
             self._process.wait()
 
 
-def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], Link]:
+def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], WorkerLink]:
     """What starts one of so many workers, see `Team`."""
     threads = max(1, processors() // workers)
     return lambda numbers: ProcessLink(ShardHost, blueprint, tuple(numbers), threads=threads)

@@ -16,7 +16,7 @@ class WorkerLostError(Exception):
     """A worker ended before it answered."""
 
 
-class Link(Protocol):
+class WorkerLink(Protocol):
     """A way to one worker, in which an object, such as a `ShardHost`, does what it is asked."""
 
     def send(self, method: str, *arguments: Any) -> None:
@@ -56,7 +56,9 @@ class Team:
         replaced: How many workers were lost and replaced.
     """
 
-    def __init__(self, start: Callable[[Sequence[int]], Link], shards: int, workers: int) -> None:
+    def __init__(
+        self, start: Callable[[Sequence[int]], WorkerLink], shards: int, workers: int
+    ) -> None:
         if not 1 <= workers <= shards:
             raise TaskError(
                 f"{workers} workers cannot share {shards} parts",
@@ -65,7 +67,7 @@ class Team:
         self._start = start
         self._shares = [tuple(range(worker, shards, workers)) for worker in range(workers)]
         self._states: dict[int, Any] = {}
-        self._links: list[Link] = []
+        self._links: list[WorkerLink] = []
         self.replaced = 0
         try:
             for share in self._shares:
@@ -151,7 +153,7 @@ class Team:
             hint="its last words are above; is there enough memory?",
         )
 
-    def _restore(self, link: Link, share: Sequence[int]) -> None:
+    def _restore(self, link: WorkerLink, share: Sequence[int]) -> None:
         states = {number: self._states.get(number) for number in share}
         if None not in states.values():
             _asked(link, "set_state", states)
@@ -165,6 +167,6 @@ class Team:
         _asked(link, "reset", self.replaced)
 
 
-def _asked(link: Link, method: str, *arguments: Any) -> Any:
+def _asked(link: WorkerLink, method: str, *arguments: Any) -> Any:
     link.send(method, *arguments)
     return link.receive()
