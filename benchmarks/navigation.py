@@ -24,7 +24,7 @@ from gazelle.navigation.costmap.obstacle_layer import ObservationSource
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
 from gazelle.navigation.localization.scan_likelihood import BeamModel
 from gazelle.navigation.planners import NavfnPlanner
-from gazelle.navigation.planners.rollout import Rollout, steps_of
+from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.wavefront import grid_distances
 from gazelle.navigation.true_map import true_map
 
@@ -95,7 +95,9 @@ def measure_dwa() -> None:
     weights = np.array([1.6, 1.0, 1.0, 1.6, 0.02, 0.0])
 
     def judge() -> None:
-        rollout = Rollout(costs, (0.0, 0.0), 0.05, BURGER, np.stack([path] * 4), weights, 0.325)
+        rollout = TrajectoryRollout(
+            costs, (0.0, 0.0), 0.05, BURGER, np.stack([path] * 4), weights, 0.325
+        )
         rollout.judge(np.array([1.5, 1.5, 0.3]), np.zeros(3), commands, steps, 1.5)
 
     show("DWA, 800 trajectories", 1e3 * best(judge), 1.0)

@@ -20,6 +20,7 @@ GIVEN_BY_ROS = frozenset(
         "ActionServer",
         "Duration",
         "Frame",
+        "Group",
         "Master",
         "MasterProxy",
         "Node",

@@ -32,7 +32,7 @@ from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
 if TYPE_CHECKING:
-    from gazelle.envs.simulation_task import Outcome, SimulationTask
+    from gazelle.envs.simulation_task import SimulationTask, StepOutcome
 
 __all__ = [
     "ActionRule",
@@ -41,11 +41,11 @@ __all__ = [
     "FloorPlan",
     "GoalTable",
     "ObservationPart",
-    "Outcome",
     "PolicyContract",
     "ResetNeededError",
     "ScanRule",
     "SimulationTask",
+    "StepOutcome",
     "TaskEnv",
     "TaskVectorEnv",
     "Transition",
@@ -57,7 +57,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     """What needs a simulation is imported when it is used first."""
-    if name not in {"Outcome", "SimulationTask"}:
+    if name not in {"StepOutcome", "SimulationTask"}:
         raise AttributeError(f"module 'gazelle.envs' has no attribute '{name}'")
     value = getattr(importlib.import_module("gazelle.envs.simulation_task"), name)
     globals()[name] = value

@@ -22,7 +22,7 @@ _CLOSE = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class StepOutcome:
     """What a control step was worth; arrays over worlds.
 
     Attributes:
@@ -92,7 +92,7 @@ class SimulationTask(BatchedTask):
         """Command what the control step does; int64 of shape (nworld,), or float64 of (nworld, n)."""
 
     @abstractmethod
-    def outcome(self, observation: Floats32) -> Outcome:
+    def outcome(self, observation: Floats32) -> StepOutcome:
         """What came of the step, given what is seen after it, shape (nworld, size)."""
 
     def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:

@@ -15,7 +15,7 @@ from gazelle.errors import Error, SimulationError, SimulationWarning
 from gazelle.rendering import PinholeLens
 from gazelle.simulation import Robot, Simulation
 from gazelle.viewer.page.camera_insets import CameraInsets
-from gazelle.viewer.page.context import ROOT, Layer, OptionalLayer, PageContext, spots_of
+from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
 from gazelle.viewer.page.driving import DriveControls
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.model_tools import ModelTools
@@ -108,7 +108,7 @@ class LiveView(Closeable):
             controls = RunControls(context)
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
-            steering: list[Layer] = []
+            steering: list[PageLayer] = []
             if not only_looking:
                 steering = [DriveControls(context, self._server), JointSliders(context)]
             self._optional: dict[str, OptionalLayer] = {
@@ -121,7 +121,7 @@ class LiveView(Closeable):
             }
             self._plots = PlotLayer(context)
             self._offer()
-            self._layers: tuple[Layer, ...] = (
+            self._layers: tuple[PageLayer, ...] = (
                 controls, shapes, tools, *steering, *self._optional.values(), self._plots
             )  # fmt: skip
             self._changed = False

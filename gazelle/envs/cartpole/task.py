@@ -10,7 +10,7 @@ from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.simulation_task import Outcome, SimulationTask
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
 
@@ -81,8 +81,8 @@ class CartPoleTask(SimulationTask):
         np.clip(velocity, -_FASTEST, _FASTEST, out=velocity)
         self._foot.drive(velocity)
 
-    def outcome(self, observation: Floats32) -> Outcome:
+    def outcome(self, observation: Floats32) -> StepOutcome:
         """One for every step."""
         fallen = np.abs(observation[:, 2]) > STEEPEST
         fallen |= np.abs(observation[:, 0]) > FARTHEST
-        return Outcome(np.ones(self.nworld), fallen, {"is_success": self.lasting & ~fallen})
+        return StepOutcome(np.ones(self.nworld), fallen, {"is_success": self.lasting & ~fallen})

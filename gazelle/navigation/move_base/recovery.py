@@ -14,7 +14,7 @@ from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.parameters import Values, value_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.plugins import Velocity
-from gazelle.navigation.planners.rollout import Rollout
+from gazelle.navigation.planners.rollout import TrajectoryRollout
 
 
 class RecoveryBehavior(ABC):
@@ -95,7 +95,7 @@ class RotateRecovery(RecoveryBehavior):
         """Whether it hits nothing in what is left to turn."""
         costs = self.local.cells
         grids = np.zeros((4, *costs.shape), np.int32)
-        rollout = Rollout(
+        rollout = TrajectoryRollout(
             costs,
             self.local.origin,
             self.local.resolution,

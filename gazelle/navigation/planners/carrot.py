@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.navfn import NO_PLAN
 from gazelle.navigation.planners.plugins import GlobalPlannerPlugin
-from gazelle.navigation.planners.rollout import Rollout
+from gazelle.navigation.planners.rollout import TrajectoryRollout
 
 _STEP = 0.01
 """Share of the way by which the end moves back at a time."""
@@ -27,7 +27,7 @@ class CarrotPlanner(GlobalPlannerPlugin):
         del tolerance
         if self.costmap.cell_of(goal[0], goal[1]) is None:
             return NO_PLAN
-        rollout = Rollout(
+        rollout = TrajectoryRollout(
             self.costmap.cells,
             self.costmap.origin,
             self.costmap.resolution,

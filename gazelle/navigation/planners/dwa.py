@@ -15,7 +15,7 @@ from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.oscillation import OscillationGuard
 from gazelle.navigation.planners.plugins import Values, Velocity
-from gazelle.navigation.planners.rollout import Rollout, steps_of
+from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.stop_rotate import StopRotate, VelocityLimits
 from gazelle.navigation.planners.wavefront import grid_distances
 
@@ -100,11 +100,11 @@ class DwaPlanner(PlanFollower):
                 pose,
                 velocity,
                 goal,
-                lambda wanted: bool(self._judge(rollout, pose, velocity, wanted)[0] >= 0.0),
+                lambda wanted: bool(self._score(rollout, pose, velocity, wanted)[0] >= 0.0),
             )
         rollout = self._rollout(pose, plan, goal)
         commands = self._samples(velocity, pose, goal)
-        costs = self._judge(rollout, pose, velocity, commands)
+        costs = self._score(rollout, pose, velocity, commands)
         costs[self._guard.forbidden(commands)] = -5.0
         good = costs >= 0.0
         if not good.any():
@@ -120,7 +120,7 @@ class DwaPlanner(PlanFollower):
         """Whether the robot stands at the goal."""
         return self.has_plan and self._stop.reached(pose, velocity, self.goal(to_local))
 
-    def _rollout(self, pose: Pose2, plan: Floats, goal: Pose2) -> Rollout:
+    def _rollout(self, pose: Pose2, plan: Floats, goal: Pose2) -> TrajectoryRollout:
         """What to judge commands with: the distances to plan and goal."""
         s, cell = self.settings, self.costmap.resolution
         ahead = s.forward_point_distance
@@ -145,7 +145,7 @@ class DwaPlanner(PlanFollower):
         weights = np.array(
             [to_path, to_goal_bias, to_goal_bias, aligned, s.occdist_scale, s.twirling_scale]
         )
-        rollout = Rollout(
+        rollout = TrajectoryRollout(
             costs, self.costmap.origin, cell, self.costmap.footprint, grids, weights, ahead
         )
         if not s.use_dwa:
@@ -153,7 +153,9 @@ class DwaPlanner(PlanFollower):
             rollout.accelerate(np.array([acc.acc_lim_x, acc.acc_lim_y, acc.acc_lim_theta]))
         return rollout
 
-    def _judge(self, rollout: Rollout, pose: Pose2, velocity: Velocity, commands: Floats) -> Floats:
+    def _score(
+        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, commands: Floats
+    ) -> Floats:
         s = self.settings
         commands = np.ascontiguousarray(commands, np.float64).reshape(-1, 3)
         steps = steps_of(commands, s.sim_time, s.sim_granularity, s.angular_sim_granularity)

@@ -23,7 +23,7 @@ NO_MOTION = -10.0
 
 
 @cython.cclass
-class Rollout:
+class TrajectoryRollout:
     """What is around, and how to judge commands in it.
 
     Args:
@@ -86,12 +86,12 @@ class Rollout:
             duration: How far ahead [s].
         """
         result = np.empty(len(commands))
-        self._judge(pose, velocity, commands, steps, duration, result)
+        self._score(pose, velocity, commands, steps, duration, result)
         return result
 
     @cython.cfunc
     @cython.exceptval(check=False)
-    def _judge(
+    def _score(
         self,
         pose: cython.double[::1],
         velocity: cython.double[::1],

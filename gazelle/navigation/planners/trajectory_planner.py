@@ -15,7 +15,7 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.dwa import driven, spread
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.plugins import Values, Velocity
-from gazelle.navigation.planners.rollout import Rollout, steps_of
+from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.stop_rotate import StopRotate, VelocityLimits
 from gazelle.navigation.planners.wavefront import grid_distances
 
@@ -109,7 +109,7 @@ class TrajectoryPlanner(PlanFollower):
                 pose,
                 velocity,
                 goal,
-                lambda wanted: bool(self._judge(rollout, pose, velocity, wanted)[0] >= 0.0),
+                lambda wanted: bool(self._score(rollout, pose, velocity, wanted)[0] >= 0.0),
             )
         chosen = self._best(rollout, to_goal, pose, velocity)
         self.local_plan = None
@@ -118,7 +118,7 @@ class TrajectoryPlanner(PlanFollower):
         self.local_plan = driven(pose, chosen, self.settings.sim_time)
         return float(chosen[0]), float(chosen[1]), float(chosen[2])
 
-    def _rollout(self, plan: Floats) -> tuple[Rollout, Any]:
+    def _rollout(self, plan: Floats) -> tuple[TrajectoryRollout, Any]:
         """What to judge commands with, and the distances to the goal."""
         s, costs = self.settings, self.costmap.cells
         cells = self.cells_of(plan)
@@ -128,7 +128,7 @@ class TrajectoryPlanner(PlanFollower):
             [scale * s.pdist_scale, scale * s.gdist_scale, 0.0, 0.0, s.occdist_scale, 0.0]
         )
         grids = np.stack((path, goal, goal, path))
-        rollout = Rollout(
+        rollout = TrajectoryRollout(
             costs,
             self.costmap.origin,
             self.costmap.resolution,
@@ -140,7 +140,9 @@ class TrajectoryPlanner(PlanFollower):
         rollout.accelerate(np.array([s.acc_lim_x, s.acc_lim_y, s.acc_lim_theta]))
         return rollout, goal
 
-    def _judge(self, rollout: Rollout, pose: Pose2, velocity: Velocity, commands: Floats) -> Floats:
+    def _score(
+        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, commands: Floats
+    ) -> Floats:
         s = self.settings
         steps = steps_of(commands, s.sim_time, s.sim_granularity, s.angular_sim_granularity)
         steps = np.maximum(steps, 1).astype(np.int32)
@@ -150,7 +152,7 @@ class TrajectoryPlanner(PlanFollower):
         )
 
     def _best(
-        self, rollout: Rollout, to_goal: Any, pose: Pose2, velocity: Velocity
+        self, rollout: TrajectoryRollout, to_goal: Any, pose: Pose2, velocity: Velocity
     ) -> Floats | None:
         s = self.settings
         time = self.period if s.dwa else s.sim_time
@@ -161,7 +163,7 @@ class TrajectoryPlanner(PlanFollower):
         turns = spread(left, right, s.vtheta_samples)
         speeds = spread(low, high, s.vx_samples)
         ahead = np.stack(np.meshgrid(speeds, [0.0], turns, indexing="ij"), -1).reshape(-1, 3)
-        costs = self._judge(rollout, pose, velocity, ahead)
+        costs = self._score(rollout, pose, velocity, ahead)
         best = _cheapest(ahead, costs)
         # A turn on the spot is as good as a way ahead that costs as much.
         most = math.inf if best is None else float(costs[costs >= 0.0].min())
@@ -172,11 +174,11 @@ class TrajectoryPlanner(PlanFollower):
             self._turned = 0
             return best
         back = np.array([[s.escape_vel, 0.0, 0.0]])
-        return back[0] if self._judge(rollout, pose, velocity, back)[0] >= 0.0 else None
+        return back[0] if self._score(rollout, pose, velocity, back)[0] >= 0.0 else None
 
     def _on_the_spot(
         self,
-        rollout: Rollout,
+        rollout: TrajectoryRollout,
         to_goal: Any,
         pose: Pose2,
         velocity: Velocity,
@@ -193,7 +195,7 @@ class TrajectoryPlanner(PlanFollower):
         if not len(rates):
             return None
         commands = np.stack((0.0 * rates, 0.0 * rates, rates), axis=1)
-        costs = self._judge(rollout, pose, velocity, commands)
+        costs = self._score(rollout, pose, velocity, commands)
         headings = pose[2] + rates * s.sim_time
         x = pose[0] + s.heading_lookahead * np.cos(headings)
         y = pose[1] + s.heading_lookahead * np.sin(headings)

@@ -11,7 +11,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.training.deploy.goals import GoalOutcome, GoalPlace, read_goals
+    from gazelle.training.deploy.goals import GoalPlace, GoalResult, read_goals
     from gazelle.training.deploy.node import DeployNode
     from gazelle.training.deploy.pilot import Pilot
     from gazelle.training.deploy.policies import Policy, open_policy
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "DeployNode": "node",
-    "GoalOutcome": "goals",
+    "GoalResult": "goals",
     "GoalPlace": "goals",
     "OdometryReading": "sensing",
     "Pilot": "pilot",
@@ -34,8 +34,8 @@ _HOMES = {
 
 __all__ = [
     "DeployNode",
-    "GoalOutcome",
     "GoalPlace",
+    "GoalResult",
     "OdometryReading",
     "Pilot",
     "Policy",

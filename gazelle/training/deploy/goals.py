@@ -23,7 +23,7 @@ class GoalPlace:
 
 
 @dataclass(frozen=True, slots=True)
-class GoalOutcome:
+class GoalResult:
     """What became of a goal."""
 
     goal: GoalPlace

@@ -14,7 +14,7 @@ from gazelle.closing import Closeable
 from gazelle.ros import MasterProxy, Node, load_message, load_service
 from gazelle.ros.errors import RosError
 from gazelle.training.deploy.frames import GoalFrames
-from gazelle.training.deploy.goals import GoalOutcome, GoalPlace
+from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.guarding import Guarded, GuardLostError
 from gazelle.training.deploy.interventions import InterventionLog
 from gazelle.training.deploy.messages import floats_message, goal_of, odometry_of, scan_of
@@ -220,7 +220,7 @@ class DeployNode(Closeable):
         values = [*action, acted.score, acted.gain]
         self._actions.publish(floats_message([*names, "score", "reward"], values))
 
-    def _tell_end(self, ended: GoalOutcome) -> None:
+    def _tell_end(self, ended: GoalResult) -> None:
         _LOG.info("goal (%g, %g): %s", ended.goal.x, ended.goal.y, ended.outcome)
         self.interventions.note(
             "goal",

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gazelle.training.deploy.goals import GoalOutcome, GoalPlace
+from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.policies import Decision, Policy
 from gazelle.training.deploy.safety import STAND, SafetyLimits, VelocityCommand, unusable
 from gazelle.training.deploy.sensing import (
@@ -50,7 +50,7 @@ class Tick:
     """Why the command is not what the policy wants; None where it is."""
     acted: Acted | None = None
     """Set where the policy acted at this moment."""
-    ended: GoalOutcome | None = None
+    ended: GoalResult | None = None
     """Set where a goal came to its end at this moment."""
 
 
@@ -83,7 +83,7 @@ class Pilot:
         self.armed = False
         self.goal: GoalPlace | None = None
         self.waiting: deque[GoalPlace] = deque()
-        self.outcomes: list[GoalOutcome] = []
+        self.outcomes: list[GoalResult] = []
         contract = policy.contract
         self._observer = Observer(contract, turned=turned)
         self._turned = turned
@@ -112,7 +112,7 @@ class Pilot:
         """Odometry came, in the frame that goals are looked up in."""
         self._odometry = (now, odometry)
 
-    def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalOutcome | None:
+    def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalResult | None:
         """Go to these goals from now on; returns what became of the one before, if there is one."""
         ended = None if self.goal is None else self._end("replaced", now)
         self.waiting = deque(goals)
@@ -190,7 +190,7 @@ class Pilot:
 
     def _judge(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
-    ) -> GoalOutcome | None:
+    ) -> GoalResult | None:
         """Whether the goal came to its end, and how."""
         distance = distance_to_goal(odometry, place)
         began = now if self._began is None else self._began
@@ -212,11 +212,11 @@ class Pilot:
         crashed, self._touching = touching and not self._touching, touching
         return crashed
 
-    def _end(self, outcome: str, now: float, distance: float | None = None) -> GoalOutcome:
+    def _end(self, outcome: str, now: float, distance: float | None = None) -> GoalResult:
         began = now if self._began is None else self._began
         goal = GoalPlace(0.0, 0.0) if self.goal is None else self.goal
         far = self._distance if distance is None else distance
-        ended = GoalOutcome(goal, outcome, now - began, math.nan if far is None else far)
+        ended = GoalResult(goal, outcome, now - began, math.nan if far is None else far)
         self.outcomes.append(ended)
         self._next_goal()
         return ended

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viser import SceneApi
 
 
-class GraphRobot:
+class DescribedRobot:
     """A robot whose links stand where tf says.
 
     Args:

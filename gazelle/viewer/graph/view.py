@@ -18,7 +18,7 @@ from gazelle.ros.tf.core import FrameTree
 from gazelle.ros.tf.errors import TransformException
 from gazelle.viewer.graph import drawing as d
 from gazelle.viewer.graph.markers import draw_marker, draw_markers
-from gazelle.viewer.graph.robots import GraphRobot
+from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.page.server import PageServer
 
 _FIXED = ("map", "odom", "world", "base_link", "base_footprint")
@@ -70,7 +70,7 @@ class GraphView(Closeable):
         self._frames: dict[str, str] = {}
         self._drawings: dict[str, d.Drawing] = {}
         self._anchors: dict[str, Any] = {}
-        self._robots: dict[str, GraphRobot] = {}
+        self._robots: dict[str, DescribedRobot] = {}
         self._hidden: set[str] = set()
         self._refused: dict[str, tuple[str, str]] = {}
         self._subscribers: dict[str, Any] = {}
@@ -168,7 +168,7 @@ class GraphView(Closeable):
         prefix = str(self._node.get_param(f"{name.rpartition('/')[0]}/tf_prefix", "")).strip("/")
         root = f"/robots/{len(self._robots)}"
         try:
-            self._robots[name] = GraphRobot(
+            self._robots[name] = DescribedRobot(
                 self._server.viser.scene, root, text, f"{prefix}/" if prefix else ""
             )
         except Error as error:

@@ -25,7 +25,7 @@ _GAP = 1.0  # between worlds that stand side by side [m]
 _log = logging.getLogger("gazelle.viewer")
 
 
-class Layer(Protocol):
+class PageLayer(Protocol):
     """A part of the page that follows the simulation."""
 
     def read(self) -> Any:
@@ -38,7 +38,7 @@ class Layer(Protocol):
         """Models came or went."""
 
 
-class OptionalLayer(Layer, Protocol):
+class OptionalLayer(PageLayer, Protocol):
     """One that can be left out.
 
     Attributes:

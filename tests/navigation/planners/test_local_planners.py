@@ -15,7 +15,7 @@ from gazelle.navigation.planners import DwaPlanner, NavfnPlanner
 from gazelle.navigation.planners.dwa import spread
 from gazelle.navigation.planners.oscillation import OscillationGuard
 from gazelle.navigation.planners.planar import between, composed, inverse, moved
-from gazelle.navigation.planners.rollout import Rollout, steps_of
+from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.trajectory_planner import TrajectoryPlanner
 from gazelle.navigation.planners.wavefront import grid_distances
 
@@ -129,7 +129,7 @@ def test_a_command_on_the_way_is_judged_by_its_whole_outline():
     costs = np.zeros((60, 60), np.uint8)
     costs[30, 40] = 254
     grids = np.zeros((4, 60, 60), np.int32)
-    rollout = Rollout(costs, (0.0, 0.0), 0.05, BURGER, grids, np.zeros(6), 0.0)
+    rollout = TrajectoryRollout(costs, (0.0, 0.0), 0.05, BURGER, grids, np.zeros(6), 0.0)
     commands = np.array([[0.5, 0.0, 0.0], [0.2, 0.0, 0.0], [0.5, 0.0, 1.5]])
     steps = steps_of(commands, 1.0, 0.025, 0.1)
     found = rollout.judge(np.array([1.6, 1.6, 0.0]), np.zeros(3), commands, steps, 1.0)
