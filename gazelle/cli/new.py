@@ -1,5 +1,5 @@
-"""Write the beginning of something of yours into this folder. There is one kind: a
-task, with a robot, a test, and a pole that a cart learns to keep up in a minute.
+"""Write the beginning of something of yours into this folder: a task, with a
+robot, a test, and a pole that a cart learns to keep up in a minute.
 
   gazelle new task Balance
 """  # noqa: D205  # this is the text of --help

@@ -1,8 +1,8 @@
-"""Call a function of yours with many parameters and seeds, on all processors or on a
-cluster, and write what it returns into one table. A study that was stopped goes on
-when the same command is given again.
+"""Call a function of yours with many parameters and seeds, on all processors or
+on a cluster, and write what it returns into one table. A study that was stopped
+goes on when the same command is given again.
 
-  gazelle study my_study.py:run --vary robots=10,50 --vary speed=0.2,0.5 --seeds 20
+  gazelle study my_study.py:run --vary speed=0.2,0.5 --seeds 20
   gazelle study my_study.py:run --seeds 1000 --ray auto --out stalls.csv
 """  # noqa: D205  # this is the text of --help
 
