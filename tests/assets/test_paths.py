@@ -46,6 +46,7 @@ def test_models_are_described():
 PACKAGES = [
     f"{robot}_{kind}" for robot in ("courier", "turtlebot3") for kind in ("description", "gazebo")
 ]
+PACKAGES += ["rrbot_description", "rrbot_gazebo", "rrbot_control"]
 
 
 @pytest.mark.parametrize("package", PACKAGES)

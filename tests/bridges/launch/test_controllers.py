@@ -194,6 +194,18 @@ OWN = [
     ),
 ]
 
+# Robots that come with Gazelle.
+BUNDLED = [
+    Controlled(
+        ("rrbot_control rrbot.launch gui:=false",),
+        "joint_state_controller joint1_position_controller joint2_position_controller",
+        "joint1_position_controller/command",
+        "joint1",
+        0.4,
+        space="/rrbot",
+    ),
+]
+
 
 class Watched:
     """The joints and controllers of a graph."""
@@ -226,6 +238,11 @@ def test_controllers_of_a_launch_file_move_its_robot(case, corpus, tmp_path):
 
 def test_those_of_a_small_package_do_too(tmp_path):
     bring_up(OWN[0], DATA, tmp_path)
+
+
+@pytest.mark.parametrize("case", BUNDLED, ids=str)
+def test_those_of_a_bundled_robot_do_too(case, tmp_path):
+    bring_up(case, DATA, tmp_path)
 
 
 @pytest.mark.slow
