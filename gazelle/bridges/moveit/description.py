@@ -1,0 +1,58 @@
+"""The robot to plan for, as the parameter server describes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gazelle.errors import PlanningError
+from gazelle.formats import load_model_string, load_srdf_string
+from gazelle.planning import JointBounds, RobotModel
+from gazelle.ros.node import Node
+
+DESCRIPTION = "robot_description"
+
+
+def robot_of_parameters(node: Node) -> RobotModel:
+    """The robot of ``robot_description``, ``..._semantic`` and ``..._planning/joint_limits``.
+
+    Args:
+        node: Asks, in its own namespace and those around it.
+
+    Raises:
+        PlanningError: One of the first two is not there.
+        Error: One cannot be read.
+    """
+    model = load_model_string(_text(node, DESCRIPTION), name=DESCRIPTION)
+    name = f"{DESCRIPTION}_semantic"
+    semantics = load_srdf_string(_text(node, name), name=name)
+    plain = RobotModel(model, semantics)
+    given = find_parameter(node, f"{DESCRIPTION}_planning", {})
+    entries = given.get("joint_limits") if isinstance(given, Mapping) else None
+    return RobotModel(model, semantics, _limits(plain, entries or {}))
+
+
+def find_parameter(node: Node, name: str, default: Any) -> Any:
+    """A parameter of the nearest namespace that has it."""
+    found = node.search_param(name)
+    return default if found is None else node.get_param(found, default)
+
+
+def _text(node: Node, name: str) -> str:
+    text = find_parameter(node, name, None)
+    if not isinstance(text, str) or not text.strip():
+        raise PlanningError(
+            f"there is no parameter '{name}'",
+            hint="a package ROBOT_moveit_config sets it in its launch/planning_context.launch",
+        )
+    return text
+
+
+def _limits(robot: RobotModel, entries: Mapping[str, Any]) -> dict[str, JointBounds]:
+    """Limits that a ``joint_limits.yaml`` changes; joints of other robots are passed over."""
+    known = {variable.name: variable.bounds for variable in robot.variables}
+    return {
+        joint: known[joint].with_parameters(given, joint)
+        for joint, given in entries.items()
+        if joint in known and isinstance(given, Mapping)
+    }

@@ -1,0 +1,95 @@
+"""Poses of messages in the frame that is planned in."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.conversions import point, quaternion, set_pose
+from gazelle.description import Pose
+from gazelle.errors import PlanningError
+from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
+from gazelle.ros.messages import load_message
+from gazelle.ros.node import Node
+from gazelle.ros.tf import FrameTree, TransformException
+from gazelle.ros.time import Time
+
+
+class PlanningFrames:
+    """Frames of a robot, of things in its scene, and of ``/tf``.
+
+    Args:
+        node: Listens to ``/tf`` and ``/tf_static``.
+        scene: With the robot.
+    """
+
+    def __init__(self, node: Node, scene: PlanningScene) -> None:
+        self._scene, self._tree = scene, FrameTree()
+        robot = scene.robot
+        held = robot.semantics.virtual_joints
+        still = {each.parent_frame for each in held if each.type == "fixed"}
+        self._same = {"", robot.frame} | {name.lstrip("/") for name in still}
+        kind = load_message("tf2_msgs/TFMessage")
+        node.subscribe("/tf", kind, lambda message: self._take(message, static=False))
+        node.subscribe("/tf_static", kind, lambda message: self._take(message, static=True))
+
+    def _take(self, message: Any, *, static: bool) -> None:
+        for each in message.transforms:
+            self._tree.place(
+                each.header.frame_id,
+                each.child_frame_id,
+                each.header.stamp.to_nsec(),
+                point(each.transform.translation),
+                quaternion(each.transform.rotation),
+                authority="move_group",
+                static=static,
+            )
+
+    def find(self, frame: str, state: Floats) -> Pose:
+        """The pose of a frame in the one that is planned in.
+
+        Args:
+            frame: Of the message's header.
+            state: Where the robot is, shape (variables,).
+
+        Raises:
+            NoPlanError: It is not known.
+        """
+        name = frame.lstrip("/")
+        if name in self._same:
+            return Pose()
+        try:
+            return self._scene.pose_of(name, state)
+        except PlanningError:
+            pass
+        try:
+            found = self._tree.lookup(self._scene.robot.frame, name, 0)
+        except TransformException as error:
+            raise NoPlanError(
+                f"the frame '{frame}' is not known: {error}", PlanOutcome.FRAME_TRANSFORM_FAILURE
+            ) from None
+        return Pose.from_quaternion(found.translation, found.rotation)
+
+    def pose(self, stamped: Any, state: Floats) -> Pose:
+        """A ``geometry_msgs/PoseStamped`` in the frame that is planned in; see ``find``."""
+        return self.find(stamped.header.frame_id, state) * pose_of_message(stamped.pose)
+
+
+def pose_of_message(message: Any) -> Pose:
+    """A ``geometry_msgs/Pose``."""
+    return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
+
+
+def pose_message(pose: Pose) -> Any:
+    """A ``geometry_msgs/Pose``."""
+    message: Any = load_message("geometry_msgs/Pose")()
+    set_pose(message, pose.position, pose.quaternion)
+    return message
+
+
+def stamped_message(pose: Pose, frame: str, now: int) -> Any:
+    """A ``geometry_msgs/PoseStamped`` at a time [ns]."""
+    message: Any = load_message("geometry_msgs/PoseStamped")()
+    message.header.frame_id, message.header.stamp = frame, Time(nsecs=now)
+    message.pose = pose_message(pose)
+    return message

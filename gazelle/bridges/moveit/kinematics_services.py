@@ -1,0 +1,177 @@
+"""The services ``compute_ik``, ``compute_fk`` and ``check_state_validity``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.conversions import set_point
+from gazelle.bridges.moveit.frames import stamped_message
+from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
+from gazelle.bridges.moveit.robot_states import state_message
+from gazelle.errors import PlanningError
+from gazelle.planning import (
+    ConstraintSet,
+    InverseKinematics,
+    JointModelGroup,
+    NoPlanError,
+    PlanOutcome,
+    SceneContact,
+)
+from gazelle.planning.state_validity import StateValidity
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.time import Time
+
+_LINK, _OBJECT, _ATTACHED = 0, 1, 2
+
+
+class KinematicsServices:
+    """Answers what positions and poses go together, and which states can be.
+
+    Args:
+        context: The robot and its scene.
+    """
+
+    def __init__(self, context: PlanningContext) -> None:
+        self._context = context
+        for name, kind, act in (
+            ("compute_ik", "GetPositionIK", self._inverse),
+            ("compute_fk", "GetPositionFK", self._forward),
+        ):
+            context.node.serve(name, load_service(f"moveit_msgs/{kind}"), self._coded(kind, act))
+        validity = load_service("moveit_msgs/GetStateValidity")
+        context.node.serve("check_state_validity", validity, self._validity)
+
+    def _coded(self, kind: str, act: Callable[[Any, Any], None]) -> Callable[[Any], Any]:
+        made = load_service(f"moveit_msgs/{kind}")._response_class
+        what = kind.removeprefix("Get")
+        return lambda request: self._context.answer(
+            made(), lambda response: act(request, response), what
+        )
+
+    # -- inverse -------------------------------------------------------------------------
+
+    def _inverse(self, request: Any, response: Any) -> None:
+        asked, context = request.ik_request, self._context
+        group = context.group(asked.group_name)
+        state = context.state(asked.robot_state)
+        link, stamped = _target(asked)
+        pose = context.frames.pose(stamped, state)
+        constraints = context.constraints(asked.constraints, state)
+        solver = self._solver(group, link)
+        valid = self._judge(group, state, constraints, avoid=asked.avoid_collisions)
+        found = solver.solve(pose, state, valid=valid)
+        if found is None:
+            raise NoPlanError(
+                f"no positions of '{group.name}' bring '{solver.link}' there",
+                PlanOutcome.NO_IK_SOLUTION,
+            )
+        state[group.columns] = found
+        response.solution = state_message(context.robot, context.robot.complete(state))
+
+    def _solver(self, group: JointModelGroup, link: str | None) -> InverseKinematics:
+        try:
+            return InverseKinematics(self._context.robot, group, link)
+        except PlanningError as error:  # as MoveIt has it: there is no solver for such a link
+            raise NoPlanError(error.message, PlanOutcome.NO_IK_SOLUTION, error.hint) from None
+
+    def _judge(
+        self, group: JointModelGroup, state: Floats, constraints: ConstraintSet, *, avoid: bool
+    ) -> Callable[[Floats], bool] | None:
+        """What solutions are asked; None if nothing is asked of them."""
+        validity = StateValidity(self._context.scene, group, state, constraints)
+        if avoid:
+            return validity
+        robot = self._context.robot
+        if constraints:
+            return lambda found: not constraints.violations(robot, validity.full(found))
+        return None
+
+    # -- forward -------------------------------------------------------------------------
+
+    def _forward(self, request: Any, response: Any) -> None:
+        context, robot = self._context, self._context.robot
+        if not request.fk_link_names:
+            raise NoPlanError("no links are named", PlanOutcome.INVALID_LINK_NAME)
+        state = context.state(request.robot_state)
+        frame = request.header.frame_id or robot.frame
+        back = context.frames.find(frame, state).inverse()
+        for name in request.fk_link_names:
+            if name not in robot.links:
+                response.error_code.val = int(PlanOutcome.INVALID_LINK_NAME)
+                continue
+            pose = back * robot.pose(state, name)
+            response.pose_stamped.append(stamped_message(pose, frame, context.now()))
+            response.fk_link_names.append(name)
+
+    # -- validity ------------------------------------------------------------------------
+
+    def _validity(self, request: Any) -> Any:
+        response: Any = load_service("moveit_msgs/GetStateValidity")._response_class()
+        context = self._context
+        try:
+            with context.lock:
+                self._judge_state(request, response)
+        except PlanningError as error:
+            LOG.error("StateValidity: %s", error)
+            response.valid = False
+        return response
+
+    def _judge_state(self, request: Any, response: Any) -> None:
+        context = self._context
+        group = context.group(request.group_name) if request.group_name else None
+        state = context.state(request.robot_state)
+        constraints = context.constraints(request.constraints, state)
+        contacts = context.scene.contacts(state, group)
+        response.contacts = [self._contact(each) for each in contacts]
+        made = load_message("moveit_msgs/ConstraintEvalResult")
+        for part in _parts(constraints):
+            kept = not part.violations(context.robot, state)
+            response.constraint_result.append(made(result=kept))
+        response.valid = not contacts and all(each.result for each in response.constraint_result)
+
+    def _contact(self, contact: SceneContact) -> Any:
+        message: Any = load_message("moveit_msgs/ContactInformation")()
+        message.header.frame_id = self._context.robot.frame
+        message.header.stamp = Time(nsecs=self._context.now())
+        set_point(message.position, contact.point)
+        set_point(message.normal, contact.normal)
+        message.depth = float(contact.depth)
+        message.contact_body_1, message.contact_body_2 = contact.first, contact.second
+        message.body_type_1 = self._kind(contact.first)
+        message.body_type_2 = self._kind(contact.second)
+        return message
+
+    def _kind(self, name: str) -> int:
+        if name in self._context.robot.links:
+            return _LINK
+        return _ATTACHED if name in self._context.scene.attached else _OBJECT
+
+
+def _parts(constraints: ConstraintSet) -> list[ConstraintSet]:
+    """Each constraint by itself."""
+    return [
+        *(ConstraintSet(joints=(each,)) for each in constraints.joints),
+        *(ConstraintSet(positions=(each,)) for each in constraints.positions),
+        *(ConstraintSet(orientations=(each,)) for each in constraints.orientations),
+    ]
+
+
+def _target(asked: Any) -> tuple[str | None, Any]:
+    """The link and pose that a request is about.
+
+    Raises:
+        NoPlanError: There are several.
+    """
+    if not asked.pose_stamped_vector:
+        return asked.ik_link_name or None, asked.pose_stamped
+    names = asked.ik_link_names or [asked.ik_link_name]
+    if len(names) != len(asked.pose_stamped_vector):
+        raise NoPlanError(
+            f"{len(names)} links have {len(asked.pose_stamped_vector)} poses",
+            PlanOutcome.INVALID_LINK_NAME,
+        )
+    if len(names) > 1:
+        raise NoPlanError("several links at once are not solved for", PlanOutcome.NO_IK_SOLUTION)
+    return names[0] or None, asked.pose_stamped_vector[0]

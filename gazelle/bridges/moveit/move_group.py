@@ -1,0 +1,35 @@
+"""The node ``move_group`` (http://moveit.ros.org/documentation/concepts)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gazelle.bridges.moveit.kinematics_services import KinematicsServices
+from gazelle.bridges.moveit.planning_context import PlanningContext
+from gazelle.bridges.moveit.planning_services import PlanningServices
+from gazelle.ros.builtin.arguments import parse_arguments, spin
+from gazelle.ros.node import Node
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Answer until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "move_group")
+    with found.start() as node:
+        MoveGroupNode(node)
+        return spin(node)
+
+
+class MoveGroupNode:
+    """MoveIt's services for the robot of ``robot_description`` and its SRDF.
+
+    Args:
+        node: On the graph; parameters are those of ``move_group``.
+
+    Raises:
+        Error: There is no description of a robot, or it cannot be read.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self.context = PlanningContext(node)
+        self.kinematics = KinematicsServices(self.context)
+        self.planning = PlanningServices(self.context)

@@ -1,0 +1,66 @@
+"""Planners as the parameters of ``move_group`` name them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from gazelle.errors import PlanningError, PlanningWarning
+from gazelle.planning.planner_names import BOUND, planner_of
+from gazelle.planning.state_validity import LONGEST_SEGMENT
+from gazelle.ros.node import Node
+
+PIPELINE = "ompl"
+
+
+class PlannerSettings:
+    """``planner_configs`` and what groups say of them, of the node's own parameters.
+
+    Args:
+        node: Below whose name they are, or below ``planning_pipelines/ompl`` there.
+    """
+
+    def __init__(self, node: Node) -> None:
+        own: Any = node.get_param(node.name, {}) or {}
+        pipelines = own.get("planning_pipelines")
+        inner = pipelines.get(PIPELINE) if isinstance(pipelines, Mapping) else None
+        self._given: Mapping[str, Any] = own if not isinstance(inner, Mapping) else {**own, **inner}
+
+    def names(self, groups: list[str]) -> list[str]:
+        """What ``planner_id`` may be: each group, and ``GROUP[CONFIG]``."""
+        found = []
+        for group in groups:
+            configs = self._group(group).get("planner_configs") or [*self._configs()] or [*BOUND]
+            found += [group, *(f"{group}[{config}]" for config in configs)]
+        return found
+
+    def planner(self, name: str, group: str) -> str:
+        """The planner of a ``planner_id``; the group's default, with a warning, if it is unknown."""
+        plain = name.removeprefix(f"{group}[").removesuffix("]") if "[" in name else name
+        plain = "" if plain == group else plain
+        default = str(self._group(group).get("default_planner_config") or "")
+        for each in (plain, default):
+            if not each:
+                continue
+            config = self._configs().get(each)
+            kind = config.get("type", each) if isinstance(config, Mapping) else each
+            try:
+                return planner_of(str(kind))
+            except PlanningError as error:
+                text = f"planner '{each}' of group '{group}': {error.message}; its default plans"
+                warnings.warn(PlanningWarning(text), stacklevel=2)
+        return ""
+
+    def segment(self, group: str) -> float:
+        """Distance of checked states, as a fraction of the extent."""
+        value = self._group(group).get("longest_valid_segment_fraction", LONGEST_SEGMENT)
+        return float(value) if isinstance(value, int | float) and value > 0.0 else LONGEST_SEGMENT
+
+    def _configs(self) -> Mapping[str, Any]:
+        found = self._given.get("planner_configs")
+        return found if isinstance(found, Mapping) else {}
+
+    def _group(self, name: str) -> Mapping[str, Any]:
+        found = self._given.get(name)
+        return found if isinstance(found, Mapping) else {}

@@ -1,0 +1,114 @@
+"""What all services and actions of ``move_group`` share."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.constraint_messages import constraints_of_message
+from gazelle.bridges.moveit.description import robot_of_parameters
+from gazelle.bridges.moveit.frames import PlanningFrames
+from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
+from gazelle.errors import Error, PlanningError
+from gazelle.planning import (
+    ConstraintSet,
+    JointModelGroup,
+    NoPlanError,
+    PlanningScene,
+    PlanOutcome,
+    RobotModel,
+)
+from gazelle.ros.node import Node
+
+LOG = logging.getLogger("gazelle.planning")
+
+
+class PlanningContext:
+    """A robot of the parameter server, its scene, and where it is.
+
+    Args:
+        node: On the graph.
+
+    Attributes:
+        scene: What must not be touched; use it only while holding ``lock``.
+        lock: Plans and changes come one at a time.
+        monitor: Where the joints are.
+        frames: Frames of messages.
+
+    Raises:
+        Error: There is no description of a robot, or it cannot be read.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+        self.robot: RobotModel = robot_of_parameters(node)
+        self.scene = PlanningScene(self.robot)
+        self.lock = threading.RLock()
+        self.monitor = JointStateMonitor(node, self.robot)
+        self.frames = PlanningFrames(node, self.scene)
+
+    def now(self) -> int:
+        """The graph's time [ns]."""
+        return self.node.clock.now()
+
+    def current(self) -> Floats:
+        """Where the robot is, shape (variables,); the scene knows it from now on."""
+        state = self.monitor.current()
+        self.scene.state = state.copy()
+        return state
+
+    def state(self, message: Any) -> Floats:
+        """A ``moveit_msgs/RobotState``; what it does not say is as it is now.
+
+        Raises:
+            NoPlanError: It names what is not there.
+        """
+        return state_of_message(self.robot, message, self.current())
+
+    def group(self, name: str) -> JointModelGroup:
+        """A group.
+
+        Raises:
+            NoPlanError: There is none of that name.
+        """
+        try:
+            return self.robot.group(name)
+        except PlanningError as error:
+            raise NoPlanError(error.message, PlanOutcome.INVALID_GROUP_NAME, error.hint) from None
+
+    def constraints(self, message: Any, state: Floats) -> ConstraintSet:
+        """A ``moveit_msgs/Constraints``, seen to name links and joints that are there.
+
+        Raises:
+            NoPlanError: One cannot be.
+        """
+        made = constraints_of_message(message, self.frames, state)
+        try:
+            made.check(self.robot)
+        except PlanningError as error:
+            outcome = PlanOutcome.INVALID_GOAL_CONSTRAINTS
+            raise NoPlanError(error.message, outcome, error.hint) from None
+        return made
+
+    def answer(self, response: Any, act: Callable[[Any], None], what: str) -> Any:
+        """Fill a response that has an error code; what goes wrong becomes that code.
+
+        Args:
+            response: Of a service, or a result of an action.
+            act: Fills it, holding ``lock``.
+            what: For the log.
+        """
+        try:
+            with self.lock:
+                response.error_code.val = int(PlanOutcome.SUCCESS)
+                act(response)
+        except NoPlanError as error:
+            LOG.error("%s: %s", what, error)  # noqa: TRY400  what users ask for needs no traceback
+            response.error_code.val = int(error.outcome)
+        except Error as error:
+            LOG.error("%s: %s", what, error)  # noqa: TRY400
+            response.error_code.val = int(PlanOutcome.FAILURE)
+        return response

@@ -1,0 +1,39 @@
+"""Trajectories of plans as ``moveit_msgs/RobotTrajectory``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.planning import MotionPlan
+from gazelle.ros.messages import load_message
+from gazelle.ros.time import Duration
+
+
+def trajectory_message(plan: MotionPlan, frame: str) -> Any:
+    """A plan; its joints' positions, velocities and accelerations at each time.
+
+    Args:
+        plan: The plan.
+        frame: That it was planned in.
+    """
+    message: Any = load_message("moveit_msgs/RobotTrajectory")()
+    joints, timed = message.joint_trajectory, plan.trajectory
+    joints.header.frame_id = frame
+    joints.joint_names = list(plan.names)
+    made = load_message("trajectory_msgs/JointTrajectoryPoint")
+    joints.points = [
+        made(
+            positions=positions,
+            velocities=velocities,
+            accelerations=accelerations,
+            time_from_start=Duration(nsecs=round(time * 1e9)),
+        )
+        for time, positions, velocities, accelerations in zip(
+            timed.times.tolist(),
+            timed.positions.tolist(),
+            timed.velocities.tolist(),
+            timed.accelerations.tolist(),
+            strict=True,
+        )
+    ]
+    return message
