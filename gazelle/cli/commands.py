@@ -46,6 +46,7 @@ COMMANDS = {
         Command("map", "the true map of a world, for map_server", "simulate", "map"),
         Command("view", "a file, or a running ROS graph, live in a browser", "look", "view"),
         Command("picture", "draw a world, a recording, a bag, a policy", "look", "picture"),
+        Command("plot", "curves, tables and bags as plots", "look", "plot"),
         Command("film", "film them: GIF, MP4", "look", "film"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),

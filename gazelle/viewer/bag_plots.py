@@ -1,0 +1,119 @@
+"""What of a bag can be plotted: numbers of messages over time, and ways over a map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import OccupancyMap, Pose
+from gazelle.errors import RosError, did_you_mean
+from gazelle.ros.bags import Bag
+from gazelle.rotations import yaw_of
+from gazelle.viewer.plots import Series
+
+_POSES = {
+    "geometry_msgs/PoseStamped": ("pose", "position"),
+    "geometry_msgs/PoseWithCovarianceStamped": ("pose", "pose", "position"),
+    "nav_msgs/Odometry": ("pose", "pose", "position"),
+}
+"""Where messages that tell a place have it."""
+
+
+def bag_series(path: Path, fields: Sequence[str]) -> Series:
+    """Numbers of messages over the time since the bag begins [s].
+
+    Args:
+        path: The bag.
+        fields: Each a topic and the way to a number in its messages, such as
+            ``/odom/twist/twist/linear/x`` or ``/scan/ranges/0``.
+
+    Raises:
+        RosError: There is no such topic or field, or it is no number.
+    """
+    with Bag(str(path)) as bag:
+        topics = list(bag.get_type_and_topic_info().topics)
+        start = bag.get_start_time()
+        return {field: _numbers(bag, *_split(field, topics), start) for field in fields}
+
+
+def bag_paths(path: Path, topics: Sequence[str] = ()) -> dict[str, Floats]:
+    """The ways that topics of places tell, x and y [m] by topic, shapes (n, 2).
+
+    Args:
+        path: The bag.
+        topics: Of odometry or poses; all that there are if none are given.
+
+    Raises:
+        RosError: There is no such topic, or none at all.
+    """
+    with Bag(str(path)) as bag:
+        found = bag.get_type_and_topic_info().topics
+        known = [name for name, about in found.items() if about.msg_type in _POSES]
+        for topic in topics:
+            if topic not in known:
+                hint = did_you_mean(topic, known)
+                raise RosError(f"'{path.name}' has no places on '{topic}'", hint=hint)
+        if not known:
+            raise RosError(
+                f"'{path.name}' has no odometry and no poses",
+                hint="plot numbers of it: --field /TOPIC/FIELD",
+            )
+        ways: dict[str, list[tuple[float, float]]] = {name: [] for name in topics or known}
+        for entry in bag.read_messages(topics=list(ways)):
+            place = _at(entry.message, _POSES[found[entry.topic].msg_type])
+            ways[entry.topic].append((place.x, place.y))
+    return {name: np.array(way) for name, way in ways.items()}
+
+
+def bag_map(path: Path) -> OccupancyMap | None:
+    """The last map of a bag; None if it has none."""
+    with Bag(str(path)) as bag:
+        found = bag.get_type_and_topic_info().topics
+        maps = [name for name, told in found.items() if told.msg_type == "nav_msgs/OccupancyGrid"]
+        last = None
+        for entry in bag.read_messages(topics=maps) if maps else ():
+            last = entry.message
+    if last is None:
+        return None
+    about, place = last.info, last.info.origin.position
+    turn = last.info.origin.orientation
+    data = np.asarray(last.data, np.int8).reshape(about.height, about.width)
+    yaw = yaw_of(np.array([turn.x, turn.y, turn.z, turn.w]))
+    return OccupancyMap(data, about.resolution, Pose(place.x, place.y, yaw=float(yaw)))
+
+
+def _split(field: str, topics: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """The topic of a field, the longest that fits, and the way to the number."""
+    fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
+    if not fitting:
+        hint = did_you_mean(field, topics)
+        raise RosError(f"no topic of the bag is the beginning of '{field}'", hint=hint)
+    topic = max(fitting, key=len)
+    return topic, tuple(field.removeprefix(f"{topic}/").split("/"))
+
+
+def _numbers(bag: Bag, topic: str, way: tuple[str, ...], start: float) -> tuple[Floats, Floats]:
+    times, values = [], []
+    for entry in bag.read_messages(topics=[topic]):
+        value = _at(entry.message, way)
+        if not isinstance(value, bool | int | float | np.number):
+            inside = ", ".join(getattr(value, "__slots__", ())) or type(value).__name__
+            raise RosError(f"{topic}/{'/'.join(way)} is no number", hint=f"it has: {inside}")
+        times.append(entry.timestamp.to_sec() - start)
+        values.append(float(value))
+    return np.array(times), np.array(values)
+
+
+def _at(message: Any, way: Sequence[str]) -> Any:
+    """What is at the end of a way of names and indices."""
+    for step in way:
+        try:
+            message = message[int(step)] if step.isdigit() else getattr(message, step)
+        except (AttributeError, IndexError, TypeError) as error:
+            known = getattr(message, "__slots__", ())
+            raise RosError(f"there is no '{step}' in it", hint=did_you_mean(step, known)) from error
+    return message
