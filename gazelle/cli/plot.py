@@ -1,5 +1,5 @@
-"""Plot curves of trainings, columns of a table, or what a bag recorded; as PNG, SVG
-or PDF, readable in print. Needs matplotlib: pip install "gazelle[plots]".
+"""Plot curves of trainings, columns of a table, or what a bag recorded, as PNG,
+SVG or PDF. Needs matplotlib: pip install "gazelle[plots]".
 
   gazelle plot runs/A runs/B curves.png               trainings, side by side
   gazelle plot drive.bag path.svg [--map map.yaml]    where the robot went
