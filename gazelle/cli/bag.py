@@ -4,6 +4,7 @@ gazelle bag record -O drive /scan /odom
 gazelle bag play drive.bag --clock -r 2 /scan:=/old_scan
 gazelle bag info drive.bag
 gazelle bag filter drive.bag scans.bag "topic == '/scan'"
+gazelle bag to-mcap drive.bag drive.mcap
 """
 
 from __future__ import annotations
@@ -41,6 +42,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     fixing.add_argument("rules", nargs="*", metavar="RULES", help=argparse.SUPPRESS)
     fixing.add_argument("--force", action="store_true", help="copy it although types differ")
     fixing.add_argument("-n", "--noplugins", action="store_true", help=argparse.SUPPRESS)
+    mcap = commands.add("to-mcap", "copy a bag into an MCAP file, for Foxglove", _to_mcap)
+    mcap.add_argument("source", metavar="IN")
+    mcap.add_argument("target", metavar="OUT", nargs="?", help="default: IN with .mcap")
     for name, purpose, action in (
         ("reindex", "make bags whole that were cut off", _reindex),
         ("compress", "compress bags", _compress),
@@ -154,6 +158,15 @@ def _reindex(args: argparse.Namespace) -> int:
             sys.stdout.write(f"{path}: {count} messages; the old bag is {old}\n")
             if found.damage:
                 sys.stdout.write(f"{path}: what followed is lost: {found.damage}\n")
+    return 0
+
+
+def _to_mcap(args: argparse.Namespace) -> int:
+    from gazelle.ros.bags.mcap_files import write_mcap
+
+    target = args.target or f"{args.source.removesuffix('.bag')}.mcap"
+    count = write_mcap(args.source, target)
+    sys.stdout.write(f"{target}: {count:,} messages\n")
     return 0
 
 
