@@ -204,6 +204,24 @@ BUNDLED = [
         0.4,
         space="/rrbot",
     ),
+    Controlled(
+        ("arm6_control arm6.launch gui:=false",),
+        "joint_state_controller arm_controller gripper_controller",
+        "arm_controller/command",
+        "axis_1",
+        0.4,
+        TRAJECTORY,
+        _there(axis_1=0.5, axis_2=0.3, axis_3=0.8, axis_4=0.0, axis_5=0.5, axis_6=0.0),
+    ),
+    Controlled(
+        ("arm6_control arm6.launch gui:=false",),
+        "gripper_controller",
+        "gripper_controller/gripper_cmd/goal",
+        "finger_joint",
+        0.02,
+        "control_msgs/GripperCommandActionGoal",
+        {"goal": {"command": {"position": 0.03, "max_effort": 30.0}}},
+    ),
 ]
 
 
