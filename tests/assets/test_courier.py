@@ -33,6 +33,14 @@ def test_its_way_finding_can_be_left_out():
     assert not expand(go_to_goal="false").xpath(f".//plugin[@filename='{name}']")
 
 
+def test_under_ros_control_its_wheels_are_driven_by_nothing_else():
+    robot = expand(ros_control="true")
+    plugins = set(robot.xpath("gazebo/plugin/@filename"))
+    assert plugins == {"libgazebo_ros_control.so"}
+    assert robot.xpath("transmission/joint/@name") == ["wheel_left_joint", "wheel_right_joint"]
+    assert not expand().xpath("transmission | gazebo/plugin[@filename='libgazebo_ros_control.so']")
+
+
 def test_its_camera_sees_what_is_before_it():
     model = load_model(assets.robot("courier"), xacro_args={"camera": "true"})
     with gazelle.Simulation("turtlebot3_world") as sim:

@@ -18,6 +18,7 @@ WHEELS = "wheel_left_joint wheel_right_joint"
 PARTS = {
     "turtlebot3": (WHEELS, 2, "imu lds_lfcd_sensor"),
     "courier": (WHEELS, 2, "laser"),
+    "ackermann_base": ("rear_wheel_joint front_steer_joint", 1, ""),
     "arm6": ("axis_1 axis_6 finger_joint other_finger_joint", 1, ""),
     "rrbot": ("joint1 joint2", 1, "head_hokuyo_sensor"),
 }

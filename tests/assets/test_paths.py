@@ -47,6 +47,7 @@ PACKAGES = [
     f"{robot}_{kind}" for robot in ("courier", "turtlebot3") for kind in ("description", "gazebo")
 ]
 PACKAGES += ["rrbot_description", "rrbot_gazebo", "rrbot_control"]
+PACKAGES += ["courier_control", "ackermann_base_description", "ackermann_base_control"]
 PACKAGES += ["arm6_description", "arm6_control"]
 
 

@@ -97,7 +97,9 @@ def tags(element):
 
 
 def test_names_of_the_robots():
-    assert sorted(assets.robots()) == sorted((*ROBOTS, "arm6", "cartpole", "courier", "rrbot"))
+    assert sorted(assets.robots()) == sorted(
+        (*ROBOTS, "ackermann_base", "arm6", "cartpole", "courier", "rrbot")
+    )
 
 
 def test_a_robot_is_named_as_its_file(robot, name):

@@ -194,6 +194,20 @@ OWN = [
     ),
 ]
 
+
+def _driven(name, wheel):
+    """A base that comes with Gazelle, in its own launch file."""
+    return Controlled(
+        (f"{name}_control {name}.launch gui:=false",),
+        "joint_state_controller drive_controller",
+        "drive_controller/cmd_vel",
+        wheel,
+        1.0,
+        TWIST,
+        AHEAD,
+    )
+
+
 # Robots that come with Gazelle.
 BUNDLED = [
     Controlled(
@@ -213,16 +227,18 @@ BUNDLED = [
         TRAJECTORY,
         _there(axis_1=0.5, axis_2=0.3, axis_3=0.8, axis_4=0.0, axis_5=0.5, axis_6=0.0),
     ),
-    Controlled(
-        ("arm6_control arm6.launch gui:=false",),
-        "gripper_controller",
-        "gripper_controller/gripper_cmd/goal",
-        "finger_joint",
-        0.02,
-        "control_msgs/GripperCommandActionGoal",
-        {"goal": {"command": {"position": 0.03, "max_effort": 30.0}}},
-    ),
+    _driven("courier", "wheel_left_joint"),
+    _driven("ackermann_base", "rear_wheel_joint"),
 ]
+GRIPPER = Controlled(
+    ("arm6_control arm6.launch gui:=false",),
+    "gripper_controller",
+    "gripper_controller/gripper_cmd/goal",
+    "finger_joint",
+    0.02,
+    "control_msgs/GripperCommandActionGoal",
+    {"goal": {"command": {"position": 0.03, "max_effort": 30.0}}},
+)
 
 
 class Watched:
@@ -264,7 +280,7 @@ def test_those_of_a_bundled_robot_do_too(case, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", OWN[1:], ids=lambda case: case.joint)
+@pytest.mark.parametrize("case", [*OWN[1:], GRIPPER], ids=lambda case: case.joint)
 def test_its_other_joints_are_moved(case, tmp_path):
     bring_up(case, DATA, tmp_path)
 
