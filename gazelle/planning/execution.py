@@ -141,7 +141,7 @@ def begin_execution(robot: Robot, plan: MotionPlan, world: int) -> Execution:
     Raises:
         PlanningError: No running controllers move exactly these joints, or one refuses.
     """
-    controllers = _choose(trajectory_controllers(robot), plan.names)
+    controllers = choose_controllers(trajectory_controllers(robot), plan.names)
     goals: dict[str, ControlGoal[TrajectoryGoal]] = {}
     for name, joints in controllers.items():
         value = TrajectoryGoal(_trajectory(robot, plan, joints, world))
@@ -155,7 +155,7 @@ def begin_execution(robot: Robot, plan: MotionPlan, world: int) -> Execution:
     return Execution(robot, goals, plan.trajectory.duration)
 
 
-def _choose(
+def choose_controllers(
     known: Mapping[str, tuple[str, ...]], wanted: tuple[str, ...]
 ) -> dict[str, tuple[str, ...]]:
     """Controllers that together move some joints: those with the fewest others first."""

@@ -5,8 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from gazelle.bridges.moveit.kinematics_services import KinematicsServices
+from gazelle.bridges.moveit.motion_actions import (
+    ExecuteTrajectoryAction,
+    MoveGroupAction,
+    RefusingAction,
+)
 from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
+from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.ros.builtin.arguments import parse_arguments, spin
 from gazelle.ros.node import Node
 
@@ -20,7 +26,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 class MoveGroupNode:
-    """MoveIt's services for the robot of ``robot_description`` and its SRDF.
+    """MoveIt's services and actions for the robot of ``robot_description`` and its SRDF.
 
     Args:
         node: On the graph; parameters are those of ``move_group``.
@@ -33,3 +39,10 @@ class MoveGroupNode:
         self.context = PlanningContext(node)
         self.kinematics = KinematicsServices(self.context)
         self.planning = PlanningServices(self.context)
+        self.executor = TrajectoryExecutor(self.context)
+        self.moving = MoveGroupAction(self.context, self.planning, self.executor)
+        self.following = ExecuteTrajectoryAction(self.context, self.executor)
+        self.refusing = (
+            RefusingAction(self.context, "pickup", "Pickup"),
+            RefusingAction(self.context, "place", "Place"),
+        )

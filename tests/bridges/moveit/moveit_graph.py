@@ -3,6 +3,8 @@
 import contextlib
 
 import arms
+import numpy as np
+from ros.graph import until
 
 from gazelle.bridges.moveit.move_group import MoveGroupNode
 from gazelle.ros import Master, Node, load_message, load_service
@@ -29,7 +31,8 @@ class MoveGroupClient:
         names = [each.name for each in self.group.context.robot.variables if not each.mimics]
         values = [float((READY | positions).get(name, 0.0)) for name in names]
         self.joints.publish(load_message("sensor_msgs/JointState")(name=names, position=values))
-        assert self.group.context.monitor.wait(60.0)
+        robot, monitor = self.group.context.robot, self.group.context.monitor
+        until(lambda: np.allclose(monitor.current()[robot.columns(names)], values), 60.0)
 
     def call(self, service, kind, **fields):
         found = load_service(f"moveit_msgs/{kind}")

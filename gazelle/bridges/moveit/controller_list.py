@@ -1,0 +1,86 @@
+"""Which controllers move a robot: of the parameter ``controller_list``, or of a controller manager."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle.errors import PlanningError, RosError
+from gazelle.ros.messages import load_service
+from gazelle.ros.node import Node
+
+_LOG = logging.getLogger("gazelle.planning")
+TRAJECTORY, GRIPPER = "FollowJointTrajectory", "GripperCommand"
+_TIMEOUT_S = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class ActionController:
+    """A controller that takes goals over an action.
+
+    Attributes:
+        name: Its name.
+        action: Of the action.
+        kind: ``FollowJointTrajectory`` or ``GripperCommand``.
+        joints: That it moves.
+        effort: Greatest one of a gripper, where a trajectory says none.
+    """
+
+    name: str
+    action: str
+    kind: str
+    joints: tuple[str, ...]
+    effort: float = 0.0
+
+
+def controllers_of(node: Node) -> dict[str, ActionController]:
+    """Controllers by name.
+
+    Those of the node's own ``controller_list``, as MoveIt's simple controller manager has them; without
+    one, trajectory controllers that the ``controller_manager`` of the namespace says are running.
+
+    Raises:
+        PlanningError: The list is malformed.
+    """
+    given = node.get_param("~controller_list", None)
+    if given is None:
+        return _running(node)
+    if not isinstance(given, list) or not all(isinstance(each, Mapping) for each in given):
+        raise PlanningError("the parameter 'controller_list' is no list of controllers")
+    found = [_entry(each) for each in given]
+    return {each.name: each for each in found}
+
+
+def _entry(given: Mapping[str, Any]) -> ActionController:
+    name, kind = str(given.get("name", "")), str(given.get("type", ""))
+    joints = given.get("joints")
+    if not name or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER):
+        raise PlanningError(
+            f"the controller '{name}' of 'controller_list' has the type '{kind}' and the joints "
+            f"{joints!r}",
+            hint=f"name, type {TRAJECTORY} or {GRIPPER}, action_ns and joints are needed",
+        )
+    space = str(given.get("action_ns", ""))
+    action = f"{name}/{space}" if space else name
+    effort = float(given.get("max_effort", 0.0))
+    return ActionController(name, action, kind, tuple(map(str, joints)), effort)
+
+
+def _running(node: Node) -> dict[str, ActionController]:
+    service = "controller_manager/list_controllers"
+    listing = load_service("controller_manager_msgs/ListControllers")
+    try:
+        answer = node.client(service, listing).call(listing._request_class(), timeout=_TIMEOUT_S)
+    except RosError as error:
+        _LOG.warning("there is no 'controller_list', and no controller manager: %s", error)
+        return {}
+    found = {}
+    for each in answer.controller:
+        if each.state == "running" and each.type.endswith("JointTrajectoryController"):
+            claims = [joint for claim in each.claimed_resources for joint in claim.resources]
+            joints = tuple(dict.fromkeys(claims))
+            action = f"{each.name}/follow_joint_trajectory"
+            found[each.name] = ActionController(each.name, action, TRAJECTORY, joints)
+    return found

@@ -1,0 +1,154 @@
+"""The actions ``move_group`` and ``execute_trajectory``, and those that only refuse."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
+from gazelle.bridges.moveit.planning_services import PlanningServices
+from gazelle.bridges.moveit.robot_states import state_message
+from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
+from gazelle.bridges.moveit.trajectory_messages import trajectory_message
+from gazelle.errors import PlanningError
+from gazelle.planning import NoPlanError, PlanOutcome
+from gazelle.ros.actions import SimpleActionServer
+from gazelle.ros.messages import load_message
+
+
+class MoveGroupAction:
+    """Plans, and goes there if that is wanted.
+
+    Args:
+        context: The robot and its scene.
+        planning: Plans.
+        executor: Moves.
+    """
+
+    def __init__(
+        self, context: PlanningContext, planning: PlanningServices, executor: TrajectoryExecutor
+    ) -> None:
+        self._context, self._planning, self._executor = context, planning, executor
+        shown = load_message("moveit_msgs/DisplayTrajectory")
+        self._shown = context.node.advertise(
+            "~display_planned_path", shown, queue_size=10, latch=True
+        )
+        kind = load_message("moveit_msgs/MoveGroupAction")
+        self._server = SimpleActionServer(context.node, "move_group", kind, self._work)
+
+    def _work(self, goal: Any) -> None:
+        result: Any = load_message("moveit_msgs/MoveGroupResult")()
+        self._say("PLANNING")
+        only = goal.planning_options.plan_only or not self._executor.allowed
+        text = ""
+        try:
+            self._plan(goal.request, result, from_here=not only)
+            if self._server.is_preempt_requested():
+                raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
+            if not only:
+                self._say("MONITOR")
+                self._executor.execute(result.planned_trajectory, self._server.is_preempt_requested)
+                result.executed_trajectory = result.planned_trajectory
+            result.error_code.val = int(PlanOutcome.SUCCESS)
+        except PlanningError as error:
+            LOG.error("move_group: %s", error)
+            text, result.error_code.val = error.message, outcome_of(error)
+        self._say("IDLE")
+        finish(self._server, result, text)
+
+    def _plan(self, request: Any, result: Any, *, from_here: bool) -> None:
+        context = self._context
+        if from_here and request.start_state.joint_state.name:
+            LOG.warning(
+                "move_group: a plan that is executed begins where the robot is, not at the "
+                "request's start_state"
+            )
+        with context.lock:
+            start = context.current() if from_here else None
+            plan = self._planning.plan(request, start=start)
+        result.trajectory_start = state_message(context.robot, plan.start)
+        result.planned_trajectory = trajectory_message(plan, context.robot.frame)
+        result.planning_time = plan.seconds
+        self._shown.publish(
+            load_message("moveit_msgs/DisplayTrajectory")(
+                model_id=context.robot.model.name,
+                trajectory=[result.planned_trajectory],
+                trajectory_start=result.trajectory_start,
+            )
+        )
+
+    def _say(self, state: str) -> None:
+        feedback = load_message("moveit_msgs/MoveGroupFeedback")(state=state)
+        self._server.publish_feedback(feedback)
+
+
+class ExecuteTrajectoryAction:
+    """Goes along trajectories that were planned before.
+
+    Args:
+        context: The robot.
+        executor: Moves.
+    """
+
+    def __init__(self, context: PlanningContext, executor: TrajectoryExecutor) -> None:
+        self._executor = executor
+        kind = load_message("moveit_msgs/ExecuteTrajectoryAction")
+        self._server = SimpleActionServer(context.node, "execute_trajectory", kind, self._work)
+
+    def _work(self, goal: Any) -> None:
+        result: Any = load_message("moveit_msgs/ExecuteTrajectoryResult")()
+        text = ""
+        try:
+            if not self._executor.allowed:
+                raise NoPlanError(
+                    "the parameter allow_trajectory_execution is false", PlanOutcome.CONTROL_FAILED
+                )
+            self._say("MONITOR")
+            self._executor.execute(goal.trajectory, self._server.is_preempt_requested)
+            result.error_code.val = int(PlanOutcome.SUCCESS)
+        except PlanningError as error:
+            LOG.error("execute_trajectory: %s", error)
+            text, result.error_code.val = error.message, outcome_of(error)
+        self._say("IDLE")
+        finish(self._server, result, text)
+
+    def _say(self, state: str) -> None:
+        feedback = load_message("moveit_msgs/ExecuteTrajectoryFeedback")(state=state)
+        self._server.publish_feedback(feedback)
+
+
+class RefusingAction:
+    """An action of MoveIt's that is only there because its clients wait for it: every goal fails.
+
+    Args:
+        context: On its graph.
+        name: Of the action.
+        kind: Its type, without ``Action``.
+    """
+
+    def __init__(self, context: PlanningContext, name: str, kind: str) -> None:
+        self._name, self._kind = name, kind
+        action = load_message(f"moveit_msgs/{kind}Action")
+        self._server = SimpleActionServer(context.node, name, action, self._work)
+
+    def _work(self, _goal: Any) -> None:
+        result: Any = load_message(f"moveit_msgs/{self._kind}Result")()
+        result.error_code.val = int(PlanOutcome.FAILURE)
+        text = f"'{self._name}' is not planned for; plan the motions one by one"
+        LOG.error("%s", text)
+        finish(self._server, result, text)
+
+
+def outcome_of(error: PlanningError) -> int:
+    """The error code of what went wrong."""
+    outcome = error.outcome if isinstance(error, NoPlanError) else PlanOutcome.FAILURE
+    return int(outcome)
+
+
+def finish(server: SimpleActionServer, result: Any, text: str) -> None:
+    """End the goal that is worked on as its error code says."""
+    if result.error_code.val == PlanOutcome.SUCCESS:
+        server.set_succeeded(result, text)
+    elif result.error_code.val == PlanOutcome.PREEMPTED:
+        server.set_preempted(result, text)
+    else:
+        server.set_aborted(result, text)

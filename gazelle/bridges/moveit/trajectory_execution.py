@@ -1,0 +1,215 @@
+"""Trajectories given to the controllers of a graph."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from gazelle.bridges.moveit.controller_list import (
+    GRIPPER,
+    TRAJECTORY,
+    ActionController,
+    controllers_of,
+)
+from gazelle.bridges.moveit.planning_context import PlanningContext
+from gazelle.errors import PlanningError
+from gazelle.planning import NoPlanError, PlanOutcome
+from gazelle.planning.execution import DURATION_MARGIN, DURATION_SCALING, choose_controllers
+from gazelle.planning.group import START_TOLERANCE
+from gazelle.ros.actions import GoalStatus, SimpleActionClient
+from gazelle.ros.errors import NodeClosedError
+from gazelle.ros.messages import load_message
+
+_LOOK_S = 0.01
+_SERVER_S = 5.0
+
+
+class TrajectoryExecutor:
+    """Has controllers follow trajectories, one at a time.
+
+    Args:
+        context: The robot.
+
+    Attributes:
+        allowed: Whether it may (``~allow_trajectory_execution``).
+    """
+
+    def __init__(self, context: PlanningContext) -> None:
+        self._context = context
+        node = context.node
+        self.allowed = bool(node.get_param("~allow_trajectory_execution", True))
+        given: Any = node.get_param("~trajectory_execution", {}) or {}
+        self._scaling = float(given.get("allowed_execution_duration_scaling", DURATION_SCALING))
+        self._margin = float(given.get("allowed_goal_duration_margin", DURATION_MARGIN))
+        self._tolerance = float(given.get("allowed_start_tolerance", START_TOLERANCE))
+        self._clients: dict[str, SimpleActionClient] = {}
+        self._one = threading.Lock()
+        self._stopped = threading.Event()
+        kind = load_message("std_msgs/String")
+        node.subscribe("trajectory_execution_event", kind, self._event)
+
+    def _event(self, message: Any) -> None:
+        if message.data == "stop":
+            self._stopped.set()
+
+    def execute(self, message: Any, stop: Callable[[], bool]) -> None:
+        """Follow a ``moveit_msgs/RobotTrajectory`` to its end.
+
+        Args:
+            message: The trajectory.
+            stop: Asked all the time whether to end before.
+
+        Raises:
+            NoPlanError: It did not get there, and why.
+        """
+        trajectory = message.joint_trajectory
+        if not trajectory.points:
+            return
+        with self._one:
+            self._stopped.clear()
+            try:
+                self._check_start(trajectory)
+                known = controllers_of(self._context.node)
+                joints = {name: each.joints for name, each in known.items()}
+                chosen = choose_controllers(joints, tuple(trajectory.joint_names))
+                clients = self._begin([known[name] for name in chosen], trajectory)
+            except NoPlanError:
+                raise
+            except PlanningError as error:
+                raise _failed(error.message) from error
+            self._wait(clients, trajectory, stop)
+
+    def _check_start(self, trajectory: Any) -> None:
+        """See that the robot is where the trajectory begins."""
+        robot = self._context.robot
+        columns = robot.columns(trajectory.joint_names)
+        unknown = {*self._context.monitor.unknown} & {*trajectory.joint_names}
+        if unknown:
+            raise _failed(
+                "nobody says on 'joint_states' where these are: " + ", ".join(sorted(unknown))
+            )
+        there = np.array(trajectory.points[0].positions)
+        if there.shape != columns.shape or not np.isfinite(there).all():
+            raise _failed("the first point of the trajectory has not one position for each joint")
+        away = there - self._context.monitor.current()[columns]
+        for number, column in enumerate(columns):
+            if robot.variables[column].endless:
+                away[number] = np.remainder(away[number] + np.pi, 2.0 * np.pi) - np.pi
+        worst = int(np.argmax(np.abs(away)))
+        if self._tolerance > 0.0 and abs(away[worst]) > self._tolerance:
+            raise _failed(
+                f"joint '{trajectory.joint_names[worst]}' is {abs(away[worst]):.4f} from where the "
+                f"trajectory begins, more than {self._tolerance:g}"
+            )
+
+    # -- goals ---------------------------------------------------------------------------
+
+    def _begin(
+        self, controllers: list[ActionController], trajectory: Any
+    ) -> list[SimpleActionClient]:
+        """Send each its part; when one is not there, the others are stopped."""
+        clients: list[SimpleActionClient] = []
+        try:
+            for controller in controllers:
+                client = self._send(controller, trajectory)
+                clients.append(client)
+        except NoPlanError:
+            _cancel(clients)
+            raise
+        return clients
+
+    def _send(self, controller: ActionController, trajectory: Any) -> SimpleActionClient:
+        action = load_message(f"control_msgs/{controller.kind}Action")
+        if controller.action not in self._clients:
+            made = SimpleActionClient(self._context.node, controller.action, action)
+            self._clients[controller.action] = made
+        client = self._clients[controller.action]
+        if not client.wait_for_server(_SERVER_S):
+            raise _failed(f"the controller's action '{controller.action}' is not there")
+        goal: Any = load_message(f"control_msgs/{controller.kind}Goal")()
+        if controller.kind == TRAJECTORY:
+            goal.trajectory = self._part(controller, trajectory)
+        elif controller.kind == GRIPPER:
+            _fill_gripper(goal.command, controller, trajectory)
+        client.send_goal(goal)
+        return client
+
+    def _part(self, controller: ActionController, trajectory: Any) -> Any:
+        """What is of a controller's joints; others of its own are held where they are."""
+        made: Any = load_message("trajectory_msgs/JointTrajectory")()
+        made.joint_names = list(controller.joints)
+        own = {name: number for number, name in enumerate(trajectory.joint_names)}
+        robot, here = self._context.robot, self._context.monitor.current()
+        held = {name: float(here[robot.column(name)]) for name in made.joint_names
+                if name not in own}  # fmt: skip
+        kind = load_message("trajectory_msgs/JointTrajectoryPoint")
+        for point in trajectory.points:
+            parts = {
+                field: [
+                    values[own[name]] if name in own else held[name] * (field == "positions")
+                    for name in made.joint_names
+                ]
+                for field in ("positions", "velocities", "accelerations")
+                if len(values := getattr(point, field)) == len(own)
+            }
+            made.points.append(kind(time_from_start=point.time_from_start, **parts))
+        return made
+
+    def _wait(
+        self, clients: list[SimpleActionClient], trajectory: Any, stop: Callable[[], bool]
+    ) -> None:
+        """Wait until all are there; when one fails, or it takes too long, all are stopped."""
+        node, pause = self._context.node, threading.Event()
+        duration = trajectory.points[-1].time_from_start.to_nsec()
+        limit = node.clock.now() + int(duration * self._scaling + self._margin * 1e9)
+        while True:
+            states = [client.get_state() for client in clients]
+            if all(state == GoalStatus.SUCCEEDED for state in states):
+                return
+            failure: NoPlanError | None = None
+            if stop() or self._stopped.is_set() or node.closed:
+                failure = NoPlanError("the motion was stopped", PlanOutcome.PREEMPTED)
+            elif node.clock.now() > limit:
+                failure = NoPlanError("the motion took too long", PlanOutcome.TIMED_OUT)
+            else:
+                failure = next(filter(None, map(_failure_of, clients)), None)
+            if failure is not None:
+                _cancel(clients)
+                raise failure
+            pause.wait(_LOOK_S)
+
+
+def _cancel(clients: list[SimpleActionClient]) -> None:
+    for client in clients:
+        with contextlib.suppress(NodeClosedError):
+            client.cancel_goal()
+
+
+def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
+    """How a goal failed; None if it has not."""
+    state = client.get_state()
+    if state in (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.SUCCEEDED):
+        return None
+    said = client.get_goal_status_text() or getattr(client.get_result(), "error_string", "")
+    name = client.action_client.ns
+    if state in (GoalStatus.PREEMPTED, GoalStatus.RECALLED):
+        return NoPlanError(f"'{name}' was preempted: {said}", PlanOutcome.PREEMPTED)
+    return _failed(f"'{name}' failed: {said}")
+
+
+def _fill_gripper(command: Any, controller: ActionController, trajectory: Any) -> None:
+    """Where a gripper goes: the last position of its first joint."""
+    last = trajectory.points[-1]
+    number = next(
+        index for index, name in enumerate(trajectory.joint_names) if name in controller.joints
+    )
+    command.position = last.positions[number]
+    command.max_effort = last.effort[number] if len(last.effort) > number else controller.effort
+
+
+def _failed(text: str) -> NoPlanError:
+    return NoPlanError(text, PlanOutcome.CONTROL_FAILED)
