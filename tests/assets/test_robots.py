@@ -83,8 +83,9 @@ def inertia(link):
     return tuple(float(element.get(key)) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 
 
-def xyz(element):
-    return numbers(element.find("origin").get("xyz"))
+def xyz(element, attribute="xyz"):
+    origin = element.find("origin")
+    return numbers("0 0 0" if origin is None else origin.get(attribute, "0 0 0"))
 
 
 def plugin(robot, filename):
@@ -328,7 +329,7 @@ def skeleton(robot):
             joint.find("parent").get("link"),
             joint.find("child").get("link"),
             xyz(joint),
-            numbers(joint.find("origin").get("rpy")),
+            xyz(joint, "rpy"),
         )
         for joint in robot.findall("joint")
     }
@@ -343,3 +344,22 @@ def test_same_links_joints_and_shapes_as_the_published_robot(corpus, robot, name
         (tmp_path / file.name).write_text(text)
     links, joints = skeleton(robot)
     assert (links, joints) == skeleton(expand(tmp_path / f"{name}.urdf.xacro"))
+
+
+@pytest.mark.corpus
+def test_rrbot_has_the_links_joints_shapes_and_motors_of_the_published_one(corpus, tmp_path):
+    folder = corpus / "ros-simulation__gazebo_ros_demos" / "rrbot_description" / "urdf"
+    for file in folder.iterdir():
+        text = file.read_text().replace("$(find rrbot_description)/urdf", str(tmp_path))
+        (tmp_path / file.name).write_text(text)
+    ours, published = expand(assets.robot("rrbot")), expand(tmp_path / "rrbot.xacro")
+    links, joints = skeleton(ours)
+    links_wanted, joints_wanted = skeleton(published)
+    assert joints == joints_wanted
+    assert links.keys() == links_wanted.keys()
+    for name, (moments, size, middle) in links_wanted.items():
+        assert links[name] == (moments and near(moments), size, middle)
+    for path in ("link/inertial/mass/@value", "joint/dynamics/@damping", "joint/axis/@xyz"):
+        assert set(map(numbers, ours.xpath(path))) == set(map(numbers, published.xpath(path)))
+    for path in ("transmission/@name", "transmission/joint/@name", ".//hardwareInterface/text()"):
+        assert ours.xpath(path) == published.xpath(path)

@@ -230,6 +230,15 @@ BUNDLED = [
     _driven("courier", "wheel_left_joint"),
     _driven("ackermann_base", "rear_wheel_joint"),
 ]
+# Its two launch files one after the other, by the names that the tutorials use.
+RRBOT = Controlled(
+    ("rrbot_gazebo rrbot_world.launch gui:=false", "rrbot_control rrbot_control.launch"),
+    BUNDLED[0].running,
+    "joint2_position_controller/command",
+    "joint2",
+    0.4,
+    space="/rrbot",
+)
 GRIPPER = Controlled(
     ("arm6_control arm6.launch gui:=false",),
     "gripper_controller",
@@ -280,7 +289,7 @@ def test_those_of_a_bundled_robot_do_too(case, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [*OWN[1:], GRIPPER], ids=lambda case: case.joint)
+@pytest.mark.parametrize("case", [*OWN[1:], RRBOT, GRIPPER], ids=lambda case: case.joint)
 def test_its_other_joints_are_moved(case, tmp_path):
     bring_up(case, DATA, tmp_path)
 
