@@ -38,6 +38,11 @@ class MoveGroupAction:
     def _work(self, goal: Any) -> None:
         result: Any = load_message("moveit_msgs/MoveGroupResult")()
         self._say("PLANNING")
+        if _says_something(goal.planning_options.planning_scene_diff):
+            LOG.warning(
+                "move_group: planning_scene_diff is passed over; change the scene before, by "
+                "apply_planning_scene"
+            )
         only = goal.planning_options.plan_only or not self._executor.allowed
         text = ""
         try:
@@ -136,6 +141,15 @@ class RefusingAction:
         text = f"'{self._name}' is not planned for; plan the motions one by one"
         LOG.error("%s", text)
         finish(self._server, result, text)
+
+
+def _says_something(scene: Any) -> bool:
+    """Whether a ``PlanningScene`` would change anything of the scene."""
+    return bool(
+        scene.world.collision_objects
+        or scene.robot_state.attached_collision_objects
+        or scene.allowed_collision_matrix.entry_names
+    )
 
 
 def outcome_of(error: PlanningError) -> int:

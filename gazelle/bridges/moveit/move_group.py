@@ -12,6 +12,7 @@ from gazelle.bridges.moveit.motion_actions import (
 )
 from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
+from gazelle.bridges.moveit.scene_services import SceneServices
 from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.ros.builtin.arguments import parse_arguments, spin
 from gazelle.ros.node import Node
@@ -39,6 +40,7 @@ class MoveGroupNode:
         self.context = PlanningContext(node)
         self.kinematics = KinematicsServices(self.context)
         self.planning = PlanningServices(self.context)
+        self.scene = SceneServices(self.context)
         self.executor = TrajectoryExecutor(self.context)
         self.moving = MoveGroupAction(self.context, self.planning, self.executor)
         self.following = ExecuteTrajectoryAction(self.context, self.executor)

@@ -1,0 +1,86 @@
+"""A whole planning scene as ``moveit_msgs/PlanningScene``, and rules of collisions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.bridges.moveit.object_messages import object_message
+from gazelle.bridges.moveit.robot_states import state_message
+from gazelle.planning import AllowedCollisionMatrix, PlanningScene
+from gazelle.ros.messages import load_message
+
+STATE, ATTACHED, NAMES, GEOMETRY, ALLOWED, PADDING = 2, 4, 8, 16, 128, 256
+"""Of ``moveit_msgs/PlanningSceneComponents``."""
+
+
+def scene_message(scene: PlanningScene, parts: int) -> Any:
+    """A scene.
+
+    Args:
+        scene: The scene; its state is where the robot is.
+        parts: Which of it: a sum of the components' numbers.
+    """
+    message: Any = load_message("moveit_msgs/PlanningScene")()
+    message.robot_model_name = scene.robot.model.name
+    frame = scene.robot.frame
+    if parts & STATE:
+        message.robot_state = state_message(scene.robot, scene.state)
+    if parts & ATTACHED:
+        made = load_message("moveit_msgs/AttachedCollisionObject")
+        message.robot_state.attached_collision_objects = [
+            made(
+                link_name=held.link,
+                object=object_message(held.object, held.link),
+                touch_links=sorted(held.touch_links),
+            )
+            for held in scene.attached.values()
+        ]
+    message.robot_state.is_diff = not parts & STATE
+    if parts & (NAMES | GEOMETRY):
+        message.world.collision_objects = [
+            object_message(thing, frame, shapes=bool(parts & GEOMETRY))
+            for thing in scene.objects.values()
+        ]
+    if parts & ALLOWED:
+        message.allowed_collision_matrix = matrix_message(scene.allowed)
+    if parts & PADDING:
+        padding, scale = (
+            load_message("moveit_msgs/LinkPadding"),
+            load_message("moveit_msgs/LinkScale"),
+        )
+        links = scene.robot.links
+        message.link_padding = [
+            padding(link_name=link, padding=scene.padding.get(link, 0.0)) for link in links
+        ]
+        message.link_scale = [
+            scale(link_name=link, scale=scene.scale.get(link, 1.0)) for link in links
+        ]
+    return message
+
+
+def matrix_message(matrix: AllowedCollisionMatrix) -> Any:
+    """An ``AllowedCollisionMatrix``; pairs of which nothing is said may not touch."""
+    pairs, defaults = matrix.pairs, matrix.defaults
+    names = sorted({name for pair in pairs for name in pair})
+    entry = load_message("moveit_msgs/AllowedCollisionEntry")
+    return load_message("moveit_msgs/AllowedCollisionMatrix")(
+        entry_names=names,
+        entry_values=[
+            entry(enabled=[pairs.get((min(a, b), max(a, b)), False) for b in names]) for a in names
+        ],
+        default_entry_names=[*defaults],
+        default_entry_values=[*defaults.values()],
+    )
+
+
+def matrix_of_message(message: Any) -> AllowedCollisionMatrix:
+    """The rules of an ``AllowedCollisionMatrix``; what names say counts where a pair is not allowed."""
+    made = AllowedCollisionMatrix()
+    defaults = dict(zip(message.default_entry_names, message.default_entry_values, strict=False))
+    for name, value in defaults.items():
+        made.set_default(name, allowed=bool(value))
+    for first, row in zip(message.entry_names, message.entry_values, strict=False):
+        for second, value in zip(message.entry_names, row.enabled, strict=False):
+            if value or not {first, second} & {*defaults}:
+                made.set_pair(first, second, allowed=bool(value))
+    return made

@@ -1,0 +1,173 @@
+"""The planning scene on a graph: topics and services that change it and show it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.moveit.object_messages import object_of_message, shapes_of_message
+from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
+from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
+from gazelle.errors import PlanningError
+from gazelle.planning import AttachedObject
+from gazelle.ros.messages import load_message, load_service
+
+_ALL = 1023
+_ADD, _REMOVE, _APPEND, _MOVE = 0, 1, 2, 3
+
+
+class SceneServices:
+    """Changes the scene as topics and services say; shows it on ``~monitored_planning_scene``.
+
+    Args:
+        context: The robot and its scene.
+    """
+
+    def __init__(self, context: PlanningContext) -> None:
+        self._context, self._scene = context, context.scene
+        node = context.node
+        whole = load_message("moveit_msgs/PlanningScene")
+        self._shown = node.advertise("~monitored_planning_scene", whole, queue_size=100, latch=True)
+        world = load_message("moveit_msgs/PlanningSceneWorld")
+        thing = load_message("moveit_msgs/CollisionObject")
+        held = load_message("moveit_msgs/AttachedCollisionObject")
+        for topic, kind, take in (
+            ("planning_scene", whole, self._take),
+            ("planning_scene_world", world, self._place),
+            ("collision_object", thing, self._object),
+            ("attached_collision_object", held, self._hold),
+        ):
+            node.subscribe(topic, kind, self._listener(take))
+        node.serve("get_planning_scene", load_service("moveit_msgs/GetPlanningScene"), self._get)
+        node.serve(
+            "apply_planning_scene",
+            load_service("moveit_msgs/ApplyPlanningScene"),
+            lambda request: {"success": self._change(lambda: self._take(request.scene))},
+        )
+        self._change(lambda: True)
+
+    def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
+        def hear(message: Any) -> None:
+            self._change(lambda: take(message))
+
+        return hear
+
+    def _get(self, request: Any) -> dict[str, Any]:
+        with self._context.lock:
+            self._context.current()
+            return {"scene": scene_message(self._scene, request.components.components or _ALL)}
+
+    def _change(self, act: Callable[[], bool]) -> bool:
+        """Change the scene and show it; whether all could be done."""
+        with self._context.lock:
+            self._context.current()
+            done = act()
+            self._shown.publish(scene_message(self._scene, _ALL))
+        return done
+
+    def _try(self, act: Callable[[], object]) -> bool:
+        """Whether a part of a change could be done; why not is logged."""
+        try:
+            act()
+        except PlanningError as error:
+            LOG.error("planning scene: %s", error)
+            return False
+        return True
+
+    # -- whole scenes --------------------------------------------------------------------
+
+    def _take(self, message: Any) -> bool:
+        """Take a ``PlanningScene``, or a change of it."""
+        scene = self._scene
+        if not message.is_diff:
+            scene.clear()
+            for name in [*scene.attached]:
+                scene.drop(name)
+        done = True
+        if message.allowed_collision_matrix.entry_names or (
+            message.allowed_collision_matrix.default_entry_names
+        ):
+            scene.allowed = matrix_of_message(message.allowed_collision_matrix)
+        padding = {each.link_name: each.padding for each in message.link_padding}
+        scale = {each.link_name: each.scale for each in message.link_scale}
+        done &= self._try(lambda: scene.set_padding(padding))
+        done &= self._try(lambda: scene.set_scale(scale))
+        # What is held may be taken from what stands there, so things are put there before.
+        done &= self._place(message.world)
+        for each in message.robot_state.attached_collision_objects:
+            done &= self._hold(each)
+        return done
+
+    def _place(self, world: Any) -> bool:
+        """Take a ``PlanningSceneWorld``."""
+        done = True
+        for each in world.collision_objects:
+            done &= self._object(each)
+        return done
+
+    # -- things --------------------------------------------------------------------------
+
+    def _object(self, message: Any) -> bool:
+        """Do what a ``CollisionObject`` says."""
+        actions = {
+            _ADD: self._add, _REMOVE: self._remove, _APPEND: self._append, _MOVE: self._move,
+        }  # fmt: skip
+
+        def act() -> None:
+            if message.operation not in actions:
+                raise PlanningError(f"the operation {message.operation} of an object is not known")
+            actions[message.operation](message)
+
+        return self._try(act)
+
+    def _add(self, message: Any) -> None:
+        frame = self._context.frames.find(message.header.frame_id, self._scene.state)
+        self._scene.add_object(object_of_message(message, frame))
+
+    def _remove(self, message: Any) -> None:
+        if message.id:
+            self._scene.remove(message.id)
+        else:
+            self._scene.clear()
+
+    def _append(self, message: Any) -> None:
+        if message.id not in self._scene.objects:
+            self._add(message)
+            return
+        known = self._scene.objects[message.id]
+        frame = self._context.frames.find(message.header.frame_id, self._scene.state)
+        own = known.pose.inverse() * frame * pose_of_message(message.pose)
+        added = tuple((shape, own * pose) for shape, pose in shapes_of_message(message))
+        self._scene.add_object(replace(known, shapes=known.shapes + added))
+
+    def _move(self, message: Any) -> None:
+        frame = self._context.frames.find(message.header.frame_id, self._scene.state)
+        self._scene.move(message.id, frame * pose_of_message(message.pose))
+
+    # -- what links hold -----------------------------------------------------------------
+
+    def _hold(self, message: Any) -> bool:
+        """Do what an ``AttachedCollisionObject`` says."""
+        removes = message.object.operation == _REMOVE
+        return self._try(lambda: self._leave(message) if removes else self._attach(message))
+
+    def _leave(self, message: Any) -> None:
+        """Leave one thing, or all that a link holds, or all, where it is."""
+        if message.object.id:
+            self._scene.detach(message.object.id)
+            return
+        for name, held in [*self._scene.attached.items()]:
+            if message.link_name in ("", held.link):
+                self._scene.detach(name)
+
+    def _attach(self, message: Any) -> None:
+        scene, thing = self._scene, message.object
+        if not (thing.primitives or thing.meshes or thing.planes):
+            scene.attach(thing.id, message.link_name, message.touch_links)
+            return
+        frame = self._context.frames.find(thing.header.frame_id, scene.state)
+        base = scene.robot.pose(scene.state, message.link_name).inverse()
+        made = object_of_message(thing, base * frame)
+        scene.hold(AttachedObject(made, message.link_name, frozenset(message.touch_links)))
