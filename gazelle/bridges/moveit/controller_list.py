@@ -13,6 +13,8 @@ from gazelle.ros.node import Node
 
 _LOG = logging.getLogger("gazelle.planning")
 TRAJECTORY, GRIPPER = "FollowJointTrajectory", "GripperCommand"
+FAKE = ("interpolate", "via points", "last point")
+"""Types of MoveIt's fake controllers."""
 _TIMEOUT_S = 5.0
 
 
@@ -23,7 +25,7 @@ class ActionController:
     Attributes:
         name: Its name.
         action: Of the action.
-        kind: ``FollowJointTrajectory`` or ``GripperCommand``.
+        kind: ``FollowJointTrajectory``, ``GripperCommand``, or one of ``FAKE``, which has no action.
         joints: That it moves.
         effort: Greatest one of a gripper, where a trajectory says none.
     """
@@ -49,18 +51,25 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
         return _running(node)
     if not isinstance(given, list) or not all(isinstance(each, Mapping) for each in given):
         raise PlanningError("the parameter 'controller_list' is no list of controllers")
-    found = [_entry(each) for each in given]
-    return {each.name: each for each in found}
+    found = {}
+    for each in given:
+        try:
+            made = _entry(each)
+        except PlanningError as error:
+            _LOG.error("%s", error)  # the others may do
+        else:
+            found[made.name] = made
+    return found
 
 
 def _entry(given: Mapping[str, Any]) -> ActionController:
     name, kind = str(given.get("name", "")), str(given.get("type", ""))
     joints = given.get("joints")
-    if not name or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER):
+    if not name or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER, *FAKE):
         raise PlanningError(
             f"the controller '{name}' of 'controller_list' has the type '{kind}' and the joints "
             f"{joints!r}",
-            hint=f"name, type {TRAJECTORY} or {GRIPPER}, action_ns and joints are needed",
+            hint=f"name, type ({', '.join((TRAJECTORY, GRIPPER, *FAKE))}), action_ns and joints are needed",
         )
     space = str(given.get("action_ns", ""))
     action = f"{name}/{space}" if space else name

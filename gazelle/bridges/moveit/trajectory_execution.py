@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from gazelle.bridges.moveit.controller_list import (
+    FAKE,
     GRIPPER,
     TRAJECTORY,
     ActionController,
     controllers_of,
 )
+from gazelle.bridges.moveit.fake_controllers import FakeMotion
 from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanOutcome
@@ -47,6 +49,11 @@ class TrajectoryExecutor:
         self._margin = float(given.get("allowed_goal_duration_margin", DURATION_MARGIN))
         self._tolerance = float(given.get("allowed_start_tolerance", START_TOLERANCE))
         self._clients: dict[str, SimpleActionClient] = {}
+        self._fake: FakeMotion | None = None
+        if node.get_param("~controller_list", None) is not None and any(
+            each.kind in FAKE for each in controllers_of(node).values()
+        ):
+            self._fake = FakeMotion(context)
         self._one = threading.Lock()
         self._stopped = threading.Event()
         kind = load_message("std_msgs/String")
@@ -76,6 +83,10 @@ class TrajectoryExecutor:
                 known = controllers_of(self._context.node)
                 joints = {name: each.joints for name, each in known.items()}
                 chosen = choose_controllers(joints, tuple(trajectory.joint_names))
+                kinds = [known[name].kind for name in chosen]
+                if self._fake is not None and kinds[0] in FAKE:
+                    self._fake.play(kinds[0], trajectory, lambda: stop() or self._stopped.is_set())
+                    return
                 clients = self._begin([known[name] for name in chosen], trajectory)
             except NoPlanError:
                 raise

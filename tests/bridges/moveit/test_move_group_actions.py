@@ -2,6 +2,7 @@
 
 import contextlib
 import threading
+from types import SimpleNamespace
 
 import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
@@ -246,3 +247,35 @@ def test_nothing_moves_that_may_not():
         assert result.error_code.val == PlanOutcome.SUCCESS
         assert execute(made, result.planned_trajectory) == PlanOutcome.CONTROL_FAILED
         assert not made.goals
+
+
+@pytest.mark.parametrize("kind", ["interpolate", "via points", "last point"])
+def test_fake_controllers_only_say_where_joints_are(kind):
+    own = {
+        "controller_list": [
+            {"name": "odd", "type": "Unheard", "joints": []},
+            {"name": "fake_arm", "type": kind, "joints": [*ARM]},
+        ],
+        "initial": [{"group": "arm", "pose": "tuck"}, {"group": "leg", "pose": "up"}],
+        "rate": 50,
+    }
+    with moveit_graph(**own) as client:
+        seen = []
+        client.node.subscribe(
+            "move_group/fake_controller_joint_states",
+            load_message("sensor_msgs/JointState"),
+            lambda each: seen.append(dict(zip(each.name, each.position, strict=True))),
+        )
+        until(lambda: seen, 60.0)
+        assert seen[0]["elbow_flex_joint"] == pytest.approx(1.72)
+        robot = SimpleNamespace(client=client)
+        result, _ = send(robot, goal_of(elbow_flex_joint=1.1))
+        assert result.error_code.val == PlanOutcome.SUCCESS
+        until(lambda: seen[-1]["elbow_flex_joint"] == pytest.approx(1.1, abs=2e-3), 60.0)
+        path = [each["elbow_flex_joint"] for each in seen[1:]]
+        if kind == "last point":
+            assert len(path) == 1
+        else:
+            assert path[0] == pytest.approx(1.2)
+            assert path == sorted(path, reverse=True)
+            assert len(path) > 3
