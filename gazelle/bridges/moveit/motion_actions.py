@@ -7,6 +7,7 @@ from typing import Any
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
 from gazelle.bridges.moveit.robot_states import state_message
+from gazelle.bridges.moveit.scene_services import SceneServices
 from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.errors import PlanningError
@@ -21,13 +22,19 @@ class MoveGroupAction:
     Args:
         context: The robot and its scene.
         planning: Plans.
+        scene: Changes the scene for a while, as goals say.
         executor: Moves.
     """
 
     def __init__(
-        self, context: PlanningContext, planning: PlanningServices, executor: TrajectoryExecutor
+        self,
+        context: PlanningContext,
+        planning: PlanningServices,
+        scene: SceneServices,
+        executor: TrajectoryExecutor,
     ) -> None:
         self._context, self._planning, self._executor = context, planning, executor
+        self._scene = scene
         shown = load_message("moveit_msgs/DisplayTrajectory")
         self._shown = context.node.advertise(
             "~display_planned_path", shown, queue_size=10, latch=True
@@ -38,15 +45,10 @@ class MoveGroupAction:
     def _work(self, goal: Any) -> None:
         result: Any = load_message("moveit_msgs/MoveGroupResult")()
         self._say("PLANNING")
-        if _says_something(goal.planning_options.planning_scene_diff):
-            LOG.warning(
-                "move_group: planning_scene_diff is passed over; change the scene before, by "
-                "apply_planning_scene"
-            )
         only = goal.planning_options.plan_only or not self._executor.allowed
         text = ""
         try:
-            self._plan(goal.request, result, from_here=not only)
+            self._plan(goal, result, from_here=not only)
             if self._server.is_preempt_requested():
                 raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
             if not only:
@@ -60,16 +62,19 @@ class MoveGroupAction:
         self._say("IDLE")
         finish(self._server, result, text)
 
-    def _plan(self, request: Any, result: Any, *, from_here: bool) -> None:
-        context = self._context
+    def _plan(self, goal: Any, result: Any, *, from_here: bool) -> None:
+        context, request = self._context, goal.request
+        change = goal.planning_options.planning_scene_diff
         if from_here and request.start_state.joint_state.name:
             LOG.warning(
                 "move_group: a plan that is executed begins where the robot is, not at the "
                 "request's start_state"
             )
         with context.lock:
-            start = context.current() if from_here else None
-            plan = self._planning.plan(request, start=start)
+            here = context.current()
+            start = here if from_here else None
+            with self._scene.changed(change):
+                plan = self._planning.plan(request, start=start)
         result.trajectory_start = state_message(context.robot, plan.start)
         result.planned_trajectory = trajectory_message(plan, context.robot.frame)
         result.planning_time = plan.seconds
@@ -141,15 +146,6 @@ class RefusingAction:
         text = f"'{self._name}' is not planned for; plan the motions one by one"
         LOG.error("%s", text)
         finish(self._server, result, text)
-
-
-def _says_something(scene: Any) -> bool:
-    """Whether a ``PlanningScene`` would change anything of the scene."""
-    return bool(
-        scene.world.collision_objects
-        or scene.robot_state.attached_collision_objects
-        or scene.allowed_collision_matrix.entry_names
-    )
 
 
 def outcome_of(error: PlanningError) -> int:

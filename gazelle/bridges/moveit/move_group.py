@@ -42,7 +42,7 @@ class MoveGroupNode:
         self.planning = PlanningServices(self.context)
         self.scene = SceneServices(self.context)
         self.executor = TrajectoryExecutor(self.context)
-        self.moving = MoveGroupAction(self.context, self.planning, self.executor)
+        self.moving = MoveGroupAction(self.context, self.planning, self.scene, self.executor)
         self.following = ExecuteTrajectoryAction(self.context, self.executor)
         self.refusing = (
             RefusingAction(self.context, "pickup", "Pickup"),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +12,7 @@ from gazelle.bridges.moveit.object_messages import object_of_message, shapes_of_
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
 from gazelle.errors import PlanningError
-from gazelle.planning import AttachedObject
+from gazelle.planning import AttachedObject, NoPlanError, PlanOutcome
 from gazelle.ros.messages import load_message, load_service
 
 _ALL = 1023
@@ -78,6 +79,34 @@ class SceneServices:
 
     # -- whole scenes --------------------------------------------------------------------
 
+    @contextmanager
+    def changed(self, message: Any) -> Iterator[None]:
+        """The scene with the change of a ``PlanningScene``, for a while; hold the context's lock.
+
+        Raises:
+            NoPlanError: A part of the change could not be done.
+        """
+        scene = self._scene
+        if not _says_something(message):
+            yield  # all that is compiled stays
+            return
+        objects, attached, allowed = dict(scene.objects), dict(scene.attached), scene.allowed
+        links = scene.robot.links
+        padding = {link: scene.padding.get(link, 0.0) for link in links}
+        scale = {link: scene.scale.get(link, 1.0) for link in links}
+        try:
+            if not self._merge(message):
+                raise NoPlanError(
+                    "the request's change of the planning scene cannot be done",
+                    PlanOutcome.INVALID_OBJECT_NAME,
+                )
+            yield
+        finally:
+            scene.objects, scene.attached = objects, attached
+            scene.set_padding(padding)
+            scene.set_scale(scale)
+            scene.allowed = allowed
+
     def _take(self, message: Any) -> bool:
         """Take a ``PlanningScene``, or a change of it."""
         scene = self._scene
@@ -85,7 +114,11 @@ class SceneServices:
             scene.clear()
             for name in [*scene.attached]:
                 scene.drop(name)
-        done = True
+        return self._merge(message)
+
+    def _merge(self, message: Any) -> bool:
+        """Change what a ``PlanningScene`` says; the rest stays."""
+        scene, done = self._scene, True
         if message.allowed_collision_matrix.entry_names or (
             message.allowed_collision_matrix.default_entry_names
         ):
@@ -171,3 +204,16 @@ class SceneServices:
         base = scene.robot.pose(scene.state, message.link_name).inverse()
         made = object_of_message(thing, base * frame)
         scene.hold(AttachedObject(made, message.link_name, frozenset(message.touch_links)))
+
+
+def _says_something(message: Any) -> bool:
+    """Whether a ``PlanningScene`` would change anything."""
+    rules = message.allowed_collision_matrix
+    return bool(
+        message.world.collision_objects
+        or message.robot_state.attached_collision_objects
+        or rules.entry_names
+        or rules.default_entry_names
+        or message.link_padding
+        or message.link_scale
+    )

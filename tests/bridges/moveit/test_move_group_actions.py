@@ -8,6 +8,7 @@ import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
 from ros.graph import until
 
+from gazelle.bridges.moveit.frames import pose_message
 from gazelle.planning import PlanOutcome
 from gazelle.ros import load_message
 from gazelle.ros.actions import GoalStatus, SimpleActionClient, SimpleActionServer
@@ -151,6 +152,26 @@ def test_it_only_plans(robot):
     assert positions_of(result.planned_trajectory, 0)["elbow_flex_joint"] == pytest.approx(0.9)
     assert not robot.goals
     assert not result.executed_trajectory.joint_trajectory.points
+
+
+def test_a_goal_may_change_the_scene_for_itself(robot):
+    context = robot.client.group.context
+    with context.lock:
+        tip = context.robot.pose(context.current(), "gripper_link")
+    goal = goal_of(plan_only=True, shoulder_pan_joint=0.6)
+    thing = message("CollisionObject", id="post", pose=pose_message(tip))
+    thing.primitives = [load_message("shape_msgs/SolidPrimitive")(type=2, dimensions=[0.2])]
+    change = goal.planning_options.planning_scene_diff
+    change.link_padding = [message("LinkPadding", link_name="gripper_link", padding=0.01)]
+    change.world.collision_objects = [thing]
+    result, _ = send(robot, goal)
+    assert result.error_code.val == PlanOutcome.START_STATE_IN_COLLISION
+    assert not context.scene.objects
+    assert not any(context.scene.padding.values())
+    thing.header.frame_id = "moon"
+    assert send(robot, goal)[0].error_code.val == PlanOutcome.INVALID_OBJECT_NAME
+    goal = goal_of(plan_only=True, shoulder_pan_joint=0.6)
+    assert send(robot, goal)[0].error_code.val == PlanOutcome.SUCCESS
 
 
 def test_several_controllers_share_a_motion(robot):
