@@ -51,10 +51,12 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
         return _running(node)
     if not isinstance(given, list) or not all(isinstance(each, Mapping) for each in given):
         raise PlanningError("the parameter 'controller_list' is no list of controllers")
+    # As MoveIt's fake manager has it; the simple one wants a type.
+    fake = "fake" in str(node.get_param("~moveit_controller_manager", "")).lower()
     found = {}
     for each in given:
         try:
-            made = _entry(each)
+            made = _entry({"type": FAKE[0], **each} if fake else each)
         except PlanningError as error:
             _LOG.error("%s", error)  # the others may do
         else:

@@ -8,6 +8,7 @@ import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
 from ros.graph import until
 
+from gazelle.bridges.moveit.controller_list import controllers_of
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.planning import PlanOutcome
 from gazelle.ros import load_message
@@ -300,3 +301,16 @@ def test_fake_controllers_only_say_where_joints_are(kind):
             assert path[0] == pytest.approx(1.2)
             assert path == sorted(path, reverse=True)
             assert len(path) > 3
+
+
+@pytest.mark.parametrize(
+    "manager", ["moveit_fake_controller_manager/MoveItFakeControllerManager", ""]
+)
+def test_fake_controllers_need_no_type(manager):
+    own = {
+        "moveit_controller_manager": manager,
+        "controller_list": [{"name": "arm", "joints": [*ARM]}],
+    }
+    with moveit_graph(**own) as client:
+        found = controllers_of(client.group.context.node)
+        assert [each.kind for each in found.values()] == (["interpolate"] if manager else [])
