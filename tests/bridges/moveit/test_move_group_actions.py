@@ -53,10 +53,11 @@ class Robot:
             if how == "fail":
                 server.set_aborted(None, "a fuse is blown")
                 return
-            while how == "linger" and not server.is_preempt_requested():
+            while how == "linger" and not (server.is_preempt_requested() or server.node.closed):
                 threading.Event().wait(0.005)
             if how == "linger":
-                server.set_preempted()
+                if not server.node.closed:
+                    server.set_preempted()
                 return
             if kind == "FollowJointTrajectory":
                 last = goal.trajectory.points[-1].positions
@@ -71,7 +72,8 @@ class Robot:
 
 @pytest.fixture
 def robot():
-    with moveit_graph(controller_list=CONTROLLERS) as client:
+    patient = {"allowed_goal_duration_margin": 60.0}
+    with moveit_graph(controller_list=CONTROLLERS, trajectory_execution=patient) as client:
         made = Robot(client)
         with contextlib.ExitStack() as stack:
             for server in made.servers:
@@ -216,7 +218,6 @@ def test_motions_are_stopped(robot, way):
     stops = robot.client.node.advertise(
         "trajectory_execution_event", load_message("std_msgs/String"), latch=True
     )
-    robot.client.group.executor._margin = 60.0
     client.send_goal(goal_of(shoulder_pan_joint=0.6))
     assert robot.began.wait(60.0)
     if way == "cancel":
@@ -237,12 +238,6 @@ def execute(robot, trajectory):
 
 def test_trajectories_are_executed(robot):
     planned = send(robot, goal_of(plan_only=True, shoulder_pan_joint=0.6))[0].planned_trajectory
-    robot.client.group.executor._margin = 0.0
-    robot.client.group.executor._scaling = 0.0
-    robot.how = "linger"
-    assert execute(robot, planned) == PlanOutcome.TIMED_OUT
-    robot.client.group.executor._margin = 60.0
-    robot.how = "arrive"
     assert execute(robot, planned) == PlanOutcome.SUCCESS
     assert execute(robot, message("RobotTrajectory")) == PlanOutcome.SUCCESS
     # It is somewhere else now.
@@ -251,6 +246,14 @@ def test_trajectories_are_executed(robot):
     planned.joint_trajectory.joint_names[0] = "nose"
     assert execute(robot, planned) == PlanOutcome.CONTROL_FAILED
     assert len(robot.goals) == before
+
+
+def test_what_takes_too_long_is_stopped(robot):
+    planned = send(robot, goal_of(plan_only=True, shoulder_pan_joint=0.6))[0].planned_trajectory
+    executor = robot.client.group.executor
+    executor._scaling = executor._margin = 0.0
+    robot.how = "linger"
+    assert execute(robot, planned) == PlanOutcome.TIMED_OUT
 
 
 def test_pickup_and_place_are_there_and_refuse(robot):
