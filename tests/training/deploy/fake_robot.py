@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -122,6 +123,11 @@ class FakeRobot:
         return odom
 
 
+def _as_in_a_terminal():
+    """What runs the tests may ignore hangups, as nohup does, and children would, too."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 class Deployed:
     """`gazelle deploy` in a process of its own, in which torch cannot be imported."""
 
@@ -136,6 +142,7 @@ class Deployed:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
+            preexec_fn=_as_in_a_terminal,
         )
 
     @property
