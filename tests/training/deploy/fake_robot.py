@@ -142,7 +142,7 @@ class Deployed:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            preexec_fn=_as_in_a_terminal,
+            preexec_fn=_as_in_a_terminal,  # noqa: PLW1509  # it only sets a handler
         )
 
     @property
