@@ -115,7 +115,7 @@ def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, flo
     print(f"{task}, {engine}, {copies} worlds, rollouts of {STEPS} steps, best of {windows}")
     rates = {}
     for workers in (1, 2):
-        ways = {"process": start_processes(blueprint, workers)}
+        ways = {"process": start_processes(blueprint, 2)}  # of one processor each, of two
         if ray:
             connect("local")
             ways["Ray actor"] = start_actors(blueprint)
