@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import re
 import sys
 import tomllib
@@ -42,8 +43,13 @@ def plain(name):
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
+@functools.cache
 def imported(path):
-    """Libraries that a file imports anywhere, and those that it does on import, with lines."""
+    """Libraries that a file imports anywhere, and whether it does so when it is imported."""
+    return list(_imported(path))
+
+
+def _imported(path):
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import subprocess
 import sys
 import time
@@ -97,6 +98,7 @@ def modules():
     return found
 
 
+@functools.cache
 def imports_of(module, text, *, is_package=False):
     """Imports of Gazelle's own modules, those for types too."""
     tree = ast.parse(text)
