@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from gazelle.array_types import Floats
@@ -11,7 +12,7 @@ from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
-from gazelle.ros.tf import FrameTree, TransformException
+from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.ros.time import Time
 
 
@@ -30,20 +31,9 @@ class PlanningFrames:
         still = {each.parent_frame for each in held if each.type == "fixed"}
         self._same = {"", robot.frame} | {name.lstrip("/") for name in still}
         kind = load_message("tf2_msgs/TFMessage")
-        node.subscribe("/tf", kind, lambda message: self._take(message, static=False))
-        node.subscribe("/tf_static", kind, lambda message: self._take(message, static=True))
-
-    def _take(self, message: Any, *, static: bool) -> None:
-        for each in message.transforms:
-            self._tree.place(
-                each.header.frame_id,
-                each.child_frame_id,
-                each.header.stamp.to_nsec(),
-                point(each.transform.translation),
-                quaternion(each.transform.rotation),
-                authority="move_group",
-                static=static,
-            )
+        for topic, static in (("/tf", False), ("/tf_static", True)):
+            take = partial(take_transforms, self._tree, authority="move_group", static=static)
+            node.subscribe(topic, kind, take)
 
     def find(self, frame: str, state: Floats) -> Pose:
         """The pose of a frame in the one that is planned in.

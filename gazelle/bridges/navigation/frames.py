@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
-from gazelle.ros.tf import FrameTree, StampedTransform, TransformException
+from gazelle.ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
 from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, rotate, yaw_of
 
@@ -44,17 +44,7 @@ class GraphFrames:
             self.tree.clear()
             self._latest = now
         self._latest = max(self._latest, now)
-        for each in message.transforms:
-            place, turn = each.transform.translation, each.transform.rotation
-            self.tree.place(
-                each.header.frame_id,
-                each.child_frame_id,
-                each.header.stamp.to_nsec(),
-                (place.x, place.y, place.z),
-                (turn.x, turn.y, turn.z, turn.w),
-                authority="navigation",
-                static=static,
-            )
+        take_transforms(self.tree, message, authority="navigation", static=static)
 
     def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
         """Say where a frame is in its parent, from a time on [ns]."""

@@ -9,6 +9,7 @@ from gazelle.ros.tf.errors import (
     TimeoutException,
     TransformException,
 )
+from gazelle.ros.tf.taking import take_transforms
 
 __all__ = [
     "ConnectivityException",
@@ -19,4 +20,5 @@ __all__ = [
     "StampedTransform",
     "TimeoutException",
     "TransformException",
+    "take_transforms",
 ]

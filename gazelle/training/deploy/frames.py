@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from gazelle.ros import Node, load_message
-from gazelle.ros.tf import FrameTree, TransformException
+from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.training.deploy.goals import GoalPlace
 
 
@@ -41,7 +41,9 @@ class GoalFrames:
     def _listen(self, tree: FrameTree) -> FrameTree:
         kind = load_message("tf2_msgs/TFMessage")
         for topic, static in (("/tf", False), ("/tf_static", True)):
-            self._node.subscribe(topic, kind, partial(_place_all, tree, static=static))
+            self._node.subscribe(
+                topic, kind, partial(take_transforms, tree, authority="deploy", static=static)
+            )
         return tree
 
 
@@ -54,17 +56,3 @@ def _moved(goal: GoalPlace, found: Any) -> tuple[float, float]:
         found.translation[0] + cos * goal.x + other_sin * goal.y,
         found.translation[1] + sin * goal.x + other_cos * goal.y,
     )
-
-
-def _place_all(tree: FrameTree, message: Any, *, static: bool) -> None:
-    for each in message.transforms:
-        shift, turn = each.transform.translation, each.transform.rotation
-        tree.place(
-            each.header.frame_id,
-            each.child_frame_id,
-            each.header.stamp.to_nsec(),
-            (shift.x, shift.y, shift.z),
-            (turn.x, turn.y, turn.z, turn.w),
-            authority=each.header.frame_id,
-            static=static,
-        )

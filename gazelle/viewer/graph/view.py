@@ -14,8 +14,7 @@ from gazelle.closing import Closeable
 from gazelle.errors import Error
 from gazelle.ros import Node, WallClock, load_message
 from gazelle.ros.errors import ApiError, UnreachableError
-from gazelle.ros.tf.core import FrameTree
-from gazelle.ros.tf.errors import TransformException
+from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.viewer.graph import drawing as d
 from gazelle.viewer.graph.markers import draw_marker, draw_markers
 from gazelle.viewer.graph.robots import DescribedRobot
@@ -76,10 +75,10 @@ class GraphView(Closeable):
         self._subscribers: dict[str, Any] = {}
         self._stop = threading.Event()
         self._node.on_shutdown.append(lambda _reason: self._stop.set())
-        self._node.subscribe("/tf", load_message("tf2_msgs/TFMessage"), self._heard, 100)
-        self._node.subscribe(
-            "/tf_static", load_message("tf2_msgs/TFMessage"), partial(self._heard, static=True), 100
-        )
+        kind = load_message("tf2_msgs/TFMessage")
+        for topic, static in (("/tf", False), ("/tf_static", True)):
+            take = partial(take_transforms, self._tree, static=static)
+            self._node.subscribe(topic, kind, take, 100)
         page = self._server.viser
         page.gui.main_panel.dock_right()
         self._server.light_up()
@@ -103,18 +102,6 @@ class GraphView(Closeable):
             self._thread.join()
         self._node.close()
         self._server.close()
-
-    def _heard(self, message: Any, *, static: bool = False) -> None:
-        for each in message.transforms:
-            t, q = each.transform.translation, each.transform.rotation
-            self._tree.place(
-                each.header.frame_id,
-                each.child_frame_id,
-                each.header.stamp.to_nsec(),
-                (t.x, t.y, t.z),
-                (q.x, q.y, q.z, q.w),
-                static=static,
-            )
 
     def _follow(self) -> None:
         """Draw what came, while somebody looks."""

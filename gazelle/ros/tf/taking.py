@@ -1,0 +1,31 @@
+"""From messages of tf to a tree of frames."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.tf.core import FrameTree
+
+
+def take_transforms(
+    tree: FrameTree, message: Any, *, authority: str = "", static: bool = False
+) -> None:
+    """Place all frames that a ``tf2_msgs/TFMessage`` tells.
+
+    Args:
+        tree: Takes them.
+        message: Of ``/tf`` or ``/tf_static``.
+        authority: Who says so, for the log.
+        static: Whether they hold at all times.
+    """
+    for each in message.transforms:
+        place, turn = each.transform.translation, each.transform.rotation
+        tree.place(
+            each.header.frame_id,
+            each.child_frame_id,
+            each.header.stamp.to_nsec(),
+            (place.x, place.y, place.z),
+            (turn.x, turn.y, turn.z, turn.w),
+            authority=authority,
+            static=static,
+        )
