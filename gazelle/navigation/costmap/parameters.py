@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from gazelle.errors import Error, SimulationWarning, did_you_mean
@@ -83,6 +83,18 @@ def value_of(values: Values, name: str, default: Any) -> Any:
     if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
         return found
     raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r}")
+
+
+def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
+    """The parameters that a dataclass of settings has, each of the kind of its default.
+
+    Raises:
+        Error: One is of another kind.
+    """
+    usual = kind()
+    return {
+        each.name: value_of(values, each.name, getattr(usual, each.name)) for each in fields(kind)
+    }
 
 
 def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> CostmapSetup:

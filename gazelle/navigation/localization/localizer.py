@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from gazelle.array_types import Floats
 from gazelle.description.occupancy import FREE, OCCUPIED, OccupancyMap
 from gazelle.errors import Error, did_you_mean
 from gazelle.navigation.costmap.distances import squared_distances
-from gazelle.navigation.costmap.parameters import Values, value_of
+from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.localization.odometry_models import check_model, move_particles
 from gazelle.navigation.localization.particle_filter import ParticleFilter, PoseEstimate
@@ -61,10 +61,7 @@ class AmclSettings:
         Raises:
             Error: One is of the wrong kind, or a model is unknown.
         """
-        found: dict[str, Any] = {
-            each.name: value_of(values, each.name, getattr(cls(), each.name))
-            for each in fields(cls)
-        }
+        found = fields_of(cls, values)
         check_model(found["odom_model_type"])
         laser = found["laser_model_type"]
         if laser not in LASER_MODELS:

@@ -5,8 +5,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, value_of
+from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
@@ -58,11 +57,7 @@ class GmappingSettings:
         Raises:
             Error: One is of the wrong kind, or the map would be none.
         """
-        found: dict[str, Any] = {
-            each.name: value_of(values, each.name, getattr(cls(), each.name))
-            for each in fields(cls)
-        }
-        settings = cls(**found)
+        settings = cls(**fields_of(cls, values))
         if (
             not settings.delta > 0.0
             or settings.xmax <= settings.xmin

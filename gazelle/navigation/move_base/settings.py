@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, value_of
+from gazelle.navigation.costmap.parameters import Values, fields_of
 
 DEFAULT_RECOVERY = (
     {"name": "conservative_reset", "type": "clear_costmap_recovery/ClearCostmapRecovery"},
@@ -44,10 +44,7 @@ class MoveBaseSettings:
         Raises:
             Error: One is of the wrong kind, or the controller would never run.
         """
-        found: dict[str, Any] = {
-            each.name: value_of(values, each.name, getattr(cls(), each.name))
-            for each in fields(cls)
-        }
+        found = fields_of(cls, values)
         if not found["controller_frequency"] > 0.0:
             raise Error("'controller_frequency' must be greater than zero")
         return cls(**found)

@@ -10,7 +10,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.costmap.parameters import fields_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.dwa import driven, spread
 from gazelle.navigation.planners.following_plan import PlanFollower
@@ -56,10 +56,7 @@ class TrajectorySettings:
         Raises:
             Error: One is of the wrong kind.
         """
-        fields: dict[str, Any] = {
-            name: value_of(values, name, getattr(cls(), name)) for name in cls.__slots__
-        }
-        return cls(**fields)
+        return cls(**fields_of(cls, values))
 
 
 class TrajectoryPlanner(PlanFollower):
