@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import OccupancyMap, Pose
+from gazelle.description import OccupancyMap
 from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.bags import Bag
-from gazelle.rotations import yaw_of
+from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.viewer.plots import Series
 
 _POSES = {
@@ -77,13 +77,7 @@ def bag_map(path: Path) -> OccupancyMap | None:
         last = None
         for entry in bag.read_messages(topics=maps) if maps else ():
             last = entry.message
-    if last is None:
-        return None
-    about, place = last.info, last.info.origin.position
-    turn = last.info.origin.orientation
-    data = np.asarray(last.data, np.int8).reshape(about.height, about.width)
-    yaw = yaw_of(np.array([turn.x, turn.y, turn.z, turn.w]))
-    return OccupancyMap(data, about.resolution, Pose(place.x, place.y, yaw=float(yaw)))
+    return None if last is None else grid_of_message(last)
 
 
 def _split(field: str, topics: Sequence[str]) -> tuple[str, tuple[str, ...]]:
