@@ -133,9 +133,8 @@ def conduct(
     module, name = _found(study.function)
     kept = _Table(table, study)
     calls = [call for call in study.calls() if not kept.has(call)]
-    count = workers or (processors() if ray is None else connect(ray))
-    if ray is not None:
-        connect(ray)
+    there = processors() if ray is None else connect(ray)
+    count = workers or there
     threads = max(1, processors() // count)
 
     def link() -> WorkerLink:
@@ -226,6 +225,7 @@ class _Table:
         self._path = path
         self._names = [*study.vary, "seed"]
         self._lock = threading.Lock()
+        self._done: set[tuple[str, ...]] = set()
         self.rows: list[dict[str, Any]] = []
         self._columns: list[str] = []
         if path.exists():
@@ -236,8 +236,7 @@ class _Table:
 
     def has(self, call: Mapping[str, Any]) -> bool:
         """Whether there is a row for these arguments."""
-        wanted = [str(call[name]) for name in self._names]
-        return any([str(row.get(name)) for name in self._names] == wanted for row in self.rows)
+        return tuple(str(call[name]) for name in self._names) in self._done
 
     def add(self, row: dict[str, Any]) -> None:
         """One more; with other columns than so far the file is written anew."""
@@ -280,6 +279,7 @@ class _Table:
                 hint="it is of another study: give another file",
             )
         self.rows = [*reader]
+        self._done = {tuple(row[name] for name in self._names) for row in self.rows}
 
 
 def _found(function: str) -> tuple[TaskModule, str]:

@@ -46,8 +46,8 @@ def join_workers(
         count = workers or 1
         start = start_processes(blueprint, count)
     else:
-        count = workers or min(connect(ray), len(sizes))
-        connect(ray)
+        there = connect(ray)
+        count = workers or min(there, len(sizes))
         start = start_actors(blueprint)
     team = Team(start, len(sizes), count)
     try:
