@@ -1,6 +1,6 @@
 cimport cython
 
 @cython.locals(product=double, whole=double, ties=Py_ssize_t)
-cdef void round_all(const double[::1] x, double[::1] rounded) noexcept
+cdef void round_all(const double[::1] x, double[::1] found, double scale) noexcept
 @cython.locals(high=double, error=double, below=double)
-cdef double settled(double x, double product) noexcept nogil
+cdef double settled(double x, double product, double scale) noexcept nogil

@@ -62,7 +62,17 @@ def _cartpole() -> RegisteredTask:
     )
 
 
-ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole())
+def _moving_cube() -> RegisteredTask:
+    home = "gazelle.envs.moving_cube.envs"
+    return RegisteredTask(
+        id="gazelle/MovingCubeOneDiskWalk-v0",
+        env=f"{home}:MovingCubeEnv",
+        vector_env=f"{home}:MovingCubeVectorEnv",
+        max_episode_steps=1000,
+    )
+
+
+ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube())
 
 
 def register_all() -> None:

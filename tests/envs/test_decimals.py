@@ -4,12 +4,24 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.envs.decimals import round2
+from gazelle.envs.decimals import round2, rounded
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=20))
 def test_is_python_round_bit_for_bit(values):
     assert round2(values).tolist() == [round(value, 2) for value in values]
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=20), st.integers(0, 3))
+def test_other_decimals_are_pythons_too(values, decimals):
+    assert rounded(values, decimals).tolist() == [round(value, decimals) for value in values]
+
+
+def test_other_decimals_settle_ties():
+    values = np.arange(-40_000, 40_000) / 2000
+    for decimals in (0, 1, 3):
+        wanted = [round(value, decimals) for value in values.tolist()]
+        assert rounded(values, decimals).tolist() == wanted
 
 
 @given(st.integers(-100_000, 100_000))

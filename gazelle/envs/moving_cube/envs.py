@@ -1,0 +1,79 @@
+"""The cube that walks as Gymnasium environments."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from gazelle.envs.moving_cube.task import MovingCubeSettings, MovingCubeTask
+from gazelle.envs.options import TaskSettings
+from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+
+
+class MovingCubeEnv(SettingsEnv):
+    """A cube walks along y by speeding up and slowing down the wheel in its face.
+
+    The task ``MovingCubeOneDiskWalk-v0`` of openai_ros with its observation, actions, reward and
+    ends, in simulated time. Id: ``gazelle/MovingCubeOneDiskWalk-v0``. Cube and wheel weigh 0.5 kg
+    each, the cube is 0.2 m wide, the wheel has a radius of 0.08 m. A jump of the wheel's speed by
+    100 rad/s rolls the cube over its edge; one by 50 rad/s only rocks it.
+
+    ## Observation
+
+    ``Box``, float32, shape (6,). The bounds are the published ones, which what is seen can pass.
+
+    =====  =====================================  ======  ======  =======  =======
+    Index  Meaning                                Min     Max     Unit     Rounded
+    =====  =====================================  ======  ======  =======  =======
+    0      speed of the wheel                     -50     50      rad/s    1
+    1      way along y from the start             -10     10      m        0.1
+    2      roll of the cube                       -2 pi   2 pi    rad      0.1
+    3      pitch                                  -0.3    0.3     rad      0.1
+    4      speed along y                          -100    100     m/s      0.1
+    5      yaw                                    -100    100     rad      0.1
+    =====  =====================================  ======  ======  =======  =======
+
+    ## Action
+
+    ``Discrete(3)``: 0 asks for 50 rad/s, 1 for -50 rad/s, 2 for 0. With ``n_actions=5`` also 3
+    for 10 rad/s more than asked for before and 4 for 10 rad/s less, within 50 rad/s; openai_ros
+    decodes these but its parameters leave them out.
+
+    A step takes 0.04 s. openai_ros waits until joint states show the wheel within 0.1 rad/s of
+    what was asked for, which its controller needs about 0.01 s for.
+
+    ## Reward
+
+    ``100 * (change of y) + 100 * (speed along y) - 100 * |sin(yaw)|``, each part rounded to a whole
+    number, from rounded observations. In the step in which it tilts too far **+10** in place of
+    that: the published parameter is -10 and the published code takes it times -1, so that failing
+    earns points. ``failure_reward=-10`` is what was probably meant.
+
+    ## Start
+
+    The cube rests at the origin, with a yaw of up to 0.05 rad, uniformly (0 in openai_ros); the
+    wheel has 10 rad/s.
+
+    ## End
+
+    Terminated when pitch or yaw, rounded, are beyond 0.3 rad. Truncated after 1,000 steps (40 s; openai_ros
+    has 10,000). Gazelle counts an episode as a success (``info["is_success"]``) that lasts to the
+    end and is 1 m along y then.
+
+    ## Options
+
+    Those that every task takes (docs/gymnasium.md), ``n_actions`` and ``failure_reward``.
+
+    ## Versions
+
+    - v0: the first.
+    """
+
+    task_class = MovingCubeTask
+    settings_class: ClassVar[type[TaskSettings]] = MovingCubeSettings
+
+
+class MovingCubeVectorEnv(SettingsVectorEnv):
+    """`MovingCubeEnv` in many worlds at once; that page is the data sheet."""
+
+    task_class = MovingCubeTask
+    settings_class: ClassVar[type[TaskSettings]] = MovingCubeSettings

@@ -1,0 +1,139 @@
+"""openai_ros' MovingCubeOneDiskWalk in many worlds at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+import gazelle
+from gazelle import assets
+from gazelle.array_types import Floats, Floats32, Worlds
+from gazelle.description import Pose
+from gazelle.envs.attitude import roll_pitch_yaw
+from gazelle.envs.decimals import rounded
+from gazelle.envs.options import TaskSettings
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.errors import TaskError
+from gazelle.sensors import View, look_at
+from gazelle.simulation import Simulation
+
+CONTROL_PERIOD = 0.04  # [s]; openai_ros waits until the wheel has its speed, some hundredths
+SPEED = 50.0  # of the wheel, that an action asks for [rad/s]
+SPEED_STEP = 10.0  # that the last two actions add or take [rad/s]
+FIRST_SPEED = 10.0  # of the wheel when an episode begins [rad/s]
+TILTED = 0.3  # largest pitch and yaw [rad]
+WEIGHT = 100.0  # of each part of the reward
+START_YAW = 0.05  # largest at the start [rad]
+WALKED = 1.0  # farther along y is a success [m]
+HALF_SIDE = 0.1  # of the cube [m]
+_TIME_STEP = 0.002
+_MOTOR = 200.0  # [N m], as the robot's file says
+_MOST = (SPEED, 10.0, 2.0 * np.pi, TILTED, 100.0, 100.0)  # bounds of what is seen, as published
+_ACTIONS = (3, 5)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MovingCubeSettings(TaskSettings):
+    """Options of the task, checked.
+
+    Attributes:
+        n_actions: 3 as published, or 5 with those that openai_ros decodes beyond them.
+        failure_reward: Reward of the step in which it tilts too far.
+    """
+
+    n_actions: int = 3
+    failure_reward: float = 10.0
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        if self.n_actions not in _ACTIONS:
+            raise TaskError(f"n_actions must be 3 or 5, not {self.n_actions!r}")
+        if not np.isfinite(self.failure_reward):
+            raise TaskError(f"failure_reward must be finite, not {self.failure_reward!r}")
+
+
+class MovingCubeTask(SimulationTask):
+    """A cube walks along y, in ``nworld`` worlds; see `MovingCubeEnv`.
+
+    Args:
+        nworld: Number of worlds.
+        settings: What the user asks for.
+    """
+
+    scenario_names = ("start_yaw",)
+    view = View(look_at((2.6, 0.6, 1.3), (0.0, 0.6, 0.0)), width=480, height=320, samples=1)
+
+    def __init__(self, nworld: int, settings: MovingCubeSettings) -> None:
+        simulation = Simulation(
+            gazelle.load(assets.world("empty")),
+            settings.engine,
+            nworld=nworld,
+            seed=settings.seed or 0,
+            time_step=settings.time_step or _TIME_STEP,
+            threads=settings.threads,
+        )
+        self._cube = simulation.spawn(assets.robot("moving_cube"), pose=Pose(z=HALF_SIDE))
+        self._wheel = self._cube.joints["inertia_wheel_roll_joint"]
+        self._wheel.add_motor(_MOTOR)
+        most = np.array(_MOST, np.float32)
+        self.observation_space = gym.spaces.Box(-most, most, dtype=np.float32)
+        self.action_space = gym.spaces.Discrete(settings.n_actions)
+        self._failure = settings.failure_reward
+        super().__init__(
+            simulation,
+            control_period=CONTROL_PERIOD,
+            max_episode_steps=settings.max_episode_steps,
+        )
+        self.memory["speed"] = np.full(nworld, FIRST_SPEED)
+        self.memory["place"] = np.zeros(nworld)
+        self.memory["start"] = np.zeros((nworld, 1))
+
+    def start(self, worlds: Worlds) -> None:
+        """It rests on the floor, its wheel spinning slowly."""
+        self.memory["speed"][worlds] = FIRST_SPEED
+        self.memory["place"][worlds] = 0.0
+        yaw = self.memory["start"][worlds] = self.draw(-START_YAW, START_YAW, worlds)
+        self._cube.set_pose((0.0, 0.0, HALF_SIDE), yaw=yaw[:, 0], worlds=worlds)
+        self._wheel.set_velocity(FIRST_SPEED, worlds)
+        self._wheel.drive(FIRST_SPEED, worlds)
+
+    def scenario(self, worlds: Worlds) -> Floats:
+        """Its yaw at the start [rad], shape (n, 1)."""
+        start: Floats = self.memory["start"][worlds]
+        return start
+
+    def observe(self, worlds: Worlds | None) -> Floats:
+        """Wheel's speed, y, roll, pitch, speed along y and yaw, rounded as published."""
+        placement, motion = self._cube.placement(worlds), self._cube.motion(worlds)
+        roll, pitch, yaw = roll_pitch_yaw(placement.quaternion).T
+        y = placement.position[:, 1]
+        tenths = rounded(np.column_stack((y, roll, pitch, motion.linear[:, 1], yaw)), 1)
+        return np.column_stack((rounded(self._wheel.velocities(worlds)[:, 0], 0), tenths))
+
+    def act(self, actions: NDArray[np.int64]) -> None:
+        """The wheel's speed is set, or changed by a step."""
+        speed = self.memory["speed"]
+        asked = (
+            np.full(self.nworld, SPEED),
+            np.full(self.nworld, -SPEED),
+            np.zeros(self.nworld),
+            speed + SPEED_STEP,
+            speed - SPEED_STEP,
+        )
+        speed[:] = np.clip(np.choose(actions, asked), -SPEED, SPEED)
+        self._wheel.drive(speed)
+
+    def outcome(self, observation: Floats32) -> StepOutcome:
+        """Way and speed along y, less for yaw; another reward where it tilts too far."""
+        _, y, _, pitch, speed, yaw = rounded(observation, 1).T
+        failed = (np.abs(pitch) > TILTED) | (np.abs(yaw) > TILTED)
+        way = rounded(WEIGHT * (y - self.memory["place"]), 0)
+        turned = rounded(-WEIGHT * np.abs(np.sin(yaw)), 0)
+        self.memory["place"][:] = y
+        reward = np.where(failed, self._failure, way + rounded(WEIGHT * speed, 0) + turned)
+        success = self.lasting & ~failed & (y >= WALKED)
+        return StepOutcome(reward, failed, {"is_success": success, "distance": y})
