@@ -22,6 +22,11 @@ PARTS = {
     "arm6": ("axis_1 axis_6 finger_joint other_finger_joint", 1, ""),
     "rrbot": ("joint1 joint2", 1, "head_hokuyo_sensor"),
 }
+# Joints that move.
+OPENAI_ROS = {
+    "cartpole": "foot_joint pole_joint",
+    "moving_cube": "inertia_wheel_roll_joint",
+}
 
 
 @pytest.mark.parametrize("name", sorted(set(assets.worlds()) - BUILT))
@@ -48,7 +53,7 @@ def test_models_load(name):
     assert world.models or name == "sun"
 
 
-@pytest.mark.parametrize("name", sorted(set(assets.robots()) - {"cartpole"}))
+@pytest.mark.parametrize("name", sorted(set(assets.robots()) - set(OPENAI_ROS)))
 def test_robots_load(name):
     (model,) = gazelle.load(assets.robot(name)).models
     assert model.name == name
@@ -59,12 +64,12 @@ def test_robots_load(name):
     assert set(sensors.split()) <= found
 
 
-def test_the_cart_and_its_pole_load():
-    (model,) = gazelle.load(assets.robot("cartpole")).models
-    assert [joint.name for joint in model.joints if joint.type != "fixed"] == [
-        "foot_joint",
-        "pole_joint",
-    ]
+@pytest.mark.parametrize("name", sorted(OPENAI_ROS))
+def test_robots_of_openai_ros_load(name):
+    (model,) = gazelle.load(assets.robot(name)).models
+    assert model.name == name
+    joints = [joint.name for joint in model.joints if joint.type != "fixed"]
+    assert joints == OPENAI_ROS[name].split()
 
 
 def test_a_world_and_a_model_of_one_name_are_told_apart():
