@@ -20,25 +20,39 @@ _NANOSECONDS = 1_000_000_000
 
 
 class GripperActionController(Controller):
-    """Brings one joint to a position, with a largest effort where it commands efforts."""
+    """Brings one joint to a position, with a largest effort where it commands efforts.
+
+    Attributes:
+        action_name: Of its action.
+        tolerance: Within which a goal is reached, unless ``goal_tolerance`` says otherwise.
+        stall_ends: What becomes of a goal when the gripper stalls.
+    """
+
+    action_name = "gripper_cmd"
+    tolerance = 0.01
+    stall_ends = GoalState.ABORTED
 
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joint``, tolerances, ``max_effort`` and, to command efforts, ``gains``."""
         name = parameters.text("joint")
         self._joint = self.claim(self.interfaces[0], [name])
-        self._tolerance = parameters.number("goal_tolerance", 0.01)
-        self._strength = abs(parameters.number("max_effort", 0.0))
-        self._slow = parameters.number("stall_velocity_threshold", 0.001)
-        self._patience_ns = round(parameters.number("stall_timeout", 1.0) * _NANOSECONDS)
         self._pid: Pid | None = None
         if self.interfaces == (EFFORT,):
             pid = self._pid = Pid([PidGains.read(parameters.part(f"gains/{name}"))], self.nworld)
             tell = pid_values
             self.add_tuning(f"gains/{name}", PID_TUNABLES, lambda: tell(pid), pid_changer(pid))
+        self._take_goals(parameters, 0.0)
+
+    def _take_goals(self, parameters: ControllerParameters, strength: float) -> None:
+        """Open the action; ``strength`` is the default of ``max_effort``."""
+        self._tolerance = parameters.number("goal_tolerance", self.tolerance)
+        self._strength = abs(parameters.number("max_effort", strength))
+        self._slow = parameters.number("stall_velocity_threshold", 0.001)
+        self._patience_ns = round(parameters.number("stall_timeout", 1.0) * _NANOSECONDS)
         rate = parameters.number("action_monitor_rate", 20.0)
         self._feedback_due = PublishingSchedule(rate)
         self.add_action(
-            "gripper_cmd",
+            self.action_name,
             lambda topic, call: ActionPort(
                 topic,
                 GripperGoal,
@@ -94,11 +108,19 @@ class GripperActionController(Controller):
                 self._goals.remove(goal)
 
     def _result(self, world: int, *, stalled: bool = False, reached: bool = False) -> GripperResult:
-        position = float(self._joint.position[world, 0])
+        position = float(self._opening()[world])
         return GripperResult(position, float(self._output[world]), stalled, reached)
 
+    def _opening(self) -> Floats:
+        """Where the gripper is, as goals say it, shape (nworld,)."""
+        return self._joint.position[:, 0]
+
+    def _speed(self) -> Floats:
+        """How fast that changes, shape (nworld,)."""
+        return self._joint.velocity[:, 0]
+
     def _hold(self, rows: Worlds) -> None:
-        self._position[rows] = self._joint.position[rows, 0]
+        self._position[rows] = self._opening()[rows]
         self._max_effort[rows] = self._strength
 
     # -- the loop ----------------------------------------------------------------------
@@ -119,22 +141,25 @@ class GripperActionController(Controller):
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
         """Move, and see whether it is there or stalls."""
-        position, velocity = self._joint.position[:, 0], self._joint.velocity[:, 0]
-        error = self._position - position
-        self._judge(error, velocity)
-        if self._pid is None:
-            self._joint.set_command(self._position[:, None])
-            self._output = self._max_effort.copy()
-        else:
-            rate = -velocity[:, None]
-            pushed = self._pid.compute(error[:, None], period, rate)[:, 0]
-            most = np.abs(self._max_effort)
-            self._output = np.clip(pushed, -most, most)
-            self._joint.set_command(self._output[:, None])
+        error = self._position - self._opening()
+        self._judge(error, self._speed())
+        self._push(error, period)
         if self._goals and self._feedback_due.is_due(self.now_ns):
             for goal in self._goals:
                 if goal.heard:
                     goal.tell(self._result(int(goal.worlds[0])))
+
+    def _push(self, error: Floats, period: float) -> None:
+        """Command the joint, for what is missing of the position, shape (nworld,)."""
+        if self._pid is None:
+            self._joint.set_command(self._position[:, None])
+            self._output = self._max_effort.copy()
+            return
+        rate = -self._speed()[:, None]
+        pushed = self._pid.compute(error[:, None], period, rate)[:, 0]
+        most = np.abs(self._max_effort)
+        self._output = np.clip(pushed, -most, most)
+        self._joint.set_command(self._output[:, None])
 
     def _judge(self, error: Floats, velocity: Floats) -> None:
         there = self._active & (np.abs(error) < self._tolerance)
@@ -146,7 +171,7 @@ class GripperActionController(Controller):
         stalled = self._active & ~moving & late
         if stalled.any():
             text = "the gripper stalled before it was there"
-            self._end(np.flatnonzero(stalled), GoalState.ABORTED, text, stalled=True)
+            self._end(np.flatnonzero(stalled), self.stall_ends, text, stalled=True)
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
         """End goals."""

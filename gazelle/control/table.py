@@ -55,6 +55,7 @@ CONTROLLERS: Mapping[str, KnownController] = {
     "effort_controllers/JointGroupPositionController": KnownController("joint_pid:JointGroupPositionController", (EFFORT,)),
     "position_controllers/GripperActionController": KnownController("gripper:GripperActionController", (POSITION,)),
     "effort_controllers/GripperActionController": KnownController("gripper:GripperActionController", (EFFORT,)),
+    "robot_controllers/ParallelGripperController": KnownController("parallel_gripper:ParallelGripperController", (EFFORT,)),
     "diff_drive_controller/DiffDriveController": KnownController("diff_drive_controller:DiffDriveController", (VELOCITY,)),
     "ackermann_steering_controller/AckermannSteeringController": KnownController("ackermann:AckermannSteeringController", (VELOCITY, POSITION)),
     "four_wheel_steering_controller/FourWheelSteeringController": KnownController("four_wheel:FourWheelSteeringController", (VELOCITY, POSITION)),

@@ -11,7 +11,7 @@ from gazelle.formats import load_model
 
 # The office is built, the fleet's hall is of Stage.
 BUILT = {"office", "fleet"}
-LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
+LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range", "pick_and_place"}
 LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT
 WHEELS = "wheel_left_joint wheel_right_joint"
 # Joints, number of plugins, sensors.
@@ -20,6 +20,11 @@ PARTS = {
     "courier": (WHEELS, 2, "laser"),
     "ackermann_base": ("rear_wheel_joint front_steer_joint", 1, ""),
     "arm6": ("axis_1 axis_6 finger_joint other_finger_joint", 1, ""),
+    "fetch": (
+        "torso_lift_joint wrist_roll_joint l_gripper_finger_joint",
+        2,
+        "base_laser head_camera",
+    ),
     "rrbot": ("joint1 joint2", 1, "head_hokuyo_sensor"),
 }
 # Joints that move.

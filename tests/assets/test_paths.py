@@ -18,8 +18,9 @@ def test_everything_named_is_a_file():
 def test_worlds_by_name():
     stages = {f"turtlebot3_stage_{number}" for number in (1, 2, 3, 4)}
     gazebos = {"empty", "shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
+    tables = {"pick_and_place"}
     indoors = {"furnished_room", "office", "turtlebot3_world", "fleet"}
-    assert stages | gazebos | indoors == set(assets.worlds())
+    assert stages | gazebos | tables | indoors == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 
 
@@ -49,6 +50,7 @@ PACKAGES = [
 PACKAGES += ["rrbot_description", "rrbot_gazebo", "rrbot_control"]
 PACKAGES += ["courier_control", "ackermann_base_description", "ackermann_base_control"]
 PACKAGES += ["arm6_description", "arm6_control"]
+PACKAGES += ["fetch_description", "fetch_gazebo", "fetch_moveit_config"]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
