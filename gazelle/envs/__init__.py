@@ -24,6 +24,7 @@ __path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
 from gazelle.envs.contract import ActionRule, ObservationPart, PolicyContract, ScanRule
+from gazelle.envs.dict_rows import DictRows
 from gazelle.envs.errors import ClosedEnvError, ResetNeededError
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.goals import GoalTable
@@ -32,14 +33,18 @@ from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
 if TYPE_CHECKING:
+    from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
+    from gazelle.envs.goal_task import GoalTask
     from gazelle.envs.simulation_task import SimulationTask, StepOutcome
 
 __all__ = [
     "ActionRule",
     "BatchedTask",
     "ClosedEnvError",
+    "DictRows",
     "FloorPlan",
     "GoalTable",
+    "GoalTask",
     "ObservationPart",
     "PolicyContract",
     "ResetNeededError",
@@ -47,6 +52,8 @@ __all__ = [
     "SimulationTask",
     "StepOutcome",
     "TaskEnv",
+    "TaskGoalEnv",
+    "TaskGoalVectorEnv",
     "TaskVectorEnv",
     "Transition",
     "Verdict",
@@ -55,11 +62,20 @@ __all__ = [
 ]
 
 
+_HOMES = {
+    "GoalTask": "goal_task",
+    "SimulationTask": "simulation_task",
+    "StepOutcome": "simulation_task",
+    "TaskGoalEnv": "goal_envs",
+    "TaskGoalVectorEnv": "goal_envs",
+}
+
+
 def __getattr__(name: str) -> Any:
     """What needs a simulation is imported when it is used first."""
-    if name not in {"StepOutcome", "SimulationTask"}:
+    if name not in _HOMES:
         raise AttributeError(f"module 'gazelle.envs' has no attribute '{name}'")
-    value = getattr(importlib.import_module("gazelle.envs.simulation_task"), name)
+    value = getattr(importlib.import_module(f"gazelle.envs.{_HOMES[name]}"), name)
     globals()[name] = value
     return value
 

@@ -131,6 +131,11 @@ class BatchedTask(ABC):
         self.elapsed = np.zeros(nworld, dtype=np.int64)
 
     @property
+    def row_space(self) -> gym.spaces.Box:
+        """Of what `Transition.observation` holds of one world."""
+        return self.observation_space
+
+    @property
     def contract(self) -> PolicyContract:
         """What a policy sees and does; a task that says more than its spaces overrides this."""
         return generic_contract(self.observation_space, self.action_space, self.control_period)

@@ -30,6 +30,12 @@ Kind = Literal[
 ]
 """What a part of an observation is made of; ``other`` is known to its task alone."""
 
+_MEANINGS = {
+    "achieved_goal": "what is reached now, in the terms of goals",
+    "desired_goal": "the goal of the episode",
+}
+"""Of parts that goal environments have."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ObservationPart:
@@ -185,18 +191,28 @@ class PolicyContract:
 def generic_contract(
     observations: gym.Space[Any], actions: gym.Space[Any], control_period: float | None
 ) -> PolicyContract:
-    """What the spaces alone tell of a task that says no more."""
-    part = ObservationPart(name="observation", meaning="known to the task alone")
-    if isinstance(observations, gym.spaces.Box):
-        part = dataclasses.replace(
-            part,
-            size=int(np.prod(observations.shape)),
-            low=_bounds(observations.low),
-            high=_bounds(observations.high),
-        )
-    return PolicyContract(
-        control_period=control_period, observation=(part,), action=action_rule(actions)
+    """What the spaces alone tell of a task that says no more.
+
+    The parts of a Dict stand in a row, in its order.
+    """
+    spaces = (
+        observations.spaces
+        if isinstance(observations, gym.spaces.Dict)
+        else {"observation": observations}
     )
+    return PolicyContract(
+        control_period=control_period,
+        observation=in_a_row(*(_part_of(name, space) for name, space in spaces.items())),
+        action=action_rule(actions),
+    )
+
+
+def _part_of(name: str, space: gym.Space[Any]) -> ObservationPart:
+    part = ObservationPart(name=name, meaning=_MEANINGS.get(name, "known to the task alone"))
+    if not isinstance(space, gym.spaces.Box):
+        return part
+    size = int(np.prod(space.shape))
+    return dataclasses.replace(part, size=size, low=_bounds(space.low), high=_bounds(space.high))
 
 
 def action_rule(space: gym.Space[Any], **values: Any) -> ActionRule:

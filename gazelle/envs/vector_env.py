@@ -21,7 +21,7 @@ from gazelle.envs.options import RENDER_MODES, check_name
 from gazelle.errors import TaskError
 
 
-class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
+class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
     """A batched task as a Gymnasium vector environment.
 
     What happens where an episode ends is said by ``autoreset_mode``, as Gymnasium defines it:
@@ -78,7 +78,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Floats32, Any, NDArray[Any]]):
         self._first_seed = seed
         self._begun = False
         self._over = np.zeros(task.nworld, np.bool_)
-        self._observation = np.zeros((task.nworld, *task.observation_space.shape), np.float32)
+        self._observation = np.zeros((task.nworld, *task.row_space.shape), np.float32)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

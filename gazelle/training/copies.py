@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import VectorEnv
@@ -13,6 +14,7 @@ from gazelle.array_types import Bools, Floats32
 from gazelle.envs.contract import PolicyContract
 from gazelle.training.contracts import task_contract
 from gazelle.training.episodes import Episodes
+from gazelle.training.goal_replay import GoalReplay, goal_replay
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.stepper import Stepper, TrainingStep
 from gazelle.training.tasks import control_period
@@ -58,6 +60,16 @@ class TaskCopies:
     def obs(self) -> Floats32:
         """What is acted on next, shape (N, ...)."""
         return self._stepper.obs
+
+    @property
+    def observation_space(self) -> gym.spaces.Box:
+        """Of what one copy observes, the parts of a Dict in a row."""
+        return self._stepper.observation_space
+
+    @property
+    def goal_replay(self) -> GoalReplay | None:
+        """How steps are taught with other goals; None if the task has no goals."""
+        return goal_replay(self.env, self._stepper.rows)
 
     @property
     def control_period(self) -> float | None:

@@ -13,9 +13,9 @@ from torch import nn
 
 from gazelle.errors import TaskError
 from gazelle.training.library import build_library_learner
+from gazelle.training.memories import replay_options
 from gazelle.training.ppo import FastPPO
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, OffPolicySettings, PPOSettings, Recipe
-from gazelle.training.replay import MaskedReplayBuffer
 from gazelle.training.scaling import ObservationScale, ScaledObservations
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -165,7 +165,7 @@ def _replaying(
         "train_freq": settings.train_freq,
         "gradient_steps": settings.gradient_steps,
         "tau": settings.tau,
-        "replay_buffer_class": MaskedReplayBuffer,
+        **replay_options(recipe, env),
     }
 
 

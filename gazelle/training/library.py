@@ -9,8 +9,8 @@ import gymnasium as gym
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 
 from gazelle.errors import MissingExtraError, TaskError
+from gazelle.training.memories import replay_options
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
-from gazelle.training.replay import MaskedReplayBuffer
 from gazelle.training.vecenv import VectorEnvAdapter
 
 _POLICIES = {"recurrent_ppo": "MlpLstmPolicy"}
@@ -40,7 +40,7 @@ def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[st
     algorithm = _rescaling(_find(recipe.algo))
     options = common | dict(recipe.settings.options)
     if issubclass(algorithm, OffPolicyAlgorithm):
-        options["replay_buffer_class"] = MaskedReplayBuffer
+        options |= replay_options(recipe, env)
     try:
         return algorithm(_POLICIES.get(recipe.algo, "MlpPolicy"), env, **options)
     except TypeError as error:

@@ -118,6 +118,9 @@ class Recipe:
     """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
     features: bool = False
     """Whether the network is also given sines and cosines of angles and logarithms of ranges."""
+    hindsight: float = 0.8
+    """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
+    by algorithms with a replay memory."""
     training_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -141,6 +144,8 @@ class Recipe:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
+        if not 0 <= self.hindsight <= 1:
+            raise TaskError(f"hindsight must be between 0 and 1, not {self.hindsight}")
         wanted = _settings_of(self.algo)
         if not isinstance(self.settings, wanted):
             raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")

@@ -61,12 +61,18 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
 
     def _gather(self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]) -> Any:
         """The transitions at the given rows and slots, as tensors."""
+        parts = self._parts(rows, slots)
+        return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
+
+    def _parts(
+        self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
+    ) -> dict[str, npt.NDArray[Any]]:
+        """The transitions at the given rows and slots, arrays of their own."""
         cut_off = self.timeouts[rows, slots]
-        parts = {
+        return {
             "observations": self.observations[rows, slots],
             "actions": self.actions[rows, slots],
             "next_observations": self.next_observations[rows, slots],
             "dones": (self.dones[rows, slots] * (1.0 - cut_off))[:, None],
             "rewards": self.rewards[rows, slots][:, None],
         }
-        return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})

@@ -23,6 +23,7 @@ import numpy.typing as npt
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 from gazelle.array_types import Bools, Floats, Floats32
+from gazelle.envs.dict_rows import DictRows
 from gazelle.errors import TaskError
 from gazelle.training.episodes import OUTCOMES, Episodes
 from gazelle.training.goal_reward import GoalReward, GoalRewards
@@ -59,14 +60,17 @@ class Stepper:
     """Steps a vector environment and keeps count of its episodes.
 
     Args:
-        env: A Gymnasium vector environment with Box observations.
+        env: A Gymnasium vector environment whose observations are a Box, or a Dict of boxes: then
+            its parts in a row are what is learnt from.
         keep_info: Whether ended episodes keep all numbers of their last info.
         goal_reward: What the learner is given in place of the task's rewards, if anything.
 
     Raises:
-        TaskError: The observations are not a Box of numbers.
+        TaskError: The observations are neither.
 
     Attributes:
+        observation_space: Of one copy, a Box.
+        rows: How the parts of a Dict stand in a row; None if the observations are a Box.
         obs: What the policy acts on next, shape (N, ...).
         scenarios: What the environment says of how the running episodes began, shape (N, size);
             None if it says nothing.
@@ -79,9 +83,7 @@ class Stepper:
         keep_info: bool = False,
         goal_reward: GoalReward | None = None,
     ) -> None:
-        if not isinstance(env.single_observation_space, gym.spaces.Box):
-            kind = type(env.single_observation_space).__name__
-            raise TaskError(f"training needs observations in a Box, not in a {kind}")
+        self.observation_space, self.rows = _learnable(env.single_observation_space)
         self.env = env
         self.num_envs = env.num_envs
         self.mode = AutoresetMode(env.metadata.get("autoreset_mode", AutoresetMode.NEXT_STEP))
@@ -106,7 +108,7 @@ class Stepper:
         self._note_scenarios(info, everywhere)
         if self._teacher is not None:
             self._teacher.begin(info, everywhere)
-        self.obs = np.array(obs, dtype=np.float32)
+        self.obs = self._array(obs)
         return self.obs
 
     def step(self, actions: npt.NDArray[Any]) -> TrainingStep:
@@ -125,7 +127,7 @@ class Stepper:
         self._lengths += valid
         began = self._resetting
         self._count_goals(info, valid, done)
-        obs = np.array(obs, dtype=np.float32)
+        obs = self._array(obs)
         final_obs, ended, last = None, None, None
         slots = np.flatnonzero(done)
         if len(slots):
@@ -135,7 +137,7 @@ class Stepper:
             ended = self._close_episodes(slots, last, truncated)
             if self.mode is AutoresetMode.DISABLED:
                 fresh, info = self.env.reset(options={"reset_mask": done})
-                obs = np.array(fresh, dtype=np.float32)
+                obs = self._array(fresh)
             began = done
         if self.mode is AutoresetMode.NEXT_STEP:
             began, self._resetting = self._resetting, done
@@ -221,9 +223,16 @@ class Stepper:
                 hint="a vector environment with AutoresetMode.SAME_STEP must return it",
             )
         last = info["final_obs"][slots]
+        if self.rows is not None:
+            parts = {key: np.stack([each[key] for each in last]) for key in self.rows.slices}
+            return self.rows.join(parts), info.get("final_info", info)
         if last.dtype == np.object_:
             last = np.stack(list(last))
         return np.asarray(last, dtype=np.float32), info.get("final_info", info)
+
+    def _array(self, obs: Any) -> Floats32:
+        """Observations of all copies as an array of its own, shape (N, ...)."""
+        return np.array(obs, np.float32) if self.rows is None else self.rows.join(obs)
 
     def _close_episodes(
         self, slots: npt.NDArray[np.intp], info: dict[str, Any], truncated: Bools
@@ -235,6 +244,9 @@ class Stepper:
         }
         last = outcomes.get("is_success", np.zeros(len(slots), np.bool_))
         goals = self._goals[slots] + (last & ~self._there[slots])
+        if self.rows is not None and self.rows.has_goals:
+            # It has one goal, at which it shall be in the end, whatever it met on the way.
+            goals = last.astype(np.int64)
         if "goals_reached" in info:
             goals = np.asarray(info["goals_reached"])[slots].astype(np.int64)
         ended = Episodes(
@@ -256,6 +268,17 @@ class Stepper:
         self._returns[slots] = 0.0
         self._lengths[slots] = self._goals[slots] = self._goal_at[slots] = 0
         self._there[slots] = False
+
+
+def _learnable(space: gym.Space[Any]) -> tuple[gym.spaces.Box, DictRows | None]:
+    """The Box of what is learnt from, and how it is made of a Dict."""
+    if isinstance(space, gym.spaces.Box):
+        return space, None
+    if isinstance(space, gym.spaces.Dict):
+        rows = DictRows(space)
+        return rows.row_space, rows
+    kind = type(space).__name__
+    raise TaskError(f"training needs observations in a Box or a Dict of boxes, not in a {kind}")
 
 
 def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Floats]:

@@ -20,6 +20,7 @@ from gazelle.envs.contract import PolicyContract
 from gazelle.training.actor import Actor
 from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
+from gazelle.training.goal_replay import GoalReplay
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.rollout import Rollout, play
 
@@ -58,7 +59,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self._actions: npt.NDArray[Any] = np.zeros(0)
         self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
         self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
-        super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
+        super().__init__(env.num_envs, self.copies.observation_space, env.single_action_space)
 
     @property
     def obs(self) -> Floats32:
@@ -69,6 +70,11 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
     def starts(self) -> Bools:
         """Which copies begin an episode with it, shape (N,)."""
         return self.copies.starts
+
+    @property
+    def goal_replay(self) -> GoalReplay | None:
+        """See `TaskCopies.goal_replay`."""
+        return self.copies.goal_replay
 
     @property
     def control_period(self) -> float | None:

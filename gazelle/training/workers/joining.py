@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
 from gazelle.training.runs import RunConfig
-from gazelle.training.tasks import fitting_copies
+from gazelle.training.tasks import fitting_copies, make_task
 from gazelle.training.workers.clusters import connect, start_actors
 from gazelle.training.workers.processes import start_processes
 from gazelle.training.workers.shards import Blueprint, divided
@@ -33,7 +34,8 @@ def join_workers(
         MissingExtraError: Ray is asked for and not installed.
     """
     recipe = config.recipe
-    sizes = divided(recipe.num_envs, fitting_copies(config.task, 1, config.options))
+    fewest = fitting_copies(config.task, 1, config.options)
+    sizes = divided(recipe.num_envs, fewest)
     blueprint = Blueprint(
         task=config.task,
         sizes=sizes,
@@ -51,7 +53,12 @@ def join_workers(
         start = start_actors(blueprint)
     team = Team(start, len(sizes), count)
     try:
-        return WorkerVecEnv(team, sizes, on_episodes=on_episodes)
+        return WorkerVecEnv(
+            team,
+            sizes,
+            on_episodes=on_episodes,
+            copy=lambda: TaskCopies(make_task(config.task, fewest, **config.options)),
+        )
     except BaseException:
         team.close()
         raise

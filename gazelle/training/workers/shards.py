@@ -163,7 +163,7 @@ class ShardHost:
         copies = next(iter(self._shards.values())).copies
         env = copies.env
         return Spaces(
-            env.single_observation_space,
+            copies.observation_space,
             env.single_action_space,
             copies.control_period,
             copies.contract,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -11,7 +12,9 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.array_types import Bools, Floats32
 from gazelle.training.actor import Actor
+from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
+from gazelle.training.goal_replay import GoalReplay
 from gazelle.training.rollout import Rollout, join
 from gazelle.training.workers.shards import ShardStep
 from gazelle.training.workers.team import Team
@@ -27,6 +30,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         team: The workers.
         sizes: Copies in each shard.
         on_episodes: Called with the episodes that ended.
+        copy: Makes as few copies as can be here, for what needs no step.
 
     Attributes:
         obs: What is acted on next, shape (N, ...).
@@ -41,8 +45,10 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         sizes: Sequence[int],
         *,
         on_episodes: Callable[[Episodes], None] | None = None,
+        copy: Callable[[], TaskCopies] | None = None,
     ) -> None:
         self.team = team
+        self._copy = copy
         self.on_episodes = on_episodes
         self._on_observations: Callable[[Floats32], None] | None = None
         self._ends = np.cumsum(sizes)[:-1]
@@ -56,6 +62,15 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
             (self.num_envs, *(spaces.observation.shape or ())), np.float32
         )
         self.starts: Bools = np.ones(self.num_envs, np.bool_)
+
+    @functools.cached_property
+    def goal_replay(self) -> GoalReplay | None:
+        """See `TaskCopies.goal_replay`: rewards are worked out here, by a copy that never steps."""
+        return None if self._own_copy is None else self._own_copy.goal_replay
+
+    @functools.cached_property
+    def _own_copy(self) -> TaskCopies | None:
+        return None if self._copy is None else self._copy()
 
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
         """Have something called with what is observed after each step, shape (N, ...)."""
@@ -148,6 +163,9 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
     def close(self) -> None:
         """End the workers."""
         self.team.close()
+        own = self.__dict__.get("_own_copy")
+        if own is not None:
+            own.close()
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
         """An attribute of this environment, once for each copy: those of the workers stay there."""

@@ -1,0 +1,120 @@
+"""Hindsight experience replay: what was reached by chance is taught as if it had been the goal.
+
+M. Andrychowicz et al., "Hindsight Experience Replay" (NIPS 2017, arXiv 1707.01495), with goals
+from the future of the same episode. Why this is not Stable-Baselines3's class is told in
+docs/decisions/012-own-hindsight-replay.md.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gazelle.training.goal_replay import GoalReplay
+from gazelle.training.replay import MaskedReplayBuffer
+
+_RUNNING = -1
+
+
+class HindsightReplayBuffer(MaskedReplayBuffer):
+    """A replay memory that gives a share of its transitions a goal that was reached later.
+
+    Later means after the same step or another of the same episode; of one that still runs, so far.
+    Each step is a row of the memory for all copies, and only the oldest rows are overwritten, so
+    whatever came later is still there.
+
+    Args:
+        args: As Stable-Baselines3's ``ReplayBuffer`` takes them.
+        goals: Where goals stand in observations, and what they are worth.
+        share: Of transitions that get another goal, in [0, 1].
+        reward_scale: Rewards are multiplied by this.
+        kwargs: As there.
+    """
+
+    def __init__(
+        self,
+        *args: Any,
+        goals: GoalReplay,
+        share: float,
+        reward_scale: float = 1.0,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(*args, **kwargs)
+        self._goals, self._share, self._reward_scale = goals, share, reward_scale
+        shape = self.buffer_size, self.n_envs
+        self.episodes = np.zeros(shape, np.int64)
+        """The number of the episode of each transition, counted in its copy, modulo the rows."""
+        self.ends = np.full(shape, _RUNNING, np.int64)
+        """The step after the last one of each episode, by that number and copy."""
+        self.steps = 0
+        self.current = np.zeros(self.n_envs, np.int64)
+
+    def add(
+        self,
+        obs: npt.NDArray[Any],
+        next_obs: npt.NDArray[Any],
+        action: npt.NDArray[Any],
+        reward: npt.NDArray[Any],
+        done: npt.NDArray[Any],
+        infos: list[dict[str, Any]],
+    ) -> None:
+        """Remember one control step of all copies."""
+        self.episodes[self.pos] = self.current
+        super().add(obs, next_obs, action, reward, done, infos)
+        self.steps += 1
+        over = np.flatnonzero(done)
+        self.ends[self.current[over], over] = self.steps
+        # An episode has a row at least, so a number comes back only after all its rows are gone.
+        self.current[over] = (self.current[over] + 1) % self.buffer_size
+        self.ends[self.current[over], over] = _RUNNING
+
+    def get_state(self) -> dict[str, Any]:
+        """The memory as arrays, only as far as it is filled."""
+        return super().get_state() | {
+            "ends": self.ends,
+            "steps": self.steps,
+            "current": self.current,
+        }
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Continue with a memory that `get_state` returned."""
+        super().set_state(state)
+        self.ends[:], self.current[:] = state["ends"], state["current"]
+        self.steps = int(state["steps"])
+
+    def _names(self) -> list[str]:
+        return [*super()._names(), "episodes"]
+
+    def _parts(
+        self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
+    ) -> dict[str, npt.NDArray[Any]]:
+        """The transitions at the given rows and slots, the first of them with other goals."""
+        parts = super()._parts(rows, slots)
+        count = round(self._share * len(rows))
+        if not count:
+            return parts
+        later = self._later(rows[:count], slots[:count])
+        achieved, desired = self._goals.achieved, self._goals.desired
+        goals = self.next_observations[later, slots[:count]][:, achieved]
+        parts["observations"][:count, desired] = goals
+        parts["next_observations"][:count, desired] = goals
+        reached = parts["next_observations"][:count, achieved]
+        rewards = self._goals.rewards(reached, goals) * np.float32(self._reward_scale)
+        parts["rewards"][:count, 0] = rewards
+        return parts
+
+    def _later(
+        self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
+    ) -> npt.NDArray[np.intp]:
+        """Rows of the same episodes, the given ones or later."""
+        ends = self.ends[self.episodes[rows, slots], slots]
+        ends = np.where(ends == _RUNNING, self.steps, ends)
+        # How many rows ago: the newest is the one before the next to be written.
+        ages = (self.pos - 1 - rows) % self.buffer_size
+        now = self.steps - 1 - ages
+        draws = np.random.random_sample(len(rows))  # noqa: NPY002  # as the parent draws
+        ahead = (draws * (ends - now)).astype(np.intp)
+        later: npt.NDArray[np.intp] = (rows + ahead) % self.buffer_size
+        return later

@@ -1,0 +1,36 @@
+"""Which replay memory an algorithm learns from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.errors import TaskError
+from gazelle.training.hindsight import HindsightReplayBuffer
+from gazelle.training.recipes import Recipe
+from gazelle.training.replay import MaskedReplayBuffer
+from gazelle.training.vecenv import VectorEnvAdapter
+
+
+def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
+    """What an algorithm of Stable-Baselines3 is given for its memory.
+
+    Raises:
+        TaskError: The recipe pays in another way than the task, which cannot tell what that had
+            been worth with other goals.
+    """
+    goals = env.goal_replay
+    if goals is None or not recipe.hindsight:
+        return {"replay_buffer_class": MaskedReplayBuffer}
+    if recipe.goal_reward is not None:
+        raise TaskError(
+            "a goal_reward cannot be worked out for goals that were reached later",
+            hint="set hindsight to 0, or leave out goal_reward",
+        )
+    return {
+        "replay_buffer_class": HindsightReplayBuffer,
+        "replay_buffer_kwargs": {
+            "goals": goals,
+            "share": recipe.hindsight,
+            "reward_scale": recipe.reward_scale,
+        },
+    }
