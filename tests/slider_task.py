@@ -7,7 +7,7 @@ import numpy as np
 
 import gazelle
 from gazelle import formats
-from gazelle.envs import GoalTask, TaskGoalEnv, TaskGoalVectorEnv
+from gazelle.envs import GoalSimulationTask, TaskGoalEnv, TaskGoalVectorEnv
 
 RAIL = """<link name='{0}'><inertial><mass>1</mass></inertial></link><joint name='along_{0}' type='prismatic'>
 <parent>{1}</parent><child>{0}</child><axis><xyz>{2}</xyz><limit><lower>-2</lower><upper>2</upper>
@@ -17,7 +17,7 @@ ROBOT = f"""<sdf version='1.7'><model name='block'>{RAIL.format("x", "world", "1
 NEAR, STEP = 0.1, 0.2
 
 
-class Slider(GoalTask):
+class Slider(GoalSimulationTask):
     """An action moves the block by up to 0.2 m along each rail; goals lie within half a metre."""
 
     observation_space = gym.spaces.Box(-10.0, 10.0, (4,), np.float32)

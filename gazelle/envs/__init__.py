@@ -34,7 +34,7 @@ from gazelle.envs.vector_env import TaskVectorEnv
 
 if TYPE_CHECKING:
     from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
-    from gazelle.envs.goal_task import GoalTask
+    from gazelle.envs.goal_task import GoalSimulationTask
     from gazelle.envs.simulation_task import SimulationTask, StepOutcome
 
 __all__ = [
@@ -43,8 +43,8 @@ __all__ = [
     "ClosedEnvError",
     "DictRows",
     "FloorPlan",
+    "GoalSimulationTask",
     "GoalTable",
-    "GoalTask",
     "ObservationPart",
     "PolicyContract",
     "ResetNeededError",
@@ -63,7 +63,7 @@ __all__ = [
 
 
 _HOMES = {
-    "GoalTask": "goal_task",
+    "GoalSimulationTask": "goal_task",
     "SimulationTask": "simulation_task",
     "StepOutcome": "simulation_task",
     "TaskGoalEnv": "goal_envs",

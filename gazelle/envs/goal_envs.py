@@ -10,7 +10,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32
-from gazelle.envs.goal_task import GoalTask
+from gazelle.envs.goal_task import GoalSimulationTask
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
@@ -31,11 +31,11 @@ class TaskGoalVectorEnv(TaskVectorEnv):
         autoreset_mode: One of Gymnasium's, or its name.
     """
 
-    task: GoalTask
+    task: GoalSimulationTask
 
     def __init__(
         self,
-        task: GoalTask,
+        task: GoalSimulationTask,
         *,
         seed: int | None = None,
         render_mode: str | None = None,
@@ -67,7 +67,7 @@ class TaskGoalVectorEnv(TaskVectorEnv):
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """See `GoalTask.compute_reward`."""
+        """See `GoalSimulationTask.compute_reward`."""
         return self.task.compute_reward(achieved_goal, desired_goal, info)
 
 
@@ -84,10 +84,10 @@ class TaskGoalEnv(TaskEnv):
         render_mode: ``rgb_array``, or None.
     """
 
-    task: GoalTask
+    task: GoalSimulationTask
 
     def __init__(
-        self, task: GoalTask, *, seed: int | None = None, render_mode: str | None = None
+        self, task: GoalSimulationTask, *, seed: int | None = None, render_mode: str | None = None
     ) -> None:
         super().__init__(task, seed=seed, render_mode=render_mode)
         self.observation_space = task.rows.space
@@ -109,7 +109,7 @@ class TaskGoalEnv(TaskEnv):
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """See `GoalTask.compute_reward`."""
+        """See `GoalSimulationTask.compute_reward`."""
         return self.task.compute_reward(achieved_goal, desired_goal, info)
 
     def _parts(self, row: Floats32) -> Parts:

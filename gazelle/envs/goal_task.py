@@ -19,7 +19,7 @@ from gazelle.simulation import Simulation
 _GOAL = "goal"
 
 
-class GoalTask(SimulationTask):
+class GoalSimulationTask(SimulationTask):
     """A task in which each episode has a goal, in all worlds of a simulation.
 
     A subclass sets ``observation_space`` (of the part ``observation`` alone), ``goal_space`` and

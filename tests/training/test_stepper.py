@@ -131,5 +131,5 @@ def test_missing_final_observations_are_an_error():
 def test_observations_must_be_numbers():
     env = Corridor(2)
     env.single_observation_space = gym.spaces.Dict({"a": gym.spaces.Discrete(2)})
-    with pytest.raises(TaskError, match="not in a Dict"):
+    with pytest.raises(TaskError, match="only a Dict of boxes"):
         Stepper(env)
