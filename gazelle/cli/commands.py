@@ -62,6 +62,7 @@ COMMANDS = {
         Command("service", "list, show and call services", "ROS 1", "service"),
         Command("node", "list, show, ping and end nodes", "ROS 1", "node"),
         Command("param", "get, set, load and dump parameters", "ROS 1", "param"),
+        Command("bridge", "rosbridge: the graph for WebSocket clients", "ROS 1", "bridge"),
         Command("bag", "record, play and inspect bag files", "ROS 1", "bag"),
         Command("msg", "show messages: fields, MD5 sums", "ROS 1", "messages"),
         Command("srv", "show services: fields, MD5 sums", "ROS 1", "messages"),

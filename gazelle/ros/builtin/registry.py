@@ -52,6 +52,8 @@ _OWN = {
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle.ros.builtin.robot:joint_main",
         }),
+        BuiltinPackage("rosapi", {"rosapi_node": "gazelle.ros.rosbridge.nodes:rosapi_main"}),
+        BuiltinPackage("rosbridge_server", dict.fromkeys(("rosbridge_websocket", "rosbridge_websocket.py"), "gazelle.ros.rosbridge.nodes:websocket_main"), folder=_SHARE / "rosbridge_server"),
         BuiltinPackage("rosbag", {
             "record": "gazelle.ros.builtin.bags:record",
             "play": "gazelle.ros.builtin.bags:play",

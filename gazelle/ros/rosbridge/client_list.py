@@ -1,0 +1,52 @@
+"""Who is connected to a rosbridge server, as topics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.messages import load_message
+from gazelle.ros.node import Node
+from gazelle.ros.time import Time
+
+
+class ClientList:
+    """Who is connected, latched on ``client_count`` and ``connected_clients``.
+
+    Args:
+        node: Publishes.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._clients: dict[Any, tuple[str, int]] = {}
+        self._count_class: Any = load_message("std_msgs/Int32")
+        self._list_class: Any = load_message("rosbridge_msgs/ConnectedClients")
+        self._client_class: Any = load_message("rosbridge_msgs/ConnectedClient")
+        self._counts = node.advertise("client_count", self._count_class, latch=True)
+        self._lists = node.advertise("connected_clients", self._list_class, latch=True)
+        self._publish()
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self._clients)
+
+    def add(self, connection: Any) -> None:
+        """One more."""
+        address = connection.remote_address
+        self._clients[connection] = str(address[0]) if address else "", self._node.clock.now()
+        self._publish()
+
+    def remove(self, connection: Any) -> None:
+        """One less."""
+        self._clients.pop(connection, None)
+        self._publish()
+
+    def _publish(self) -> None:
+        self._counts.publish(self._count_class(len(self._clients)))
+        self._lists.publish(
+            self._list_class([
+                self._client_class(address, Time(nsecs=since))
+                for address, since in self._clients.values()
+            ])
+        )  # fmt: skip
