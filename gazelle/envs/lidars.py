@@ -42,15 +42,8 @@ def fit_lidar(model: Model, samples: int, *, notice: bool) -> FittedLidar:
         TaskError: The robot has no lidar, or one with several rows or fewer rays; the
             error names the file that says so.
     """
-    sensor = next(_lidars(model), None)
-    if sensor is None or sensor.lidar is None:
-        raise TaskError(
-            f"the robot '{model.name}' has no lidar, and this task reads one",
-            source=model.source,
-            hint="add a <sensor type='ray'>, or use another robot",
-        )
-    lidar = sensor.lidar
-    rays = max(1, round(lidar.horizontal.samples * lidar.horizontal.resolution))
+    sensor, lidar = _first_lidar(model)
+    rays = _rays_of(lidar)
     _check_shape(sensor, lidar, rays, samples)
     if rays == samples:
         return FittedLidar(model, sensor.name, lidar)
@@ -66,6 +59,44 @@ def fit_lidar(model: Model, samples: int, *, notice: bool) -> FittedLidar:
     fan = replace(lidar.horizontal, samples=samples, resolution=1.0)
     fitted = replace(lidar, horizontal=fan)
     return FittedLidar(_put(model, sensor, replace(sensor, lidar=fitted)), sensor.name, fitted)
+
+
+def every_nth_ray(model: Model, nth: int) -> FittedLidar:
+    """Keep of the first planar lidar of a robot only ray 0, ``nth``, 2 ``nth`` and so on.
+
+    They look where they did, so a task that reads only these gets the same numbers.
+
+    Args:
+        model: The robot.
+        nth: 1 or more.
+
+    Raises:
+        TaskError: The robot has no lidar, or one with several rows.
+    """
+    sensor, lidar = _first_lidar(model)
+    fan, rays = lidar.horizontal, _rays_of(lidar)
+    _check_shape(sensor, lidar, rays, 1)
+    samples = (rays - 1) // nth + 1
+    share = (samples - 1) * nth / max(rays - 1, 1)
+    last = fan.min_angle + share * (fan.max_angle - fan.min_angle)
+    kept = replace(fan, samples=samples, resolution=1.0, max_angle=last)
+    fitted = replace(lidar, horizontal=kept)
+    return FittedLidar(_put(model, sensor, replace(sensor, lidar=fitted)), sensor.name, fitted)
+
+
+def _first_lidar(model: Model) -> tuple[Sensor, Lidar]:
+    sensor = next(_lidars(model), None)
+    if sensor is None or sensor.lidar is None:
+        raise TaskError(
+            f"the robot '{model.name}' has no lidar, and this task reads one",
+            source=model.source,
+            hint="add a <sensor type='ray'>, or use another robot",
+        )
+    return sensor, sensor.lidar
+
+
+def _rays_of(lidar: Lidar) -> int:
+    return max(1, round(lidar.horizontal.samples * lidar.horizontal.resolution))
 
 
 def _check_shape(sensor: Sensor, lidar: Lidar, rays: int, samples: int) -> None:

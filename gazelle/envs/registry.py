@@ -72,7 +72,20 @@ def _moving_cube() -> RegisteredTask:
     )
 
 
-ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube())
+def _driving() -> list[RegisteredTask]:
+    home = "gazelle.envs.discrete_drive.envs"
+    return [
+        RegisteredTask(
+            id=f"gazelle/{name}-v0",
+            env=f"{home}:{name}Env",
+            vector_env=f"{home}:{name}VectorEnv",
+            max_episode_steps=500,
+        )
+        for name in ("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World")
+    ]
+
+
+ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube(), *_driving())
 
 
 def register_all() -> None:

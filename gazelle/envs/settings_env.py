@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 from gymnasium.vector import AutoresetMode
 
+from gazelle.envs.batched_task import BatchedTask
 from gazelle.envs.options import TaskSettings, check_whole, read_options
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
@@ -25,7 +27,7 @@ class SettingsEnv(TaskEnv):
         settings_class: The task's options.
     """
 
-    task_class: ClassVar[type[Any]]  # a BatchedTask
+    task_class: ClassVar[Callable[..., BatchedTask]]
     settings_class: ClassVar[type[TaskSettings]] = TaskSettings
 
     def __init__(self, **options: Any) -> None:
@@ -50,7 +52,7 @@ class SettingsVectorEnv(TaskVectorEnv):
         settings_class: The task's options.
     """
 
-    task_class: ClassVar[type[Any]]  # a BatchedTask
+    task_class: ClassVar[Callable[..., BatchedTask]]
     settings_class: ClassVar[type[TaskSettings]] = TaskSettings
 
     def __init__(

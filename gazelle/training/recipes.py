@@ -177,6 +177,16 @@ _NAVIGATION = Recipe(
 # a third of the step size and fewer, longer rollouts in 15 % of the episodes.
 _DEFAULT = Recipe(learning_rate=1e-3, settings=PPOSettings(n_steps=32, n_epochs=6))
 
+# openai_ros' bases with a few velocities: rewards of up to 200 come down to the size of values.
+_DRIVING = Recipe(
+    steps=300_000,
+    num_envs=128,
+    learning_rate=2e-3,
+    reward_scale=0.02,
+    training_options={"engine": "planar", "starts": "training"},
+    settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
+)
+
 RECIPES: dict[str, Recipe] = {
     # Values stay near 1 and each rollout is used more often: 89 % of goals; with 4 epochs of 1,024 at 3e-4 58 %.
     "AGVFleet": Recipe(
@@ -197,6 +207,8 @@ RECIPES: dict[str, Recipe] = {
         training_options={"engine": "mujoco"},
         settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
     ),
+    "TurtleBot2Maze": _DRIVING,
+    "TurtleBot3World": _DRIVING,
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),
     "TurtleBot3Stage2": _NAVIGATION,
     "TurtleBot3Stage3": _NAVIGATION,

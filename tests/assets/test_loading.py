@@ -11,8 +11,9 @@ from gazelle.formats import load_model
 
 # The office is built, the fleet's hall is of Stage.
 BUILT = {"office", "fleet"}
+OF_TASKS = {"turtlebot2_maze", "turtlebot2_wall"}
 LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range", "pick_and_place"}
-LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT
+LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT - OF_TASKS
 WHEELS = "wheel_left_joint wheel_right_joint"
 # Joints, number of plugins, sensors.
 PARTS = {
@@ -30,6 +31,7 @@ PARTS = {
 # Joints that move.
 OPENAI_ROS = {
     "cartpole": "foot_joint pole_joint",
+    "kobuki": "wheel_left_joint wheel_right_joint",
     "moving_cube": "inertia_wheel_roll_joint",
 }
 

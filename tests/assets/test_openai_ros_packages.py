@@ -38,6 +38,12 @@ PACKAGES = [
         controllers="joint_state_controller inertia_wheel_roll_joint_velocity_controller",
         space="/moving_cube",
     ),
+    Launched(
+        "turtlebot_gazebo",
+        worlds=("start_world_maze_loop_brick.launch", "start_world_wall.launch"),
+        model="mobile_base",
+    ),
+    Launched("turtlebot3_gazebo", model="turtlebot3"),
 ]
 
 

@@ -20,7 +20,8 @@ def test_worlds_by_name():
     gazebos = {"empty", "shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
     tables = {"pick_and_place"}
     indoors = {"furnished_room", "office", "turtlebot3_world", "fleet"}
-    assert stages | gazebos | tables | indoors == set(assets.worlds())
+    tasks = {"turtlebot2_maze", "turtlebot2_wall"}
+    assert stages | gazebos | tables | indoors | tasks == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 
 

@@ -99,7 +99,11 @@ def tags(element):
 
 def test_names_of_the_robots():
     assert sorted(assets.robots()) == sorted(
-        (*ROBOTS, "ackermann_base", "arm6", "cartpole", "courier", "fetch", "moving_cube", "rrbot")
+        [
+            *ROBOTS,
+            *("ackermann_base", "arm6", "cartpole", "courier", "fetch", "rrbot"),
+            *("kobuki", "moving_cube"),
+        ]
     )
 
 

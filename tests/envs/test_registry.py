@@ -10,10 +10,17 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 11
+    assert len(task_ids()) == 14
     for task in task_ids():
         spec = gym.spec(task)
-        steps = {"TurtleBot3": 501, "AGVFleet": 500, "CartPole": 1000, "MovingCube": 1000}
+        steps = {
+            "TurtleBot3World": 500,
+            "TurtleBot3": 501,
+            "AGVFleet": 500,
+            "CartPole": 1000,
+            "MovingCube": 1000,
+            "TurtleBot2": 500,
+        }
         assert spec.max_episode_steps == next(steps[key] for key in steps if key in task)
         assert spec.vector_entry_point is not None
 

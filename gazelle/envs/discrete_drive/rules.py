@@ -1,0 +1,100 @@
+"""What sets openai_ros' driving tasks apart: their parameters, as published."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+Place = tuple[float, float]
+CONTROL_PERIOD = 0.2
+"""Of all of them [s]: how long openai_ros sleeps after each command to a TurtleBot."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveRules:
+    """Parameters of one task."""
+
+    world: str
+    """Bundled world."""
+    robot: str
+    """Bundled robot."""
+    robot_args: Mapping[str, str] = field(default_factory=dict)
+    """What its file is told (xacro)."""
+    space_step: float = 0.004
+    """Physics step in three dimensions [s]; at longer ones a light base's wheels slip."""
+    start: Place = (0.0, 0.0)
+    """Where it starts, looking along x [m]."""
+    start_margin: float = 0.85
+    """How far from all that stands other starts are [m]: enough to turn round from there."""
+    every: int
+    """It sees ray 0 of its laser and every so manieth after that."""
+    decimals: int | None = None
+    """Ranges are rounded to so many decimals; None: cut to whole metres."""
+    far: float = 6.0
+    """Stands for nothing in range, and is the bound of the space [m]."""
+    least: float = 0.0
+    """Lower bound of ranges [m]; they are raised to it."""
+    crash_range: float
+    """A shorter range is a crash [m]."""
+    velocities: tuple[Place, ...]
+    """Forward speed [m/s] and yaw rate [rad/s] of each action."""
+    forward_reward: float = 0.0
+    """Of a step with action 0."""
+    turn_reward: float = 0.0
+    """Of a step with another one."""
+    closer_reward: float = 0.0
+    """Added where it came nearer to the goal."""
+    end_reward: float = 200.0
+    """Of the last step: at the goal, and less than nothing elsewhere."""
+    goal: Place | None = None
+    """Where to go [m]; None if it should just not crash."""
+    tolerance: float = 0.05
+    """How far it may be off along x and along y [m]."""
+    bounds: tuple[float, float, float, float] | None = None
+    """x and y that it must stay within: lowest x, highest x, lowest y, highest y [m]."""
+    place_decimals: int = 2
+    """Of x, y and yaw."""
+    sees_yaw: bool = False
+    """Whether yaw is seen behind x and y."""
+    sees_goal: bool = False
+    """Whether the goal is seen behind those."""
+
+
+def _turns(turning: float, rate: float) -> tuple[Place, ...]:
+    return ((0.5, 0.0), (turning, rate), (turning, -rate))
+
+
+MAZE = DriveRules(
+    world="turtlebot2_maze",
+    robot="kobuki",
+    every=120,
+    decimals=1,
+    crash_range=0.5,
+    velocities=_turns(0.1, 0.3),
+    forward_reward=5.0,
+    turn_reward=1.0,
+)
+WALL = DriveRules(
+    world="turtlebot2_wall",
+    robot="kobuki",
+    every=144,
+    crash_range=0.5,
+    velocities=_turns(0.05, 0.3),
+    forward_reward=5.0,
+    turn_reward=1.0,
+    closer_reward=5.0,
+    goal=(5.0, 0.0),
+    bounds=(-1.0, 6.0, -3.0, 3.0),
+)
+TURTLEBOT3_WORLD = DriveRules(
+    world="turtlebot3_world",
+    robot="turtlebot3_burger",
+    space_step=0.02,
+    start=(-2.0, -0.5),
+    start_margin=0.4,
+    every=3,
+    crash_range=0.2,
+    velocities=_turns(0.05, 0.3),
+    forward_reward=5.0,
+    turn_reward=1.0,
+)

@@ -1,0 +1,224 @@
+"""openai_ros' driving tasks in many worlds at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+import gazelle
+from gazelle import assets, formats
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
+from gazelle.description import Pose
+from gazelle.envs.batched_task import Info
+from gazelle.envs.decimals import rounded
+from gazelle.envs.discrete_drive.rules import CONTROL_PERIOD, DriveRules
+from gazelle.envs.discrete_drive.scoring import ends_of, reward_of
+from gazelle.envs.free_space import FreeSpace, floor_plan_of
+from gazelle.envs.lidars import FittedLidar, every_nth_ray
+from gazelle.envs.options import SPLITS, TaskSettings, check_name
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.errors import TaskError
+from gazelle.sensors import View, look_at
+from gazelle.simulation import Robot, Simulation
+
+_PLANAR_STEP = 0.02  # [s]
+_HIGH = 1.0  # what stands higher is no obstacle [m]
+_SIDES = 2  # of a place
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveSettings(TaskSettings):
+    """Options of the driving tasks, checked.
+
+    Attributes:
+        starts: ``published``, or ``training`` or ``held-out``: anywhere in free space, with any
+            heading; places of the two are not the same.
+        goal: Where to go instead (x, y) [m], in tasks with a goal.
+    """
+
+    starts: str = "published"
+    goal: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_name("kind of starts", str(self.starts), SPLITS)
+        if self.goal is not None:
+            place = np.asarray(self.goal, dtype=np.float64)
+            if place.shape != (_SIDES,) or not np.isfinite(place).all():
+                raise TaskError(f"goal must be x and y, not {self.goal!r}")
+
+
+class DriveTask(SimulationTask):
+    """A base drives by one of a few velocities, in ``nworld`` worlds.
+
+    Args:
+        rules: Of the task.
+        nworld: Number of worlds.
+        settings: What the user asks for.
+
+    Raises:
+        TaskError: A goal is given to a task without one, or no place is free to start from.
+    """
+
+    scenario_names = ("start_x", "start_y", "start_heading")
+    view = View(look_at((-3.0, -5.0, 6.0), (1.0, 0.0, 0.0)), width=480, height=400, samples=1)
+
+    def __init__(self, rules: DriveRules, nworld: int, settings: DriveSettings) -> None:
+        if settings.goal is not None and rules.goal is None:
+            raise TaskError("this task has no goal", hint="leave out the option goal")
+        self.rules = rules
+        self._goal = settings.goal or rules.goal
+        model = formats.load_model(assets.robot(rules.robot), xacro_args=rules.robot_args)
+        self._lidar = every_nth_ray(model, rules.every)
+        simulation, self.robot = self._scene(settings, settings.engine, nworld)
+        self._places = self._free_places(settings)
+        self._speeds = np.array(rules.velocities)
+        self.observation_space = self._space()
+        self.action_space = gym.spaces.Discrete(len(rules.velocities))
+        super().__init__(
+            simulation,
+            control_period=CONTROL_PERIOD,
+            max_episode_steps=settings.max_episode_steps,
+        )
+        self.memory["start"] = np.tile((*rules.start, 0.0), (nworld, 1))
+        self.memory["distance"] = np.zeros(nworld)
+
+    def start(self, worlds: Worlds) -> None:
+        """It stands still: where the task has it, or somewhere in free space."""
+        self.robot.inputs["cmd_vel"].send(0.0, 0.0, worlds)
+        if self._places is not None:
+            share = self.draw(0.0, 1.0, worlds, 2)
+            start = self.memory["start"]
+            start[worlds, :2] = self._places[(share[:, 0] * len(self._places)).astype(np.intp)]
+            start[worlds, 2] = (2.0 * share[:, 1] - 1.0) * np.pi
+            height = self.robot.placement(worlds).position[:, 2]
+            place = np.column_stack((start[worlds, :2], height))
+            self.robot.set_pose(place, yaw=start[worlds, 2], worlds=worlds)
+        if self._goal is not None:
+            place = self.robot.planar_pose(worlds)[:, :2]
+            self.memory["distance"][worlds] = np.hypot(*(place - self._goal).T)
+
+    def scenario(self, worlds: Worlds) -> Floats:
+        """x, y [m] and heading [rad] at the start, shape (n, 3)."""
+        start: Floats = self.memory["start"][worlds]
+        return start
+
+    def observe(self, worlds: Worlds | None) -> Floats:
+        """Ranges, and in tasks with a goal x and y, and yaw and the goal if the rules say so."""
+        rules = self.rules
+        seen = [self._ranges(worlds)]
+        if self._goal is not None:
+            pose = self.robot.planar_pose(worlds)
+            seen.append(rounded(pose[:, : 3 if rules.sees_yaw else 2], rules.place_decimals))
+            if rules.sees_goal:
+                goal = np.array([round(side, rules.place_decimals) for side in self._goal])
+                seen.append(np.tile(goal, (len(pose), 1)))
+        return np.hstack(seen)
+
+    def act(self, actions: NDArray[np.int64]) -> None:
+        """The base is told the velocity of the action."""
+        self._forward = actions == 0
+        self.robot.inputs["cmd_vel"].send(*self._speeds[actions].T)
+
+    def outcome(self, observation: Floats32) -> StepOutcome:
+        """Reward and end of openai_ros' task, see `scoring`."""
+        place, distance = self._place(observation)
+        ends = ends_of(self.rules, self._nearest(), place, self._goal)
+        closer = distance < self.memory["distance"]
+        self.memory["distance"][:] = distance
+        reward = reward_of(self.rules, ends, forward=self._forward, closer=closer)
+        success = ends.reached if self._goal is not None else self.lasting & ~ends.crashed
+        info = {"is_success": success, "is_collision": ends.crashed & ~ends.reached}
+        return StepOutcome(reward, ends.over, {**info, **self._whereabouts(None)})
+
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
+        no: Bools = np.zeros(len(worlds), np.bool_)
+        info = {"is_success": no, "is_collision": no.copy(), **self._whereabouts(worlds)}
+        return super()._look(worlds)[0], info
+
+    def _whereabouts(self, worlds: Worlds | None) -> Info:
+        place = self.robot.planar_pose(worlds)[:, :2]
+        if self._goal is None:
+            return {"position": place}
+        goal = np.tile(self._goal, (len(place), 1))
+        return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
+
+    def _place(self, observation: Floats32) -> tuple[Floats, Floats]:
+        """Where the base is as observed [m], shape (nworld, 2), and how far from the goal."""
+        if self._goal is None:
+            return np.zeros((self.nworld, 2)), np.zeros(self.nworld)
+        first = self._lidar.lidar.horizontal.samples
+        place = rounded(observation[:, first : first + 2], self.rules.place_decimals)
+        return place, np.hypot(*(place - self._goal).T)
+
+    def _measured(self, worlds: Worlds | None) -> NDArray[Any]:
+        return self.robot.sensors[self._lidar.sensor].measure(worlds)
+
+    def _nearest(self) -> Floats:
+        """The shortest range [m], shape (nworld,); what is too near to measure is at 0."""
+        ranges = self._measured(None)
+        # A range of 0 or none at all is a failed ray, and no obstacle.
+        ranges = np.where((ranges == 0.0) | np.isnan(ranges), np.inf, ranges)
+        nearest: Floats = np.maximum(ranges, 0.0).min(axis=1)
+        return nearest
+
+    def _ranges(self, worlds: Worlds | None) -> Floats:
+        rules, ranges = self.rules, self._measured(worlds)
+        known = np.where(np.isposinf(ranges), rules.far, np.nan_to_num(ranges, neginf=0.0))
+        known = np.clip(known, rules.least, rules.far)
+        return np.trunc(known) if rules.decimals is None else rounded(known, rules.decimals)
+
+    def _space(self) -> gym.spaces.Box:
+        rules, rays = self.rules, self._lidar.lidar.horizontal.samples
+        low, high = [rules.least] * rays, [rules.far] * rays
+        if self._goal is not None and rules.bounds is not None:
+            x0, x1, y0, y1 = rules.bounds
+            # Where an episode ends the base can be a step beyond the bounds.
+            low += [x0 - 1.0, y0 - 1.0]
+            high += [x1 + 1.0, y1 + 1.0]
+            if rules.sees_yaw:
+                low, high = [*low, -3.15], [*high, 3.15]
+            if rules.sees_goal:
+                low, high = [*low, *self._goal], [*high, *self._goal]
+        return gym.spaces.Box(np.float32(low), np.float32(high), dtype=np.float32)
+
+    def _scene(self, settings: DriveSettings, engine: str, nworld: int) -> tuple[Simulation, Robot]:
+        step = _PLANAR_STEP if engine == "planar" else self.rules.space_step
+        simulation = Simulation(
+            gazelle.load(assets.world(self.rules.world)),
+            engine,
+            nworld=nworld,
+            seed=settings.seed or 0,
+            time_step=settings.time_step or step,
+            threads=settings.threads,
+        )
+        pose = Pose(*self.rules.start)
+        return simulation, simulation.spawn(self._lidar.model, name=self.rules.robot, pose=pose)
+
+    def _free_places(self, settings: DriveSettings) -> Floats | None:
+        """Where it can start (x, y) [m], shape (n, 2); None if only where the task has it."""
+        if settings.starts == "published":
+            return None
+        simulation, robot = self._scene(settings, "planar", 1)
+        with simulation:
+            space = FreeSpace(floor_plan_of(robot, _HIGH), self.rules.start)
+        margin = self.rules.start_margin
+        places = space.places(margin, between=settings.starts == "held-out")
+        if self.rules.bounds is not None:
+            x0, x1, y0, y1 = self.rules.bounds
+            x, y = places.T
+            inside = (x > x0 + margin) & (x < x1 - margin) & (y > y0 + margin) & (y < y1 - margin)
+            places = places[inside]
+        if not len(places):
+            raise TaskError("there is no free place to start from")
+        return places
+
+    @property
+    def lidar(self) -> FittedLidar:
+        """The laser, with the rays that the task reads."""
+        return self._lidar
