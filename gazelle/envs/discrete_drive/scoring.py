@@ -40,14 +40,15 @@ def ends_of(rules: DriveRules, nearest: Floats, place: Floats, goal: Place | Non
         goal: Where to go [m], if anywhere.
     """
     crashed = nearest < rules.crash_range
-    outside = reached = np.zeros(len(place), np.bool_)
+    outside: Bools = np.zeros(len(place), np.bool_)
+    reached: Bools = np.zeros(len(place), np.bool_)
     if goal is not None:
         low, high = np.array(goal) - rules.tolerance, np.array(goal) + rules.tolerance
-        reached = ((place > low) & (place <= high)).all(axis=1)
+        reached = np.all((place > low) & (place <= high), axis=1)
     if rules.bounds is not None:
         x0, x1, y0, y1 = rules.bounds
         inside = (place > (x0, y0)) & (place <= (x1, y1))
-        outside = ~inside.all(axis=1)
+        outside = ~np.all(inside, axis=1)
     return DriveEnds(crashed, outside, reached)
 
 

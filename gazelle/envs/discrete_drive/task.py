@@ -185,7 +185,9 @@ class DriveTask(SimulationTask):
                 low, high = [*low, -3.15], [*high, 3.15]
             if rules.sees_goal:
                 low, high = [*low, *self._goal], [*high, *self._goal]
-        return gym.spaces.Box(np.float32(low), np.float32(high), dtype=np.float32)
+        return gym.spaces.Box(
+            np.array(low, np.float32), np.array(high, np.float32), dtype=np.float32
+        )
 
     def _scene(self, settings: DriveSettings, engine: str, nworld: int) -> tuple[Simulation, Robot]:
         step = _PLANAR_STEP if engine == "planar" else self.rules.space_step
