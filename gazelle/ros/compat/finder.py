@@ -1,8 +1,9 @@
 """Makes the modules of ROS 1 importable, without touching the ones that may be installed.
 
-Four kinds of names are answered: modules this package has (``rospy``), packages with definitions
-(``std_msgs``, ``std_msgs.msg``), modules made by ``.cfg`` files (``demo.cfg.DemoConfig``), and the Python
-code of packages on ROS_PACKAGE_PATH.
+Five kinds of names are answered: modules this package has (``rospy``), packages with definitions
+(``std_msgs``, ``std_msgs.msg``), modules made by ``.cfg`` files (``demo.cfg.DemoConfig``), the Python
+code of packages on ROS_PACKAGE_PATH, and, where the user has none, those of `gazelle.compat`
+(``openai_ros``, ``gym``).
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from gazelle.ros.messages.library import bundled_packages
 from gazelle.ros.messages.search import find_packages
 
 HOME = "gazelle.ros.compat"
+UPSTAIRS = "gazelle.compat"
+"""Modules that stand on rooms of which this one knows nothing; imported when a script does."""
 _KINDS = ("msg", "srv")
 
 
@@ -43,12 +46,27 @@ def own_modules() -> frozenset[str]:
     return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
 
 
+@cache
+def substitutes() -> frozenset[str]:
+    """Names of the top-level modules that stand in for a user's own, where there are none."""
+    folder = Path(__file__).parents[2] / UPSTAIRS.rpartition(".")[2]
+    found = {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
+
+
 class AliasLoader(importlib.abc.Loader):
-    """Loads a module of this package under the name it has in ROS."""
+    """Loads a module of Gazelle under the name it has in ROS.
+
+    Args:
+        home: The package it is in.
+    """
+
+    def __init__(self, home: str = HOME) -> None:
+        self._home = home
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """The module itself, so that there is one of it, whatever it is called."""
-        module = importlib.import_module(f"{HOME}.{spec.name}")
+        module = importlib.import_module(f"{self._home}.{spec.name}")
         self._spec = module.__spec__
         return module
 
@@ -94,7 +112,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
                 return None
             return ModuleSpec(fullname, AliasLoader())
         if rest:
-            return None
+            return _below_a_substitute(package, fullname)
         return self._package(package, path)
 
     @staticmethod
@@ -111,9 +129,21 @@ class RosFinder(importlib.abc.MetaPathFinder):
         source = None if folder is None else folder / "src" / name / "__init__.py"
         if source is not None and source.is_file():
             return importlib.util.spec_from_file_location(name, source)
+        if name in substitutes():
+            return ModuleSpec(name, AliasLoader(UPSTAIRS))
         if _known(name):
             return ModuleSpec(name, PackageLoader(), is_package=True)
         return None
+
+
+def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
+    """The spec of a module in a package, if that package is a substitute and no code of the user's."""
+    parent = sys.modules.get(package)
+    if getattr(parent, "__name__", "") != f"{UPSTAIRS}.{package}":
+        return None
+    if importlib.util.find_spec(f"{UPSTAIRS}.{fullname}") is None:
+        return None
+    return ModuleSpec(fullname, AliasLoader(UPSTAIRS))
 
 
 def _known(package: str) -> bool:
@@ -129,6 +159,11 @@ def _is_ours(name: str) -> bool:
     """Whether a module's name is one that this finder would answer at the top level."""
     top = name.partition(".")[0]
     return top in own_modules() or top in bundled_packages()
+
+
+def _is_alias(name: str, real: str) -> bool:
+    """Whether a module of Gazelle is entered under a name of ROS."""
+    return real in {f"{HOME}.{name}", f"{UPSTAIRS}.{name}"}
 
 
 class Installed:
@@ -168,7 +203,7 @@ def uninstall() -> None:
     ours = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
     for name, module in list(sys.modules.items()):
         loader = getattr(getattr(module, "__spec__", None), "loader", None)
-        alias = _is_ours(name) and getattr(module, "__name__", "").startswith(f"{HOME}.")
+        alias = _is_alias(name, getattr(module, "__name__", ""))
         if alias or isinstance(loader, ours):
             del sys.modules[name]
     sys.modules.update(_hidden)

@@ -1,0 +1,29 @@
+"""gym's messages to people, through Gymnasium's."""
+
+from __future__ import annotations
+
+import logging
+
+import gymnasium.logger
+from gymnasium.logger import error, warn
+
+DEBUG, INFO, WARN, ERROR = logging.DEBUG, logging.INFO, logging.WARNING, logging.ERROR
+DISABLED = 50
+
+__all__ = ["DEBUG", "DISABLED", "ERROR", "INFO", "WARN", "error", "info", "set_level", "warn"]
+
+_log = logging.getLogger("gym")
+
+
+def set_level(level: int) -> None:
+    """Say only what is at least this important: ``DEBUG``, ``INFO``, ``WARN``, ``ERROR``, ``DISABLED``."""
+    gymnasium.logger.min_level = level
+    _log.setLevel(level)
+
+
+def info(text: str, *arguments: object) -> None:
+    """Say something, with ``%`` for the arguments."""
+    _log.info(text, *arguments)
+
+
+setLevel = set_level  # noqa: N816  # gym's older name

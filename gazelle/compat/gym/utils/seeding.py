@@ -1,0 +1,32 @@
+"""Random numbers of environments."""
+
+from __future__ import annotations
+
+import secrets
+
+import numpy as np
+
+from gazelle.compat.gym.error import Error
+
+_SEEDS = 2**32
+
+
+def np_random(seed: int | None = None) -> tuple[np.random.RandomState, int]:
+    """A source of random numbers, and the seed that decides it.
+
+    Args:
+        seed: Not negative; drawn if None.
+
+    Raises:
+        Error: It is no such number.
+    """
+    if seed is not None and (not isinstance(seed, int | np.integer) or seed < 0):
+        raise Error(f"a seed is an integer, 0 or more, or None; not {seed!r}")
+    used = create_seed(seed)
+    # NumPy's older generator, for scripts call its rand, randint and random_sample.
+    return np.random.RandomState(used % _SEEDS), used  # noqa: NPY002
+
+
+def create_seed(a: int | None = None, max_bytes: int = 8) -> int:
+    """The seed itself, or one that the machine draws."""
+    return secrets.randbits(8 * max_bytes) if a is None else int(a)

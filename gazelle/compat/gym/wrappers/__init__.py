@@ -1,0 +1,25 @@
+"""Environments around environments."""
+
+from __future__ import annotations
+
+from gazelle.compat.gym.wrappers.monitor import Monitor
+from gazelle.compat.gym.wrappers.time_limit import TimeLimit
+from gazelle.compat.gym.wrappers.transforms import (
+    ClipAction,
+    FlattenObservation,
+    RecordEpisodeStatistics,
+    RescaleAction,
+    TransformObservation,
+    TransformReward,
+)
+
+__all__ = [
+    "ClipAction",
+    "FlattenObservation",
+    "Monitor",
+    "RecordEpisodeStatistics",
+    "RescaleAction",
+    "TimeLimit",
+    "TransformObservation",
+    "TransformReward",
+]
