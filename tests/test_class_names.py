@@ -11,8 +11,8 @@ import pytest
 import gazelle
 
 PACKAGE = Path(gazelle.__file__).parent
-COMPAT = "ros/compat/"
-"""Modules with the names and interfaces of ROS's own packages."""
+COMPAT = ("ros/compat/", "compat/")
+"""Modules with the names and interfaces of ROS's own packages, of openai_ros', frobs_rl's and gym's."""
 
 GIVEN_BY_ROS = frozenset(
     [
@@ -36,7 +36,10 @@ GIVEN_BY_ROS = frozenset(
         "Wrench",
     ]
 )
-"""Names that scripts import from ROS's packages: `ros/compat` has them besides one of ours."""
+"""Names that scripts import from those packages: these modules have them besides one of ours."""
+
+OPENAI_ROS = "compat/openai_ros/"
+"""Its environments have the names that openai_ros gave them; the native ones may have them too."""
 
 SAME_PROGRAM = {"JointStatePublisher": 2}
 """ROS has a node and a Gazebo plugin of this name, and we have both."""
@@ -65,7 +68,8 @@ def repeated(found):
         files.setdefault(name, []).append(file)
     wrong = {name: where for name, where in files.items() if len(where) > allowed.get(name, 1)}
     for name, file in found:
-        if file.startswith(COMPAT) and name in files and name not in GIVEN_BY_ROS:
+        given = name in GIVEN_BY_ROS or (file.startswith(OPENAI_ROS) and name.endswith("Env"))
+        if file.startswith(COMPAT) and name in files and not given:
             wrong[name] = [*files[name], file]
     return wrong
 
@@ -89,6 +93,8 @@ def test_the_list_of_ros_names_holds_nothing_else():
         ([("Rope", "a.py"), ("Rope", "ros/compat/rospy/rope.py")], {"Rope"}),
         ([("Node", "ros/node.py"), ("Node", "ros/compat/roslaunch/core.py")], set()),
         ([("Node", "ros/node.py"), ("Node", "viewer/graph.py")], {"Node"}),
+        ([("CartEnv", "envs/cart.py"), ("CartEnv", "compat/openai_ros/cart.py")], set()),
+        ([("Cart", "envs/cart.py"), ("Cart", "compat/openai_ros/cart.py")], {"Cart"}),
     ],
 )
 def test_a_repeated_name_is_caught(found, expected):

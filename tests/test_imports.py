@@ -34,6 +34,7 @@ ORDER = (
     "builders",
     "envs",
     "training",
+    "compat",
     "viewer",
     "cli",
 )
@@ -57,16 +58,18 @@ STRANGERS = {
     "clients": (SIMULATION - {"navigation"}) | {"bridges"},
     "builders": WIRE | SIMULATION,
     "envs": WIRE,
+    # They are the other side of a graph, as clients are.
+    "compat": SIMULATION | {"bridges"},
 }
 """Rooms that are lower in the order, and yet unknown to a room."""
 
 HEAVY = {"gymnasium", "mujoco", "stable_baselines3", "torch", "trimesh"}
 OWNERS = {
-    "gymnasium": ("gazelle.envs", "gazelle.training"),
+    "gymnasium": ("gazelle.compat", "gazelle.envs", "gazelle.training"),
     "mujoco": ("gazelle.engines.mujoco", "gazelle.formats.mujoco_geometry"),
     "pettingzoo": ("gazelle.envs",),
-    "stable_baselines3": ("gazelle.training",),
-    "torch": ("gazelle.training",),
+    "stable_baselines3": ("gazelle.compat.frobs_rl", "gazelle.training"),
+    "torch": ("gazelle.compat.frobs_rl", "gazelle.training"),
 }
 """Libraries that only these packages know, so that another can take their place."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import importlib
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -131,10 +130,7 @@ def _load(entry_point: EntryPoint) -> Callable[..., Any]:
     path = module
     for name in attributes.split("."):
         path = f"{path}.{name}"
-        if not hasattr(found, name):
-            found = importlib.import_module(path)
-        else:
-            found = getattr(found, name)
+        found = getattr(found, name) if hasattr(found, name) else importlib.import_module(path)
     made: Callable[..., Any] = found
     return made
 
@@ -143,4 +139,3 @@ registry = EnvRegistry()
 register = registry.register
 make = registry.make
 spec = registry.spec
-

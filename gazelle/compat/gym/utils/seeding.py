@@ -24,7 +24,7 @@ def np_random(seed: int | None = None) -> tuple[np.random.RandomState, int]:
         raise Error(f"a seed is an integer, 0 or more, or None; not {seed!r}")
     used = create_seed(seed)
     # NumPy's older generator, for scripts call its rand, randint and random_sample.
-    return np.random.RandomState(used % _SEEDS), used  # noqa: NPY002
+    return np.random.RandomState(used % _SEEDS), used
 
 
 def create_seed(a: int | None = None, max_bytes: int = 8) -> int:

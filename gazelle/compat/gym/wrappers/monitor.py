@@ -129,7 +129,11 @@ class Monitor(Wrapper):
             "episode_rewards": self._rewards,
             "episode_types": [self._mode[0]] * len(self._lengths),
         }
-        manifest = {"stats": stats, "videos": [], "env_info": {"env_id": getattr(self.spec, "id", None)}}
+        manifest = {
+            "stats": stats,
+            "videos": [],
+            "env_info": {"env_id": getattr(self.spec, "id", None)},
+        }
         (self.directory / stats).write_text(json.dumps(figures), encoding="utf-8")
         name = f"{_PREFIX}.manifest.{self._infix}.manifest.json"
         (self.directory / name).write_text(json.dumps(manifest), encoding="utf-8")

@@ -1,0 +1,1 @@
+"""The robots: what they sense, and how they are moved."""

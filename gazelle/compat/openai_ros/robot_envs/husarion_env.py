@@ -1,0 +1,28 @@
+"""Husarion's ROSbot on a graph."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from gazelle.compat.openai_ros.gazebo_connection import WORLD
+from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic
+from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotEnv
+
+
+class HusarionEnv(WheeledRobotEnv):
+    """A ROSbot with ``/odom``, ``/scan``, a depth camera and ``/cmd_vel``; time goes on in a reset."""
+
+    package: ClassVar[str] = "rosbot_gazebo"
+    sensors = (
+        RobotTopic("odom", "/odom", "nav_msgs/Odometry"),
+        RobotTopic("camera_depth_image_raw", "/camera/depth/image_raw", "sensor_msgs/Image"),
+        RobotTopic("camera_depth_points", "/camera/depth/points", "sensor_msgs/PointCloud2"),
+        RobotTopic("camera_rgb_image_raw", "/camera/rgb/image_raw", "sensor_msgs/Image"),
+        RobotTopic("laser_scan", "/scan", "sensor_msgs/LaserScan"),
+    )
+    reset_kind: ClassVar[str] = WORLD
+    odom: Any
+    laser_scan: Any
+
+    def _let_act(self, twist: Any, epsilon: float, update_rate: float) -> None:
+        self.wait_until_twist_achieved(twist, epsilon, update_rate)

@@ -1,0 +1,25 @@
+"""What is on the graph already, and need not be started."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from gazelle.ros.compat import rospy
+from gazelle.ros.compat.rospy.state import process
+from gazelle.ros.tools import nodes
+from gazelle.ros.tools.graph import GraphInspector
+
+_SERVICE = "/gazebo/pause_physics"
+
+
+def simulator_runs() -> bool:
+    """Whether a simulator with Gazebo's services is on the graph, and answers."""
+    with GraphInspector("openai_ros", process.require().master_uri) as graph:
+        owners = dict(graph.services()).get(_SERVICE, [])
+        return any(nodes.alive(graph, name) for name in owners)
+
+
+def published(topics: Iterable[str]) -> bool:
+    """Whether somebody publishes all these topics."""
+    known = {name for name, _ in rospy.get_published_topics()}
+    return known.issuperset(topics)

@@ -1,0 +1,1 @@
+"""The tasks: what is seen, done and rewarded."""

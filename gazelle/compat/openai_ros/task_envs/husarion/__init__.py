@@ -1,0 +1,1 @@
+"""Husarion's ROSbot."""

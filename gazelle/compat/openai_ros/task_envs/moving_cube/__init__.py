@@ -1,0 +1,1 @@
+"""The cube that walks by a wheel."""

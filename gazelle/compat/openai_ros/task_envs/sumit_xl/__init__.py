@@ -1,0 +1,1 @@
+"""Robotnik's Summit XL."""

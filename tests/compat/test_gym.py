@@ -1,0 +1,306 @@
+"""The old gym: reset returns one value, step four; Gymnasium's spaces and environments are in it."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import subprocess
+import sys
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+
+import gazelle.ros as ros
+from gazelle.compat import gym
+from gazelle.compat.gym import error, spaces, wrappers
+from gazelle.compat.gym.envs import registration
+from gazelle.compat.gym.utils import seeding
+from gazelle.compat.shimmy import GymV21CompatibilityV0
+
+
+class Count(gym.Env):
+    """Counts its steps; ends at ``end``."""
+
+    action_space = spaces.Discrete(3)
+    observation_space = spaces.Box(np.zeros(1, np.float32), np.full(1, 100.0, np.float32))
+
+    def __init__(self, end=5):
+        self.end, self.count, self.closed = end, 0, False
+        self.seed()
+
+    def reset(self):
+        self.count = 0
+        return [0.0]
+
+    def step(self, action):
+        self.count += 1
+        return [float(self.count)], float(action), self.count >= self.end, {}
+
+    def seed(self, seed=None):
+        self.np_random, seed = seeding.np_random(seed)
+        return [seed]
+
+    def close(self):
+        self.closed = True
+
+
+class Ancient(gym.Env):
+    """As environments were written for gym 0.9."""
+
+    action_space = spaces.Discrete(2)
+    observation_space = spaces.Discrete(2)
+
+    def _reset(self):
+        return 0
+
+    def _step(self, action):
+        return action, 1.0, True, {"old": True}
+
+    def _seed(self, seed=None):
+        return [seed]
+
+
+@pytest.fixture(autouse=True)
+def registered(monkeypatch):
+    monkeypatch.setattr(registration.registry, "env_specs", {})
+    gym.register(id="Count-v0", entry_point=Count, timestep_limit=3)
+    gym.register(id="Ancient-v1", entry_point=f"{__name__}:Ancient")
+
+
+def test_a_time_limit_cuts_and_says_so():
+    env = gym.make("Count-v0")
+    assert isinstance(env, wrappers.TimeLimit)
+    assert env.spec.id == "Count-v0"
+    assert env.spec.timestep_limit == 3
+    assert env.reset() == [0.0]
+    assert [env.step(1)[2] for _ in range(3)] == [False, False, True]
+    env.reset()
+    infos = [env.step(1)[3] for _ in range(3)]
+    assert infos == [{}, {}, {"TimeLimit.truncated": True}]
+    ended = gym.make("Count-v0", end=3)
+    ended.reset()
+    assert [ended.step(1)[3] for _ in range(3)][-1] == {"TimeLimit.truncated": False}
+
+
+def test_a_step_before_the_first_reset_is_an_error():
+    with pytest.raises(error.ResetNeeded):
+        gym.make("Count-v0").step(0)
+
+
+@pytest.mark.parametrize(
+    ("entry", "kind"),
+    [
+        (Count, Count),
+        ("gazelle.compat.gym:core.Env", gym.Env),
+        ("gazelle.compat.gym:wrappers.time_limit.TimeLimit", None),
+    ],
+)
+def test_entry_points_may_lead_through_modules(entry, kind):
+    gym.register(id="Entry-v7", entry_point=entry)
+    if kind is None:
+        with pytest.raises(TypeError):
+            gym.make("Entry-v7")
+        return
+    assert type(gym.make("Entry-v7")) is kind
+
+
+def test_names_that_are_wrong_are_said():
+    with pytest.raises(error.UnregisteredEnv, match="did you mean 'Count-v0'"):
+        gym.make("Cuont-v0")
+    with pytest.raises(error.Error, match="-v0"):
+        gym.register(id="NoVersion", entry_point=Count)
+    gym.register(id="Bad-v0", entry_point="nothing")
+    with pytest.raises(error.Error, match="module:class"):
+        gym.make("Bad-v0")
+
+
+def test_registering_again_replaces():
+    gym.register(id="Count-v0", entry_point=Count, max_episode_steps=2)
+    assert gym.make("Count-v0").spec.max_episode_steps == 2
+    assert {each.id for each in gym.envs.registry.all()} == {"Count-v0", "Ancient-v1"}
+
+
+def test_underscored_methods_are_called():
+    env = Ancient()
+    assert env.reset() == 0
+    assert env.step(1) == (1, 1.0, True, {"old": True})
+    assert env.seed(4) == [4]
+    with pytest.raises(NotImplementedError, match="Ancient has no render"):
+        env.render()
+
+
+def test_environments_of_gymnasium_have_the_old_interface():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        env = gym.make("CartPole-v0")
+    env.seed(3)
+    first = env.reset()
+    assert first.shape == (4,)
+    env.seed(3)
+    assert np.array_equal(env.reset(), first)
+    steps = [env.step(0)]
+    while not steps[-1][2]:
+        steps.append(env.step(0))
+    assert all(len(step) == 4 for step in steps)
+    long = gym.make("Pendulum-v1")
+    long.reset()
+    ends = [long.step(long.action_space.sample()) for _ in range(200)]
+    assert ends[-1][2]
+    assert ends[-1][3] == {"TimeLimit.truncated": True}
+    assert isinstance(long.action_space, gymnasium.spaces.Box)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2**40, None])
+def test_equal_seeds_give_equal_numbers_with_the_old_methods(seed):
+    one, used = seeding.np_random(seed)
+    other, again = seeding.np_random(used)
+    assert used == again
+    assert seed is None or used == seed
+    assert one.randint(1000) == other.randint(1000)
+    assert one.rand() == other.rand()
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, "three"])
+def test_what_is_no_seed_is_said(seed):
+    with pytest.raises(error.Error, match="a seed is"):
+        seeding.np_random(seed)
+
+
+def test_a_monitor_writes_what_episodes_came_to(tmp_path):
+    env = wrappers.Monitor(Count(end=2), tmp_path / "out", force=True)
+    for action in (1, 2):
+        env.reset()
+        env.step(action)
+        env.step(action)
+    env.reset()
+    env.step(1)  # an episode that is left before its end
+    env.close()
+    assert env.unwrapped.closed
+    (stats,) = (tmp_path / "out").glob("openaigym.episode_batch.*.stats.json")
+    figures = json.loads(stats.read_text())
+    assert figures["episode_lengths"] == [2, 2, 1]
+    assert figures["episode_rewards"] == [2.0, 4.0, 1.0]
+    assert figures["episode_types"] == ["t"] * 3
+    (manifest,) = (tmp_path / "out").glob("openaigym.manifest.*.json")
+    assert json.loads(manifest.read_text())["stats"] == stats.name
+    assert env.get_total_steps() == 5
+
+
+def test_a_monitor_does_not_mix_with_anothers_files(tmp_path):
+    wrappers.Monitor(Count(), tmp_path).close()
+    with pytest.raises(error.Error, match="force=True"):
+        wrappers.Monitor(Count(), tmp_path)
+    wrappers.Monitor(Count(), tmp_path, resume=True)
+    wrappers.Monitor(Count(), tmp_path, force=True)
+    assert not list(tmp_path.glob("*.json"))
+
+
+class Twice(gym.ObservationWrapper, gym.RewardWrapper):
+    """Nothing but the methods that a user writes."""
+
+    def observation(self, observation):
+        return [2.0 * each for each in observation]
+
+
+class Other(gym.ActionWrapper):
+    def action(self, action):
+        return 2 - action
+
+
+def test_wrappers_change_one_thing_and_pass_on_the_rest():
+    env = Other(Twice(Count()))
+    assert env.reset() == [0.0]
+    assert env.step(0) == ([2.0], 2.0, False, {})
+    assert env.end == 5
+    assert isinstance(env.unwrapped, Count)
+    with pytest.raises(AttributeError):
+        env.nothing  # noqa: B018
+    env.close()
+    assert env.unwrapped.closed
+
+
+class Push(Count):
+    """With a box of actions, and observations in parts."""
+
+    action_space = spaces.Box(np.full(2, -4.0, np.float32), np.full(2, 8.0, np.float32))
+    observation_space = spaces.Dict({"a": spaces.Discrete(2), "b": spaces.Discrete(3)})
+
+    def reset(self):
+        return {"a": 1, "b": 2}
+
+    def step(self, action):
+        return {"a": 0, "b": 0}, float(np.sum(action)), True, {}
+
+
+def test_actions_are_clipped_and_rescaled():
+    assert wrappers.ClipAction(Push()).step(np.array([99.0, -99.0]))[1] == 4.0
+    scaled = wrappers.RescaleAction(Push(), -1.0, 1.0)
+    assert scaled.step(np.array([-1.0, 1.0]))[1] == pytest.approx(4.0)
+    assert scaled.step(np.array([0.0, 0.0]))[1] == pytest.approx(4.0)
+    assert scaled.action_space.high.tolist() == [1.0, 1.0]
+    with pytest.raises(error.Error, match="Box"):
+        wrappers.RescaleAction(Count(), -1.0, 1.0)
+
+
+def test_observations_are_flattened_and_episodes_summed():
+    env = wrappers.RecordEpisodeStatistics(wrappers.FlattenObservation(Push()))
+    assert env.reset().tolist() == [0, 1, 0, 0, 1]
+    assert env.observation_space.shape == (5,)
+    info = env.step(np.ones(2))[3]
+    assert (info["episode"]["r"], info["episode"]["l"]) == (2.0, 1)
+    assert wrappers.TransformReward(Count(), lambda reward: -reward).step(2)[1] == -2.0
+    assert wrappers.TransformObservation(Count(), sum).reset() == 0.0
+
+
+def test_goal_environments_want_their_three_parts():
+    class Goal(gym.GoalEnv):
+        observation_space = spaces.Dict({"observation": spaces.Discrete(2)})
+
+    with pytest.raises(error.Error, match="achieved_goal"):
+        Goal().reset()
+
+
+def test_stable_baselines_takes_old_environments():
+    env = GymV21CompatibilityV0(env=gym.make("Count-v0"))
+    observation, info = env.reset(seed=3)
+    assert (observation, info) == ([0.0], {})
+    results = [env.step(1) for _ in range(3)]
+    assert [each[2:4] for each in results] == [(False, False), (False, False), (False, True)]
+    finished = GymV21CompatibilityV0("Count-v0", {"end": 1})
+    finished.reset()
+    assert finished.step(0)[2:4] == (True, False)
+
+
+def test_scripts_import_it_by_name_and_nothing_stays():
+    with ros.install():
+        module = importlib.import_module("gym")
+        assert module is gym
+        assert importlib.import_module("gym.envs.registration").registry is registration.registry
+        assert importlib.import_module("gym.wrappers").Monitor is wrappers.Monitor
+        assert importlib.import_module("gym.utils.seeding").np_random is seeding.np_random
+        with pytest.raises(ModuleNotFoundError):
+            importlib.import_module("gym.nothing")
+    assert not any(name == "gym" or name.startswith("gym.") for name in sys.modules)
+
+
+def test_a_gym_of_the_users_own_comes_first(tmp_path, monkeypatch):
+    (tmp_path / "gym").mkdir()
+    (tmp_path / "gym" / "__init__.py").write_text("own = True\n")
+    (tmp_path / "gym" / "spaces.py").write_text("here = True\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with ros.install():
+        assert importlib.import_module("gym").own
+        assert importlib.import_module("gym.spaces").here
+        with pytest.raises(ModuleNotFoundError):
+            importlib.import_module("gym.wrappers")
+    for name in ("gym", "gym.spaces"):
+        del sys.modules[name]
+
+
+def test_without_exec_there_is_no_gym():
+    code = (
+        "import gazelle, importlib.util, sys; sys.exit(importlib.util.find_spec('gym') is not None)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
