@@ -36,13 +36,16 @@ class JointConstraint:
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
         """What is wrong with a state, shape (variables,); None if nothing is."""
         column = robot.column(self.joint)
-        way = float(state[column]) - self.position
+        # What is written in the column of a joint that follows another does not count.
+        follows = robot.variables[column].mimics
+        position = float((robot.complete(state) if follows else state)[column])
+        way = position - self.position
         if robot.variables[column].endless:
             way = math.remainder(way, 2.0 * math.pi)
         if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
             return None
         return (
-            f"joint '{self.joint}' at {state[column]:.4f} is not within "
+            f"joint '{self.joint}' at {position:.4f} is not within "
             f"[{self.position - self.below:.4f}, {self.position + self.above:.4f}]"
         )
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Indices
 from gazelle.description import Box, Pose, Sphere
 from gazelle.errors import PlanningError
 from gazelle.planning.constraints import (
@@ -85,17 +86,78 @@ class GoalStates:
         if not links:
             return self._of_joints(goal)
         if len(links) > 1:
-            raise NoPlanError(
-                f"the goal is about {len(links)} links at once: {', '.join(sorted(links))}",
-                PlanOutcome.INVALID_GOAL_CONSTRAINTS,
-                "one link has a pose; say the others by joints",
-            )
+            return self._of_links(goal, sorted(links))
+        poses, aim = self._poses(goal)
+        return self._of_pose(next(iter(links)), aim, poses, goal)
+
+    def _poses(self, goal: ConstraintSet) -> tuple[list[Pose], Aim]:
+        """Poses that fulfil constraints of one link, and what of them counts."""
         random = np.random.default_rng(self._seed)
         poses = [_drawn(goal, random, first=number == 0) for number in range(_DRAWN)]
-        aim: Aim = "pose" if goal.positions and goal.orientations else (
-            "position" if goal.positions else "orientation"
-        )  # fmt: skip
-        return self._of_pose(next(iter(links)), aim, poses, goal)
+        if goal.positions and goal.orientations:
+            return poses, "pose"
+        return poses, "position" if goal.positions else "orientation"
+
+    def _of_links(self, goal: ConstraintSet, links: Sequence[str]) -> Floats:
+        """Positions that bring several links, each moved by joints of its own, to their poses."""
+        found = [self._alone(goal, link, links) for link in links]
+        good: list[Floats] = []
+        bad: list[Floats] = []
+        for parts in itertools.product(*found):
+            state = self._validity.full(self._start)
+            for columns, positions in parts:
+                state[columns] = positions
+            whole = state[self._group.columns]
+            fits = not goal.violations(self._robot, self._validity.full(whole))
+            (good if fits and self._validity(whole) else bad).append(whole)
+            if len(good) >= _WANTED:
+                break
+        if not good:
+            self._refuse(bad, goal)
+        return np.array(good)
+
+    def _alone(
+        self, goal: ConstraintSet, link: str, links: Sequence[str]
+    ) -> list[tuple[Indices, Floats]]:
+        """Positions of the joints that move one of several links alone, with their columns."""
+        moving = {each: self._moving(each) for each in links}
+        shared = sorted(moving[link] & {*itertools.chain(*(moving[o] for o in links if o != link))})
+        if shared:
+            raise NoPlanError(
+                f"the goal is about {len(links)} links at once, {', '.join(links)}, which the joints "
+                f"{', '.join(shared)} move together",
+                PlanOutcome.INVALID_GOAL_CONSTRAINTS,
+                "one of them has a pose; say the others by joints",
+            )
+        own = ConstraintSet(
+            positions=tuple(each for each in goal.positions if each.link == link),
+            orientations=tuple(each for each in goal.orientations if each.link == link),
+        )
+        group = self._robot.group_of(moving[link], f"{self._group.name} to {link}")
+        poses, aim = self._poses(own)
+        state, found = self._validity.full(self._start), list[tuple[Indices, Floats]]()
+
+        def take(positions: Floats) -> bool:
+            reached = state.copy()
+            reached[group.columns] = positions
+            if not own.violations(self._robot, reached):
+                found.append((group.columns, positions.copy()))
+            return len(found) >= _WANTED
+
+        solver = InverseKinematics(self._robot, group, link, aim=aim, seed=self._seed)
+        for pose in poses:
+            solver.solve(pose, state, valid=take)
+            if found:
+                return found
+        raise NoPlanError(self._why_not(link, aim, poses[0]), PlanOutcome.NO_IK_SOLUTION)
+
+    def _moving(self, link: str) -> set[str]:
+        """Variables of the group that move a link."""
+        return {
+            each.name
+            for each, column in zip(self._group.variables, self._group.columns, strict=True)
+            if link in self._robot.moving([column])
+        }
 
     def _of_joints(self, goal: ConstraintSet) -> Floats:
         """A goal of joints alone: the middle of each, within its limits."""

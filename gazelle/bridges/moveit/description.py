@@ -13,21 +13,22 @@ from gazelle.ros.node import Node
 DESCRIPTION = "robot_description"
 
 
-def robot_of_parameters(node: Node) -> RobotModel:
+def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotModel:
     """The robot of ``robot_description``, ``..._semantic`` and ``..._planning/joint_limits``.
 
     Args:
         node: Asks, in its own namespace and those around it.
+        description: Name of the first parameter; the others begin with it.
 
     Raises:
         PlanningError: One of the first two is not there.
         Error: One cannot be read.
     """
-    model = load_model_string(_text(node, DESCRIPTION), name=DESCRIPTION)
-    name = f"{DESCRIPTION}_semantic"
-    semantics = load_srdf_string(_text(node, name), name=name)
+    model = load_model_string(description_text(node, description), name=description)
+    name = f"{description}_semantic"
+    semantics = load_srdf_string(description_text(node, name), name=name)
     plain = RobotModel(model, semantics)
-    given = find_parameter(node, f"{DESCRIPTION}_planning", {})
+    given = find_parameter(node, f"{description}_planning", {})
     entries = given.get("joint_limits") if isinstance(given, Mapping) else None
     return RobotModel(model, semantics, _limits(plain, entries or {}))
 
@@ -38,7 +39,12 @@ def find_parameter(node: Node, name: str, default: Any) -> Any:
     return default if found is None else node.get_param(found, default)
 
 
-def _text(node: Node, name: str) -> str:
+def description_text(node: Node, name: str) -> str:
+    """The text of a parameter of the nearest namespace that has it.
+
+    Raises:
+        PlanningError: There is none.
+    """
     text = find_parameter(node, name, None)
     if not isinstance(text, str) or not text.strip():
         raise PlanningError(

@@ -70,6 +70,7 @@ class MoveGroupAction:
                 "move_group: a plan that is executed begins where the robot is, not at the "
                 "request's start_state"
             )
+        context.refresh()
         with context.lock:
             here = context.current()
             start = here if from_here else None

@@ -80,7 +80,7 @@ def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> An
     message.pose = pose_message(thing.pose)
     for shape, pose in thing.shapes if shapes else ():
         if isinstance(shape, MeshData):
-            message.meshes.append(_mesh_message(shape))
+            message.meshes.append(mesh_message(shape))
             message.mesh_poses.append(pose_message(pose))
         elif isinstance(shape, Plane):
             coefficients = [*map(float, shape.normal), 0.0]
@@ -155,7 +155,8 @@ def _mesh(message: Any) -> MeshData:
     return MeshData(np.array(corners).reshape(-1, 3), np.array(faces, int).reshape(-1, 3))
 
 
-def _mesh_message(mesh: MeshData) -> Any:
+def mesh_message(mesh: MeshData) -> Any:
+    """A ``shape_msgs/Mesh``."""
     message: Any = load_message("shape_msgs/Mesh")()
     triangle, point = load_message("shape_msgs/MeshTriangle"), load_message("geometry_msgs/Point")
     message.triangles = [triangle(vertex_indices=face) for face in mesh.faces.tolist()]

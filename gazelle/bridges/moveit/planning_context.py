@@ -54,6 +54,13 @@ class PlanningContext:
         """The graph's time [ns]."""
         return self.node.clock.now()
 
+    def refresh(self) -> None:
+        """Wait until it is known where the robot is now, not where it was a moment ago.
+
+        Do not hold ``lock`` meanwhile.
+        """
+        self.monitor.refresh(self.now())
+
     def current(self) -> Floats:
         """Where the robot is, shape (variables,); the scene knows it from now on."""
         state = self.monitor.current()

@@ -94,6 +94,7 @@ class PlanningServices:
             answer.trajectory = trajectory_message(plan, context.robot.frame)
             answer.planning_time = plan.seconds
 
+        context.refresh()
         context.answer(response, act, "plan_kinematic_path")
         return made
 
@@ -107,6 +108,7 @@ class PlanningServices:
 
     def _cartesian(self, request: Any) -> Any:
         made: Any = load_service("moveit_msgs/GetCartesianPath")._response_class()
+        self._context.refresh()
         return self._context.answer(
             made, lambda answer: self._follow(request, answer), "compute_cartesian_path"
         )

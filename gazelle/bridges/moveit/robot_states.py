@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 from typing import Any
 
 from gazelle.array_types import Floats
@@ -12,6 +13,11 @@ from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
+_REGULAR_S = 0.5
+"""Between messages that come regularly, at most."""
+_PERIODS, _FRESH_S = 4.0, 1.0
+"""For how many of these times, and how long at most, a fresh state is waited for."""
+
 
 class JointStateMonitor:
     """Hears where the joints are.
@@ -19,14 +25,17 @@ class JointStateMonitor:
     Args:
         node: On the graph.
         robot: Whose joints; what is said of others is passed over.
+        topic: On which it is said.
     """
 
-    def __init__(self, node: Node, robot: RobotModel) -> None:
+    def __init__(self, node: Node, robot: RobotModel, topic: str = "joint_states") -> None:
         self._robot = robot
+        self._stamp = -1
+        self._heard, self._period = -math.inf, math.inf
         self._positions = robot.zero()
         self._unknown = {each.name for each in robot.variables if not each.mimics}
         self._news = threading.Condition()
-        node.subscribe("joint_states", load_message("sensor_msgs/JointState"), self._hear)
+        node.subscribe(topic, load_message("sensor_msgs/JointState"), self._hear)
 
     def _hear(self, message: Any) -> None:
         columns = {name: column for column, name in enumerate(self._robot.names)}
@@ -35,6 +44,9 @@ class JointStateMonitor:
                 if name in columns and math.isfinite(position):
                     self._positions[columns[name]] = position
                     self._unknown.discard(name)
+            self._stamp = max(self._stamp, message.header.stamp.to_nsec())
+            now = time.monotonic()
+            self._period, self._heard = now - self._heard, now
             self._news.notify_all()
 
     def current(self) -> Floats:
@@ -52,6 +64,28 @@ class JointStateMonitor:
         """Wait for all joints, at most some time [s] of the wall's clock; whether they are known."""
         with self._news:
             return self._news.wait_for(lambda: not self._unknown, timeout)
+
+    def wait_newer(self, moment: int, timeout: float) -> bool:
+        """Wait for a message with a stamp of a moment or later; whether there is one.
+
+        Args:
+            moment: On the graph's clock [ns].
+            timeout: The longest wait [s of the wall's clock].
+        """
+        with self._news:
+            return self._news.wait_for(lambda: self._stamp >= moment, timeout)
+
+    def refresh(self, moment: int) -> None:
+        """Wait for a message with a stamp of a moment [ns] or later, if they come regularly.
+
+        What is said seldom, or was said once, is taken as it is: the wait is a few of the times
+        between messages, and none where these are long.
+        """
+        with self._news:
+            period = self._period
+            if period < _REGULAR_S and time.monotonic() - self._heard < _PERIODS * period:
+                wait = min(_PERIODS * period, _FRESH_S)
+                self._news.wait_for(lambda: self._stamp >= moment, wait)
 
 
 def state_of_message(robot: RobotModel, message: Any, current: Floats) -> Floats:

@@ -78,6 +78,7 @@ class TrajectoryExecutor:
             return
         with self._one:
             self._stopped.clear()
+            self._context.refresh()
             try:
                 self._check_start(trajectory)
                 known = controllers_of(self._context.node)

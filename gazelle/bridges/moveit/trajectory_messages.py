@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.planning import MotionPlan
+from gazelle.planning import MotionPlan, TimedPath
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Duration
 
@@ -17,11 +17,17 @@ def trajectory_message(plan: MotionPlan, frame: str) -> Any:
         frame: That it was planned in.
     """
     message: Any = load_message("moveit_msgs/RobotTrajectory")()
-    joints, timed = message.joint_trajectory, plan.trajectory
+    joints = message.joint_trajectory
     joints.header.frame_id = frame
     joints.joint_names = list(plan.names)
+    joints.points = points_of(plan.trajectory)
+    return message
+
+
+def points_of(timed: TimedPath) -> list[Any]:
+    """A trajectory as ``trajectory_msgs/JointTrajectoryPoint`` messages."""
     made = load_message("trajectory_msgs/JointTrajectoryPoint")
-    joints.points = [
+    return [
         made(
             positions=positions,
             velocities=velocities,
@@ -36,4 +42,3 @@ def trajectory_message(plan: MotionPlan, frame: str) -> Any:
             strict=True,
         )
     ]
-    return message

@@ -24,8 +24,10 @@ from gazelle.ros.messages.library import bundled_packages
 from gazelle.ros.messages.search import find_packages
 
 HOME = "gazelle.ros.compat"
-UPSTAIRS = "gazelle.compat"
+UPSTAIRS = ("gazelle.compat", "gazelle.bridges.moveit.modules")
 """Modules that stand on rooms of which this one knows nothing; imported when a script does."""
+_COMPILED = frozenset({"moveit_ros_planning_interface"})
+"""Of C++ where they are installed, for a Python that is not this one: ours come first."""
 _KINDS = ("msg", "srv")
 
 
@@ -47,11 +49,19 @@ def own_modules() -> frozenset[str]:
 
 
 @cache
-def substitutes() -> frozenset[str]:
-    """Names of the top-level modules that stand in for a user's own, where there are none."""
-    folder = Path(__file__).parents[2] / UPSTAIRS.rpartition(".")[2]
-    found = {path.stem for path in folder.glob("*.py")} - {"__init__"}
-    return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
+def substitutes() -> dict[str, str]:
+    """The top-level modules that stand in for a user's own, where there are none.
+
+    Returns:
+        By name, the package that they are in.
+    """
+    found = {}
+    for home in UPSTAIRS:
+        folder = Path(__file__).parents[3].joinpath(*home.split("."))
+        names = {path.stem for path in folder.glob("*.py")} - {"__init__"}
+        names |= {path.parent.name for path in folder.glob("*/__init__.py")}
+        found |= dict.fromkeys(names, home)
+    return found
 
 
 class AliasLoader(importlib.abc.Loader):
@@ -113,6 +123,8 @@ class RosFinder(importlib.abc.MetaPathFinder):
             return ModuleSpec(fullname, AliasLoader())
         if rest:
             return _below_a_substitute(package, fullname)
+        if package in _COMPILED:
+            return ModuleSpec(package, AliasLoader(substitutes()[package]))
         return self._package(package, path)
 
     @staticmethod
@@ -130,7 +142,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
         if source is not None and source.is_file():
             return importlib.util.spec_from_file_location(name, source)
         if name in substitutes():
-            return ModuleSpec(name, AliasLoader(UPSTAIRS))
+            return ModuleSpec(name, AliasLoader(substitutes()[name]))
         if _known(name):
             return ModuleSpec(name, PackageLoader(), is_package=True)
         return None
@@ -138,12 +150,13 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
 def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
     """The spec of a module in a package, if that package is a substitute and no code of the user's."""
+    home = substitutes().get(package)
     parent = sys.modules.get(package)
-    if getattr(parent, "__name__", "") != f"{UPSTAIRS}.{package}":
+    if home is None or getattr(parent, "__name__", "") != f"{home}.{package}":
         return None
-    if importlib.util.find_spec(f"{UPSTAIRS}.{fullname}") is None:
+    if importlib.util.find_spec(f"{home}.{fullname}") is None:
         return None
-    return ModuleSpec(fullname, AliasLoader(UPSTAIRS))
+    return ModuleSpec(fullname, AliasLoader(home))
 
 
 def _known(package: str) -> bool:
@@ -163,7 +176,7 @@ def _is_ours(name: str) -> bool:
 
 def _is_alias(name: str, real: str) -> bool:
     """Whether a module of Gazelle is entered under a name of ROS."""
-    return real in {f"{HOME}.{name}", f"{UPSTAIRS}.{name}"}
+    return real in {f"{home}.{name}" for home in (HOME, *UPSTAIRS)}
 
 
 class Installed:

@@ -167,3 +167,32 @@ def test_the_code_of_a_package_whose_messages_are_bundled_is_the_users(
 def test_a_package_without_code_still_has_its_messages():
     with ros.install():
         assert importlib.import_module("openai_ros.msg").RLExperimentInfo
+
+
+@pytest.mark.parametrize("where", ["ROS_PACKAGE_PATH", "PYTHONPATH", None])
+def test_the_users_own_moveit_commander_comes_before_ours(where, tmp_path, monkeypatch):
+    package = tmp_path / "deep" / "moveit_commander"
+    code = package / "src" / "moveit_commander"
+    code.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>moveit_commander</name></package>")
+    (code / "__init__.py").write_text("from .robot import *\nown = True\n")
+    (code / "robot.py").write_text(
+        "from moveit_ros_planning_interface import _moveit_robot_interface as below\n"
+    )
+    if where == "PYTHONPATH":
+        monkeypatch.syspath_prepend(str(code.parent))
+    elif where is not None:
+        monkeypatch.setenv(where, str(tmp_path))
+    search.forget()
+    with ros.install():
+        found = importlib.import_module("moveit_commander")
+        below = importlib.import_module("moveit_ros_planning_interface._moveit_robot_interface")
+        assert below.RobotInterface.__module__.startswith("gazelle.")
+        if where is None:
+            assert found.RobotCommander.__module__.startswith("gazelle.")
+        else:
+            assert found.own
+            assert found.below is below
+    for name in [each for each in sys.modules if each.startswith("moveit_commander")]:
+        del sys.modules[name]
+    search.forget()

@@ -1,0 +1,234 @@
+"""What ``MoveGroupInterface`` says of a group: names, states, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.client.group_target import GroupTarget
+from gazelle.bridges.moveit.client.move_actions import MoveActions
+from gazelle.bridges.moveit.client.pose_targets import PoseTargets
+from gazelle.bridges.moveit.client.request_settings import RequestSettings
+from gazelle.bridges.moveit.client.robot_access import shared_robot
+from gazelle.bridges.moveit.client.session import LOG, packed, session, unpacked
+from gazelle.description import Pose
+from gazelle.ros.messages import load_message
+
+
+class GroupBase:
+    """A group, and what is known of it without a plan.
+
+    Args:
+        name: Of the group.
+        robot_description: Parameter of the robot; its semantics' begins with it.
+        ns: Namespace of ``move_group`` and ``joint_states``.
+        wait_for_servers: The longest wait for ``move_group``'s actions [s]; for ever if 0.
+
+    Raises:
+        RuntimeError: There is no robot, no such group, or no ``move_group``.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        robot_description: str = "robot_description",
+        ns: str = "",
+        wait_for_servers: float = 5.0,
+    ) -> None:
+        self._access = shared_robot(robot_description, ns)
+        names = self._access.names
+        if name not in names.groups:
+            text = f"Group '{name}' was not found."
+            LOG.critical("%s There are: %s", text, ", ".join(names.groups))
+            raise RuntimeError(text)
+        self._name = name
+        self._settings = RequestSettings(session.node(), robot_description, ns, name)
+        self._joints = GroupTarget(self._access, name, self._settings.tolerances["joint"])
+        self._poses = PoseTargets(names.chain_tip(name), self._access.robot.frame)
+        self._remembered: dict[str, list[float]] = {}
+        self._actions = MoveActions(session.node(), ns, wait_for_servers)
+        LOG.info("Ready to take commands for planning group %s.", name)
+
+    # -- names ---------------------------------------------------------------------------
+
+    def get_name(self) -> str:
+        """Name of the group."""
+        return self._name
+
+    def get_planning_frame(self) -> str:
+        """The frame that is planned in."""
+        return self._access.robot.frame
+
+    def get_joints(self) -> list[str]:
+        """Joints of the group, fixed ones and those that follow others too."""
+        return [joint.name for joint in self._access.names.group_joints(self._name)]
+
+    def get_active_joints(self) -> list[str]:
+        """Joints of the group that can be moved by themselves."""
+        return self._access.names.group_active(self._name)
+
+    def get_variables(self) -> list[str]:
+        """Names of the group's variables."""
+        return list(self._joints.variables)
+
+    def get_variable_count(self) -> int:
+        """How many variables it has."""
+        return len(self._joints.variables)
+
+    def get_end_effector_link(self) -> str:
+        """The link that poses are of; empty if there is none."""
+        return self._poses.link
+
+    def set_end_effector_link(self, link_name: str) -> bool:
+        """Set the link that poses are of; False if the group has none."""
+        if not self._poses.link or not link_name:
+            return False
+        self._poses.link = link_name
+        return True
+
+    def get_pose_reference_frame(self) -> str:
+        """The frame of poses that name none."""
+        return self._poses.frame
+
+    def set_pose_reference_frame(self, frame: str) -> None:
+        """Set the frame of poses that name none."""
+        self._poses.frame = frame
+
+    def get_interface_description(self) -> bytes:
+        """A ``PlannerInterfaceDescription``: which planners there are."""
+        answer = self._actions.ask("query_planner_interface", "QueryPlannerInterfaces")
+        kind = load_message("moveit_msgs/PlannerInterfaceDescription")
+        return packed(answer.planner_interfaces[0] if answer.planner_interfaces else kind())
+
+    # -- named and remembered postures ---------------------------------------------------
+
+    def get_named_targets(self) -> list[str]:
+        """Names of the group's states in the SRDF."""
+        return self._access.names.states(self._name)
+
+    def get_named_target_values(self, name: str) -> dict[str, float]:
+        """Values by variable of a remembered or named state; empty if there is none."""
+        if name in self._remembered:
+            return dict(zip(self._joints.variables, self._remembered[name], strict=False))
+        return dict(self._joints.group.states.get(name, {}))
+
+    def remember_joint_values(self, name: str, values: Sequence[float] | None = None) -> None:
+        """Keep values of all variables under a name; those of now if none are given."""
+        given = self.get_current_joint_values() if values is None else values
+        self._remembered[name] = [float(value) for value in given]
+
+    def get_remembered_joint_values(self) -> dict[str, list[float]]:
+        """All remembered values by name."""
+        return {name: list(values) for name, values in self._remembered.items()}
+
+    def forget_joint_values(self, name: str) -> None:
+        """Forget the values of a name."""
+        self._remembered.pop(name, None)
+
+    # -- where it is ---------------------------------------------------------------------
+
+    def start_state_monitor(self, wait: float = 1.0) -> bool:
+        """Wait for the positions of all joints, at most some time [s]."""
+        self._access.known(wait)
+        return True
+
+    def get_current_joint_values(self) -> list[float]:
+        """Positions of the group's variables now; empty if nobody says them."""
+        state = self._access.current()
+        if state is None:
+            return []
+        values: list[float] = state[self._columns()].tolist()
+        return values
+
+    def get_random_joint_values(self) -> list[float]:
+        """Positions of the group's variables drawn between their limits."""
+        return self._joints.random()
+
+    def get_current_pose(self, end_effector_link: str = "") -> list[float]:
+        """Where a link is now: x, y, z, qx, qy, qz, qw."""
+        return self._pose_list(self._access.current(), end_effector_link)
+
+    def get_random_pose(self, end_effector_link: str = "") -> list[float]:
+        """Where a link would be with drawn positions."""
+        state = self._access.current()
+        if state is not None:
+            state[self._columns()] = self._joints.random()
+            state = self._access.robot.complete(state)
+        return self._pose_list(state, end_effector_link)
+
+    def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
+        """How a link is turned now: roll, pitch, yaw [rad]; empty if that is not known."""
+        state, link = self._access.current(), end_effector_link or self._poses.link
+        if state is None or link not in self._access.robot.links:
+            return []
+        return list(self._access.robot.pose(state, link).rpy)
+
+    def get_current_state(self) -> bytes:
+        """A ``RobotState`` of the whole robot now; without joints if nobody says where they are."""
+        state = self._access.current()
+        if state is None:
+            return packed(load_message("moveit_msgs/RobotState")())
+        return packed(self._access.message(state))
+
+    def get_current_state_bounded(self) -> dict[str, float]:
+        """Positions of the whole robot by joint, within their limits."""
+        state = self._access.current()
+        if state is None:
+            return {}
+        made = self._access.message(self._access.bounded(state)).joint_state
+        return dict(zip(made.name, made.position, strict=True))
+
+    def enforce_bounds(self, state: bytes) -> bytes:
+        """A ``RobotState`` with joints moved to their limits; no bytes if it names none."""
+        message = unpacked("moveit_msgs/RobotState", state)
+        read = self._access.with_message(message, self._access.default())
+        if read is None:
+            return b""
+        return packed(self._access.message(self._access.bounded(read)))
+
+    def get_jacobian_matrix(
+        self, joint_values: Sequence[float], reference_point: Sequence[float] | None = None
+    ) -> Floats:
+        """How a point of the last link moves with each variable, shape (6, variables).
+
+        Args:
+            joint_values: Of all variables of the group.
+            reference_point: In the link's frame [m]; its origin if None.
+
+        Raises:
+            ValueError: The point has not three coordinates, or the group is no chain.
+        """
+        point = [0.0, 0.0, 0.0] if reference_point is None else [float(p) for p in reference_point]
+        if len(point) != 3:
+            raise ValueError(f"reference point needs to have 3 elements, got {len(point)}")
+        tip = self._access.names.chain_tip(self._name)
+        if not tip:
+            raise ValueError(f"the group '{self._name}' is no chain, and has no Jacobian")
+        robot, state = self._access.robot, self._access.default()
+        columns = self._columns()
+        state[columns] = np.asarray(joint_values, np.float64)
+        state = robot.complete(state)
+        base = robot.forward(state, self._access.names.group_joints(self._name)[0].parent)[:3, :3]
+        whole = robot.jacobian(state, tip, point)
+        return np.vstack([base.T @ whole[:3], base.T @ whole[3:]])[:, columns]
+
+    # -- inner ---------------------------------------------------------------------------
+
+    def _columns(self) -> Any:
+        return self._access.robot.columns(self._joints.variables)
+
+    def _pose_list(self, state: Floats | None, link: str) -> list[float]:
+        """The pose of a link; the origin, as in MoveIt, where it is not known."""
+        name = link or self._poses.link
+        if not name:
+            LOG.error("No end-effector specified")
+        if state is None or name not in self._access.robot.links:
+            return _listed(Pose())
+        return _listed(self._access.robot.pose(state, name))
+
+
+def _listed(pose: Pose) -> list[float]:
+    return [*pose.position, *pose.quaternion]

@@ -1,0 +1,62 @@
+"""Links of a robot as ``visualization_msgs/MarkerArray``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.frames import pose_message
+from gazelle.description import Box, Cylinder, Mesh, Sphere
+from gazelle.planning import RobotModel
+from gazelle.ros.messages import load_message
+from gazelle.ros.time import Time
+
+_BOX, _SPHERE, _CYLINDER, _MESH = 1, 2, 3, 10
+_GREY = 0.5
+
+
+def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: int) -> Any:
+    """A ``MarkerArray``: what shows of each link, or collides where nothing shows.
+
+    Args:
+        robot: The robot.
+        state: Of all variables, shape (variables,).
+        links: Which; others are left out.
+        now: Stamp of the markers [ns].
+    """
+    made: Any = load_message("visualization_msgs/MarkerArray")()
+    for link in robot.model.links:
+        if link.name not in links or link.name not in robot.links:
+            continue
+        pose = robot.pose(state, link.name)
+        for part in link.visuals or link.collisions:
+            marker = _shape(part.geometry)
+            if marker is None:
+                continue
+            marker.header.frame_id, marker.header.stamp = robot.frame, Time(nsecs=now)
+            marker.ns, marker.id = link.name, len(made.markers)
+            marker.pose = pose_message(pose * part.pose)
+            marker.color.r = marker.color.g = marker.color.b = _GREY
+            marker.color.a = 1.0
+            made.markers.append(marker)
+    return made
+
+
+def _shape(geometry: Any) -> Any:
+    """A marker of a shape; None of one that markers do not have."""
+    marker: Any = load_message("visualization_msgs/Marker")()
+    if isinstance(geometry, Box):
+        marker.type, lengths = _BOX, geometry.size
+    elif isinstance(geometry, Sphere):
+        marker.type, lengths = _SPHERE, (2.0 * geometry.radius,) * 3
+    elif isinstance(geometry, Cylinder):
+        width = 2.0 * geometry.radius
+        marker.type, lengths = _CYLINDER, (width, width, geometry.length)
+    elif isinstance(geometry, Mesh):
+        marker.type, lengths = _MESH, geometry.scale
+        marker.mesh_resource, marker.mesh_use_embedded_materials = geometry.uri, True
+    else:
+        return None
+    marker.scale.x, marker.scale.y, marker.scale.z = lengths
+    return marker

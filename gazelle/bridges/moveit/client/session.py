@@ -1,0 +1,79 @@
+"""The node through which MoveIt's clients talk, and messages as bytes."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import io
+import logging
+import threading
+from collections.abc import Iterable
+from typing import Any
+
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.compat.rospy.state import process
+from gazelle.ros.messages import Message, load_message
+from gazelle.ros.node import Node
+
+LOG = logging.getLogger("rosout")
+"""As rospy logs: on the screen, and on /rosout where the node is rospy's."""
+
+_NAME = "move_group_commander_wrappers"
+
+
+class ClientSession:
+    """One node for all clients of a process: rospy's, or one of their own where there is none."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._node: Node | None = None
+        self._name, self._arguments = _NAME, []  # type: tuple[str, list[str]]
+
+    def prepare(self, name: str, arguments: Iterable[str]) -> None:
+        """Say what an own node is called, and its command line with remappings."""
+        self._name, self._arguments = name or _NAME, [str(each) for each in arguments]
+
+    def node(self) -> Node:
+        """The node; made when there is none yet."""
+        shared = process.node
+        if shared is not None and not shared.closed:
+            return shared
+        with self._lock:
+            if self._node is None or self._node.closed:
+                found = parse_arguments(self._arguments, self._name, anonymous=True)
+                self._node = found.start()
+                atexit.register(self.close)
+            return self._node
+
+    def close(self) -> None:
+        """Close an own node; rospy's is left alone."""
+        with self._lock:
+            node, self._node = self._node, None
+        if node is not None:
+            atexit.unregister(self.close)
+            with contextlib.suppress(Exception):
+                node.close()
+
+
+session = ClientSession()
+"""Of this process."""
+
+
+def packed(message: Message) -> bytes:
+    """A message as bytes."""
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def unpacked(kind: str, data: bytes) -> Any:
+    """A message of bytes.
+
+    Args:
+        kind: Its type, such as ``moveit_msgs/RobotState``.
+        data: The bytes.
+
+    Raises:
+        DeserializationError: They are no such message.
+    """
+    return load_message(kind)().deserialize(data)

@@ -1,0 +1,1 @@
+"""Python packages of MoveIt, as scripts import them; ``gazelle exec`` makes them importable."""

@@ -1,0 +1,43 @@
+"""Methods that MoveIt gives the message ``AllowedCollisionMatrix``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.ros.messages import load_message
+
+
+def set_default(matrix: Any, obj: str, allow: bool) -> None:  # noqa: FBT001  # MoveIt's interface
+    """Say whether a thing may touch those of which nothing else is said."""
+    if obj in matrix.default_entry_names:
+        matrix.default_entry_values[matrix.default_entry_names.index(obj)] = allow
+    else:
+        matrix.default_entry_names.append(obj)
+        matrix.default_entry_values.append(allow)
+
+
+def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = True) -> None:  # noqa: FBT001, FBT002
+    """Say whether a thing may touch another, or others of which nothing else is said.
+
+    Raises:
+        ValueError: The other is not in the matrix.
+    """
+    if other is None:
+        set_default(matrix, obj, allow)
+        return
+    second = matrix.entry_names.index(other)
+    if obj not in matrix.entry_names:
+        matrix.entry_names.append(obj)
+        for entry in matrix.entry_values:
+            entry.enabled.append(False)
+        row = load_message("moveit_msgs/AllowedCollisionEntry")
+        matrix.entry_values.append(row(enabled=[False] * len(matrix.entry_names)))
+    first = matrix.entry_names.index(obj)
+    matrix.entry_values[first].enabled[second] = allow
+    matrix.entry_values[second].enabled[first] = allow
+
+
+def extend_messages() -> None:
+    """Give the message class both as methods."""
+    kind: Any = load_message("moveit_msgs/AllowedCollisionMatrix")
+    kind.set_default, kind.set_allowed = set_default, set_allowed

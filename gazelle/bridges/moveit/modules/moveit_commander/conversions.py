@@ -1,0 +1,82 @@
+"""Messages from and to bytes and lists."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gazelle.bridges.moveit.client.session import packed
+from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
+from gazelle.description import Pose
+from gazelle.ros.compat.rospy.rostime import Time
+from gazelle.ros.messages import Message, load_message
+
+__all__ = [
+    "list_to_pose",
+    "list_to_pose_stamped",
+    "list_to_transform",
+    "msg_from_string",
+    "msg_to_string",
+    "pose_to_list",
+    "transform_to_list",
+]
+
+
+def msg_to_string(msg: Message) -> bytes:
+    """A message as bytes."""
+    return packed(msg)
+
+
+def msg_from_string(msg: Message, data: bytes) -> None:
+    """Fill a message from bytes."""
+    msg.deserialize(data)
+
+
+def pose_to_list(pose_msg: Any) -> list[float]:
+    """``[x, y, z, qx, qy, qz, qw]`` of a pose."""
+    return _numbers(pose_msg.position, pose_msg.orientation)
+
+
+def transform_to_list(trf_msg: Any) -> list[float]:
+    """``[x, y, z, qx, qy, qz, qw]`` of a transform."""
+    return _numbers(trf_msg.translation, trf_msg.rotation)
+
+
+def list_to_pose(pose_list: Sequence[float]) -> Any:
+    """A ``geometry_msgs/Pose`` of seven numbers, or of six: x, y, z, roll, pitch, yaw.
+
+    Raises:
+        MoveItCommanderException: It is another number.
+    """
+    if len(pose_list) not in (6, 7):
+        raise MoveItCommanderException(
+            "Expected either 6 or 7 elements in list: (x,y,z,r,p,y) or (x,y,z,qx,qy,qz,qw)"
+        )
+    turn = [float(value) for value in pose_list[3:]]
+    if len(turn) == 3:
+        turn = list(Pose(0.0, 0.0, 0.0, *turn).quaternion)
+    made: Any = load_message("geometry_msgs/Pose")()
+    _fill(made.position, made.orientation, [*pose_list[:3], *turn])
+    return made
+
+
+def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> Any:
+    """A ``PoseStamped`` of now; see `list_to_pose`."""
+    made: Any = load_message("geometry_msgs/PoseStamped")(pose=list_to_pose(pose_list))
+    made.header.frame_id, made.header.stamp = target_frame, Time.now()
+    return made
+
+
+def list_to_transform(trf_list: Sequence[float]) -> Any:
+    """A ``geometry_msgs/Transform`` of seven numbers."""
+    made: Any = load_message("geometry_msgs/Transform")()
+    _fill(made.translation, made.rotation, trf_list)
+    return made
+
+
+def _numbers(place: Any, turn: Any) -> list[float]:
+    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
+
+
+def _fill(place: Any, turn: Any, values: Sequence[float]) -> None:
+    place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values

@@ -1,0 +1,271 @@
+"""``PlanningSceneInterface``: puts things into the planning scene, and asks what is there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from gazelle.bridges.moveit.client.scene_client import PlanningSceneClient
+from gazelle.bridges.moveit.client.session import packed, unpacked
+from gazelle.bridges.moveit.modules.moveit_commander import allowed_collisions
+from gazelle.bridges.moveit.modules.moveit_commander.delegation import PassedOn
+from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
+from gazelle.bridges.moveit.object_messages import mesh_message
+from gazelle.description import Mesh
+from gazelle.errors import Error
+from gazelle.formats import load_mesh
+from gazelle.ros import names
+from gazelle.ros.compat.rospy.topics import Publisher
+from gazelle.ros.messages import load_message
+
+__all__ = ["PlanningSceneInterface"]
+
+_BOX, _SPHERE, _CYLINDER, _CONE = 1, 2, 3, 4
+_REMOVE = 1
+_same = partial(PassedOn, "_psi", PlanningSceneClient)
+
+allowed_collisions.extend_messages()
+
+
+class PlanningSceneInterface:
+    """The planning scene of ``move_group``.
+
+    Args:
+        ns: Namespace of ``move_group``.
+        synchronous: Whether to wait until a change is made; else changes are published.
+    """
+
+    clear = _same()
+    get_known_object_names = _same()
+    get_known_object_names_in_roi = _same()
+
+    def __init__(self, ns: str = "", synchronous: bool = True) -> None:  # noqa: FBT001, FBT002  # MoveIt's interface
+        self._psi = PlanningSceneClient(ns)
+        self._synchronous = synchronous
+        if not synchronous:
+            thing, held = "collision_object", "attached_collision_object"
+            self._pub_co = Publisher(
+                names.join(ns, thing), load_message("moveit_msgs/CollisionObject"), queue_size=100
+            )
+            self._pub_aco = Publisher(
+                names.join(ns, held),
+                load_message("moveit_msgs/AttachedCollisionObject"),
+                queue_size=100,
+            )
+
+    # -- things --------------------------------------------------------------------------
+
+    def add_object(self, collision_object: Any) -> None:
+        """Add a ``CollisionObject``."""
+        if not self._synchronous:
+            self._pub_co.publish(collision_object)
+            return
+        scene = _change()
+        scene.world.collision_objects = [collision_object]
+        self.apply_planning_scene(scene)
+
+    def add_box(self, name: str, pose: Any, size: Sequence[float] = (1, 1, 1)) -> None:
+        """Add a box at a ``PoseStamped``; lengths along x, y, z [m]."""
+        self.add_object(self.make_box(name, pose, size))
+
+    def add_sphere(self, name: str, pose: Any, radius: float = 1) -> None:
+        """Add a sphere [m]."""
+        self.add_object(self.make_sphere(name, pose, radius))
+
+    def add_cylinder(self, name: str, pose: Any, height: float, radius: float) -> None:
+        """Add a cylinder along z [m]."""
+        self.add_object(self.make_cylinder(name, pose, height, radius))
+
+    def add_cone(self, name: str, pose: Any, height: float, radius: float) -> None:
+        """Add a cone along z [m]."""
+        self.add_object(self.make_cone(name, pose, height, radius))
+
+    def add_mesh(
+        self, name: str, pose: Any, filename: str, size: Sequence[float] = (1, 1, 1)
+    ) -> None:
+        """Add the mesh of a file, times factors."""
+        self.add_object(self.make_mesh(name, pose, filename, size))
+
+    def add_plane(
+        self, name: str, pose: Any, normal: Sequence[float] = (0, 0, 1), offset: float = 0
+    ) -> None:
+        """Add the plane ``normal * x + offset = 0``."""
+        self.add_object(self.make_plane(name, pose, normal, offset))
+
+    def remove_world_object(self, name: str | None = None) -> None:
+        """Remove a thing, or all if none is named."""
+        self.add_object(
+            load_message("moveit_msgs/CollisionObject")(id=name or "", operation=_REMOVE)
+        )
+
+    # -- what links hold -----------------------------------------------------------------
+
+    def attach_object(
+        self,
+        object: Any,  # noqa: A002  # MoveIt's interface
+        link: str | None = None,
+        touch_links: Sequence[str] | None = None,
+    ) -> None:
+        """Have a link hold a ``CollisionObject``, an ``AttachedCollisionObject``, or a known thing.
+
+        Args:
+            object: One of these, or a name.
+            link: That holds it.
+            touch_links: That it may touch; the link alone if None.
+        """
+        if isinstance(object, str):
+            object = _existing(object)  # noqa: A001
+        kind = load_message("moveit_msgs/AttachedCollisionObject")
+        held: Any = object if isinstance(object, kind) else kind(object=object)
+        if link is not None:
+            held.link_name = link
+        held.touch_links = [held.link_name] if touch_links is None else list(touch_links)
+        self._hold(held)
+
+    def attach_box(
+        self, link: str, name: str, pose: Any = None, size: Sequence[float] = (1, 1, 1),
+        touch_links: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        """Have a link hold a box, or a known thing where no pose is given."""
+        made = _existing(name) if pose is None else self.make_box(name, pose, size)
+        self.attach_object(made, link, touch_links)
+
+    def attach_sphere(
+        self, link: str, name: str, pose: Any = None, radius: float = 1,
+        touch_links: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        """Have a link hold a sphere; see `attach_box`."""
+        made = _existing(name) if pose is None else self.make_sphere(name, pose, radius)
+        self.attach_object(made, link, touch_links)
+
+    def attach_cylinder(
+        self, link: str, name: str, pose: Any = None, height: float = 1, radius: float = 1,
+        touch_links: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        """Have a link hold a cylinder; see `attach_box`."""
+        made = _existing(name) if pose is None else self.make_cylinder(name, pose, height, radius)
+        self.attach_object(made, link, touch_links)
+
+    def attach_mesh(
+        self, link: str, name: str, pose: Any = None, filename: str = "",
+        size: Sequence[float] = (1, 1, 1), touch_links: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        """Have a link hold the mesh of a file; see `attach_box`."""
+        known = pose is None or not filename
+        made = _existing(name) if known else self.make_mesh(name, pose, filename, size)
+        self.attach_object(made, link, touch_links)
+
+    def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
+        """Leave a thing, all that a link holds, or all, in the scene where it is."""
+        held: Any = load_message("moveit_msgs/AttachedCollisionObject")(link_name=link or "")
+        held.object.id, held.object.operation = name or "", _REMOVE
+        self._hold(held)
+
+    def _hold(self, held: Any) -> None:
+        if not self._synchronous:
+            self._pub_aco.publish(held)
+            return
+        scene = _change()
+        scene.robot_state.attached_collision_objects = [held]
+        self.apply_planning_scene(scene)
+
+    # -- what is there -------------------------------------------------------------------
+
+    def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Any]:
+        """``Pose`` by name of the things that are named."""
+        return _unpacked("geometry_msgs/Pose", self._psi.get_object_poses(object_ids))
+
+    def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
+        """``CollisionObject`` by name of the things that are named, or of all."""
+        return _unpacked("moveit_msgs/CollisionObject", self._psi.get_objects(object_ids))
+
+    def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
+        """``AttachedCollisionObject`` by name of what is named, or of all that links hold."""
+        found = self._psi.get_attached_objects(object_ids)
+        return _unpacked("moveit_msgs/AttachedCollisionObject", found)
+
+    def get_planning_scene(self, components: int) -> Any:
+        """The parts of a ``PlanningScene`` that a sum of ``PlanningSceneComponents`` names."""
+        return unpacked("moveit_msgs/PlanningScene", self._psi.get_planning_scene(components))
+
+    def apply_planning_scene(self, planning_scene_message: Any) -> bool:
+        """Apply a ``PlanningScene``; whether all of it could be done."""
+        return self._psi.apply_planning_scene(packed(planning_scene_message))
+
+    # -- messages ------------------------------------------------------------------------
+
+    @staticmethod
+    def make_box(name: str, pose: Any, size: Sequence[float]) -> Any:
+        """A ``CollisionObject``: a box at a ``PoseStamped``."""
+        return _primitive(name, pose, _BOX, size)
+
+    @staticmethod
+    def make_sphere(name: str, pose: Any, radius: float) -> Any:
+        """A ``CollisionObject``: a sphere."""
+        return _primitive(name, pose, _SPHERE, [radius])
+
+    @staticmethod
+    def make_cylinder(name: str, pose: Any, height: float, radius: float) -> Any:
+        """A ``CollisionObject``: a cylinder."""
+        return _primitive(name, pose, _CYLINDER, [height, radius])
+
+    @staticmethod
+    def make_cone(name: str, pose: Any, height: float, radius: float) -> Any:
+        """A ``CollisionObject``: a cone."""
+        return _primitive(name, pose, _CONE, [height, radius])
+
+    @staticmethod
+    def make_mesh(name: str, pose: Any, filename: str, scale: Sequence[float] = (1, 1, 1)) -> Any:
+        """A ``CollisionObject``: the mesh of a file.
+
+        Raises:
+            MoveItCommanderException: It cannot be read.
+        """
+        x, y, z = (float(each) for each in scale)
+        try:
+            data = load_mesh(Mesh(filename, Path(filename), (x, y, z)))
+        except (Error, OSError) as error:
+            raise MoveItCommanderException(f"cannot read the mesh '{filename}': {error}") from error
+        made = _placed(name, pose)
+        made.meshes = [mesh_message(data)]
+        return made
+
+    @staticmethod
+    def make_plane(
+        name: str, pose: Any, normal: Sequence[float] = (0, 0, 1), offset: float = 0
+    ) -> Any:
+        """A ``CollisionObject``: a plane."""
+        made: Any = load_message("moveit_msgs/CollisionObject")(id=name, header=pose.header)
+        coefficients = [*map(float, normal), float(offset)]
+        made.planes = [load_message("shape_msgs/Plane")(coef=coefficients)]
+        made.plane_poses = [pose.pose]
+        return made
+
+
+def _placed(name: str, pose: Any) -> Any:
+    return load_message("moveit_msgs/CollisionObject")(id=name, header=pose.header, pose=pose.pose)
+
+
+def _primitive(name: str, pose: Any, kind: int, lengths: Sequence[float]) -> Any:
+    made = _placed(name, pose)
+    sizes = [float(length) for length in lengths]
+    made.primitives = [load_message("shape_msgs/SolidPrimitive")(type=kind, dimensions=sizes)]
+    return made
+
+
+def _existing(name: str) -> Any:
+    """What stands for a thing that is known."""
+    return load_message("moveit_msgs/CollisionObject")(id=name)
+
+
+def _change() -> Any:
+    """A ``PlanningScene`` that changes nothing yet."""
+    made: Any = load_message("moveit_msgs/PlanningScene")(is_diff=True)
+    made.robot_state.is_diff = True
+    return made
+
+
+def _unpacked(kind: str, found: dict[str, bytes]) -> dict[str, Any]:
+    return {name: unpacked(kind, data) for name, data in found.items()}
