@@ -7,7 +7,8 @@ Needs the real ROS 1 of Debian 12 (.ci/packages.txt) and the suites' sources: th
 source packages (--fetch), or checkouts of ros/ros_comm at 1.15.15, ros/actionlib, ros/geometry and
 ros/geometry2 below one folder. Debian packages neither ros_control nor ros_controllers, so theirs are run
 from checkouts of ros-controls/ros_control, ros_controllers and realtime_tools only, whose C++ clients are
-compiled with libroscpp-dev, libtf-dev, libactionlib-dev, libgtest-dev and python3-gencpp. Nothing of them is kept. The stacks are: real, the installed ROS
+compiled with libroscpp-dev, libtf-dev, libactionlib-dev, libgtest-dev and python3-gencpp. MoveIt's Python suites
+are run from checkouts of ros-planning/moveit and moveit_resources (rossuites/moveit.py). Nothing of them is kept. The stacks are: real, the installed ROS
 alone; master, Gazelle's master under real clients; clients, Gazelle's modules and tools on the real
 master; both; alone, nothing real. Exits with 1 if a stack passes fewer tests than the real one is known to.
 """
@@ -25,9 +26,10 @@ sys.path.insert(0, str(ROOT / "tools"))
 from rossuites import compiling, generating, sources, stacks  # noqa: E402  # the path must come first
 from rossuites.catalogue import SUITES, Suite  # noqa: E402
 from rossuites.control import CONTROL  # noqa: E402
+from rossuites.moveit import MOVEIT  # noqa: E402
 from rossuites.running import Outcome, run  # noqa: E402
 
-ALL = (*SUITES, *CONTROL)
+ALL = (*SUITES, *CONTROL, *MOVEIT)
 
 
 def main() -> int:
@@ -100,7 +102,7 @@ def _compile(suite: Suite, found: dict[str, Path], package: Path, folder: Path) 
 
 def _prepare(stack: stacks.Stack, found: dict[str, Path], folder: Path) -> dict[str, str]:
     environment = stacks.lay_out(stack, folder)
-    names = {suite.package for suite in ALL} | {"test_rosmaster"}
+    names = {name for suite in ALL for name in (suite.package, *suite.beside)} | {"test_rosmaster"}
     sources.overlay(found, names, folder / "packages", folder / "bin" / "python")
     if not stack.launcher:  # real programs have no use of ours
         generating.generate(folder / "packages", folder / "generated")
@@ -123,9 +125,11 @@ def _suite(
 ) -> bool:
     outcomes = []
     for name in suite.files:
-        home = folder / f"{suite.package}-{Path(name).name}"  # roslaunch wants no blanks
+        # Roslaunch wants no blanks.
+        home = folder / f"{suite.name}-{Path(name).name}".replace(" ", "_").replace(",", "")
         file = folder / "packages" / suite.package / name
-        outcome = run(file, environment | {"ROS_HOME": str(home)})
+        with sources.hiding(folder / "packages", suite.hidden):
+            outcome = run(file, environment | {"ROS_HOME": str(home)})
         if stack.clients and not stack.launcher and not (home / stacks.USED).exists():
             raise SystemExit(f"{name}: Gazelle's modules were not used")
         outcomes.append(outcome)

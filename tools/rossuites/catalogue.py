@@ -26,6 +26,8 @@ class Suite:
             arguments.
         compiled: Whether the clients that its ``CMakeLists.txt`` declares are compiled.
         clients: Further ones that it does not declare.
+        beside: Other packages that its files name.
+        hidden: Folders among the packages that are not there while it runs.
     """
 
     name: str
@@ -39,6 +41,8 @@ class Suite:
     robots: Mapping[str, str] = field(default_factory=dict)
     compiled: bool = False
     clients: tuple[Client, ...] = ()
+    beside: tuple[str, ...] = ()
+    hidden: tuple[str, ...] = ()
 
     @property
     def reference(self) -> int:

@@ -6,8 +6,10 @@ import os
 import shutil
 import subprocess
 import tarfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 DEBIAN = ("ros-ros-comm", "ros-actionlib", "ros-geometry", "ros-geometry2")
 _LIST = """Types: deb-src
@@ -63,11 +65,12 @@ def _apt_options(folder: Path) -> list[str]:
 
 
 def packages(folder: Path) -> dict[str, Path]:
-    """The folders of the ROS packages below a folder, by name."""
+    """The folders of the ROS packages below a folder, by the names that their manifests give them."""
     found: dict[str, Path] = {}
     for place, folders, files in os.walk(folder, followlinks=True):
         if "package.xml" in files:
-            found.setdefault(Path(place).name, Path(place))
+            name = ET.parse(Path(place) / "package.xml").findtext("name", "").strip()
+            found.setdefault(name, Path(place))
             folders.clear()
         folders[:] = sorted(name for name in folders if not name.startswith("."))
     return found
@@ -93,6 +96,18 @@ def overlay(found: dict[str, Path], names: Iterable[str], folder: Path, python: 
     for file in folder.rglob("*"):
         if file.is_file():
             _use_python(file, python)
+
+
+@contextmanager
+def hiding(folder: Path, names: Iterable[str]) -> Iterator[None]:
+    """Have folders below a folder not be there for a while."""
+    with ExitStack() as stack:
+        for name in names:
+            place = folder / name
+            away = folder.parent / f"hidden-{name.replace('/', '-')}"
+            place.rename(away)
+            stack.callback(away.rename, place)
+        yield
 
 
 def build(source: Path) -> None:
