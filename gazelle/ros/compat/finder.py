@@ -55,7 +55,7 @@ def substitutes() -> dict[str, str]:
     Returns:
         By name, the package that they are in.
     """
-    found = {}
+    found: dict[str, str] = {}
     for home in UPSTAIRS:
         folder = Path(__file__).parents[3].joinpath(*home.split("."))
         names = {path.stem for path in folder.glob("*.py")} - {"__init__"}
