@@ -85,7 +85,20 @@ def _driving() -> list[RegisteredTask]:
     ]
 
 
-ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube(), *_driving())
+def _kobuki() -> list[RegisteredTask]:
+    home = "gazelle.envs.kobuki_maze.envs"
+    return [
+        RegisteredTask(
+            id=f"gazelle/Kobuki{name}-v0",
+            env=f"{home}:Kobuki{name}Env",
+            vector_env=f"{home}:Kobuki{name}VectorEnv",
+            max_episode_steps=1000,
+        )
+        for name in ("Empty", "Maze", "Dynamic1", "Dynamic2", "Dynamic3")
+    ]
+
+
+ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube(), *_driving(), *_kobuki())
 
 
 def register_all() -> None:

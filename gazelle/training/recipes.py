@@ -187,6 +187,18 @@ _DRIVING = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
 )
 
+# frobs_rl's goals are far away: what counts is coming nearer.
+_KOBUKI = Recipe(
+    steps=300_000,
+    num_envs=128,
+    learning_rate=2e-3,
+    gamma=0.97,
+    goal_reward=GoalReward(goal=5.0, collision=1.0),
+    features=True,
+    training_options={"engine": "planar"},
+    settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
+)
+
 RECIPES: dict[str, Recipe] = {
     # Values stay near 1 and each rollout is used more often: 89 % of goals; with 4 epochs of 1,024 at 3e-4 58 %.
     "AGVFleet": Recipe(
@@ -207,6 +219,8 @@ RECIPES: dict[str, Recipe] = {
         training_options={"engine": "mujoco"},
         settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
     ),
+    **dict.fromkeys(("KobukiEmpty", "KobukiDynamic1", "KobukiDynamic2", "KobukiDynamic3"), _KOBUKI),
+    "KobukiMaze": dataclasses.replace(_KOBUKI, steps=1_000_000),
     "TurtleBot2Maze": _DRIVING,
     "TurtleBot3World": _DRIVING,
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),

@@ -11,7 +11,7 @@ from gazelle.formats import load_model
 
 # The office is built, the fleet's hall is of Stage.
 BUILT = {"office", "fleet"}
-OF_TASKS = {"turtlebot2_maze", "turtlebot2_wall"}
+OF_TASKS = {"turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"}
 LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range", "pick_and_place"}
 LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT - OF_TASKS
 WHEELS = "wheel_left_joint wheel_right_joint"

@@ -1,4 +1,4 @@
-"""The packages that openai_ros' environments launch: by its names, and with nothing missing in them."""
+"""The packages that openai_ros and frobs_rl launch: by their names, and with nothing missing in them."""
 
 from __future__ import annotations
 
@@ -44,6 +44,7 @@ PACKAGES = [
         model="mobile_base",
     ),
     Launched("turtlebot3_gazebo", model="turtlebot3"),
+    Launched("kobuki_maze_rl", model="kobuki_robot"),
 ]
 
 

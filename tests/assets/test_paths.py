@@ -20,7 +20,7 @@ def test_worlds_by_name():
     gazebos = {"empty", "shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
     tables = {"pick_and_place"}
     indoors = {"furnished_room", "office", "turtlebot3_world", "fleet"}
-    tasks = {"turtlebot2_maze", "turtlebot2_wall"}
+    tasks = {"turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"}
     assert stages | gazebos | tables | indoors | tasks == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"
 

@@ -10,7 +10,7 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 14
+    assert len(task_ids()) == 19
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
@@ -20,6 +20,7 @@ def test_all_ids_are_known_to_gymnasium():
             "CartPole": 1000,
             "MovingCube": 1000,
             "TurtleBot2": 500,
+            "Kobuki": 1000,
         }
         assert spec.max_episode_steps == next(steps[key] for key in steps if key in task)
         assert spec.vector_entry_point is not None
