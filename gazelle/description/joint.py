@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Pose, Vector3
 from gazelle.description.sensor import Sensor
 from gazelle.description.source import Source
@@ -124,6 +125,7 @@ class Joint:
         physics: Engine terms.
         safety: URDF's soft limits, or None.
         sensors: Force-torque sensors.
+        extras: What has no effect, kept as the file has it: the axis of a fixed joint.
     """
 
     name: str
@@ -138,4 +140,5 @@ class Joint:
     physics: JointPhysics = field(default_factory=JointPhysics)
     safety: SafetyController | None = None
     sensors: tuple[Sensor, ...] = ()
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)
     source: Source | None = field(default=None, compare=False, repr=False)

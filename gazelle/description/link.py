@@ -52,6 +52,7 @@ class Visual:
         laser_retro: Intensity that a GPU lidar reports.
         visibility_flags: Cameras see it when their mask shares a bit.
         plugins: What shows something on it.
+        extras: What has no effect here, kept as the file has it: layers of an editor, ...
     """
 
     name: str
@@ -63,6 +64,7 @@ class Visual:
     laser_retro: float = 0.0
     visibility_flags: int = 0xFFFFFFFF
     plugins: tuple[Plugin, ...] = ()
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
 

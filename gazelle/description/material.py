@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gazelle.description.parameters import Parameters
+
 Color = tuple[float, float, float, float]
 
 
@@ -21,6 +23,7 @@ class Material:
             readers have already put into the fields above where they know it.
         script_uris: Where the file says the script is; empty for Gazebo's own.
         texture: Image file of the diffuse texture, or None.
+        extras: What has no effect here, kept as the file has it: shaders, other maps, ...
         urdf_color: The colour that a URDF's own ``<material>`` gives, which a script hides.
     """
 
@@ -31,4 +34,5 @@ class Material:
     script: str | None = None
     script_uris: tuple[str, ...] = ()
     texture: Path | None = None
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)
     urdf_color: Color | None = field(default=None, compare=False)

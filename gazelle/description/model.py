@@ -69,6 +69,8 @@ class Model:
         plugins: In file order.
         transmissions: From URDF.
         extras: Elements kept whole: gripper, ...
+        actor: The ``<actor>`` that the model stands for and is written as, without its pose;
+            else None.
         stage: All that a Stage file says of it, which the links are made of; else None.
     """
 
@@ -87,6 +89,7 @@ class Model:
     plugins: tuple[Plugin, ...] = ()
     transmissions: tuple[Transmission, ...] = ()
     extras: tuple[Parameters, ...] = ()
+    actor: Parameters | None = field(default=None, hash=False)
     stage: StageModel | None = field(default=None, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 

@@ -93,10 +93,11 @@ class Surface:
         friction: Friction.
         contact: Stiffness and masks.
         bounce: Restitution.
-        extras: ``<soft_contact>``, of DART's soft bodies, kept whole; it has no effect.
+        extras: What has no effect here, kept as the file has it: Bullet's terms, DART's
+            ``<soft_contact>``, ...
     """
 
     friction: Friction = field(default_factory=Friction)
     contact: Contact = field(default_factory=Contact)
     bounce: Bounce = field(default_factory=Bounce)
-    extras: tuple[Parameters, ...] = ()
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)

@@ -18,13 +18,14 @@ from gazelle.description.stage import StageWorld
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The look of a world."""
+    """The look of a world; ``extras`` (fog, clouds, ...) have no effect here and are kept."""
 
     ambient: Color = (0.4, 0.4, 0.4, 1.0)
     background: Color = (0.7, 0.7, 0.7, 1.0)
     shadows: bool = True
     sky: bool = False
     grid: bool = True
+    extras: tuple[Parameters, ...] = field(default=(), hash=False)
 
 
 @dataclass(frozen=True, slots=True)

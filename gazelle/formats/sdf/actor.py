@@ -9,9 +9,12 @@ from dataclasses import replace
 from gazelle.description import Parameters, Pose
 from gazelle.formats import values
 from gazelle.formats.sdf.build import made, pose_element
+from gazelle.formats.sdf.own import PREFIX
 from gazelle.formats.sdf.pose import read_pose
 
 PLUGIN = "libgazelle_scripted_motion.so"
+ACTOR = f"{PREFIX}:actor"
+"""The actor itself, in the model that is made of it."""
 
 
 # A person, where only the skin is known: height and radius, and where the hip is [m].
@@ -37,6 +40,8 @@ def as_model(node: Parameters) -> Parameters:
     kept = [_seen(child) if child.tag == "link" else child for child in kept]
     script = _script(node)
     children += kept if script is None else [*kept, script]
+    unplaced = replace(node, children=tuple(each for each in node.children if each is not pose))
+    children.append(made(ACTOR, "", unplaced, like=node))
     name = values.attribute(node, "name")
     return made("model", "", *children, like=node, attributes={"name": name})
 

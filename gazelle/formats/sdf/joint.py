@@ -20,12 +20,14 @@ from gazelle.formats import values
 from gazelle.formats.axis import direction, travel
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.frames import MODEL, WORLD, Scope
+from gazelle.formats.sdf.leftover import leftover
 from gazelle.formats.sdf.own import own_safety
 from gazelle.formats.sdf.own_joint import TYPE
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import read_sensor
 
 _TYPES: tuple[JointType, ...] = get_args(JointType)
+_AXIS_TAGS = ("axis", "axis2")
 _AXES: dict[str, int] = {
     "ball": 0,
     "fixed": 0,
@@ -101,6 +103,11 @@ def read_joint(
             read_sensor(child, lambda part: read_pose(part.find("pose")))
             for child in node.find_all("sensor")
         ),
+        extras=tuple(
+            leftover(child, {"use_parent_model_frame": None})
+            for child in node.children
+            if child.tag in _AXIS_TAGS[_AXES.get(kind, 1) :]
+        ),
         source=node.source,
     )
 
@@ -110,7 +117,7 @@ def _axes(node: Parameters, kind: JointType) -> list[Parameters]:
     count = _AXES.get(kind, 1)
     return [
         node.find(tag) or Parameters("axis", source=node.source)
-        for tag in ("axis", "axis2")[:count]
+        for tag in _AXIS_TAGS[:count]
     ]
 
 

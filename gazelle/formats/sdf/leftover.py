@@ -15,7 +15,7 @@ from gazelle.formats.sdf.pose import QUATERNION
 
 Pattern: TypeAlias = Mapping[str, "Pattern | None"]
 
-_WHOLE = {"lens", "plugin"}
+_WHOLE = {"geometry", "lens", "material", "plugin"}
 _READ_ATTRIBUTES = {
     "noise": {"type"},
     "pose": {"degrees", "frame", "relative_to", "rotation_format", QUATERNION},

@@ -11,6 +11,7 @@ from gazelle.formats.sdf.duplicates import LINK_PARTS, with_own_names
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.geometry import read_geometry
 from gazelle.formats.sdf.inertial import read_inertial
+from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.material import read_material
 from gazelle.formats.sdf.plugin import read_plugins
@@ -22,6 +23,10 @@ from gazelle.formats.sound import is_sound, sound_inertial
 _EXTRAS = (
     "audio_sink", "audio_source", "battery", "must_be_base_link", "particle_emitter", "projector",
 )  # fmt: skip
+_VISUAL: Pattern = dict.fromkeys(
+    ("geometry", "material", "plugin", "pose", "cast_shadows", "laser_retro", "transparency")
+    + ("visibility_flags",)
+)
 
 
 def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool = False) -> Link:
@@ -117,5 +122,6 @@ def read_visual(node: Parameters, place: Placer, reading: Reading) -> Visual:
         laser_retro=values.real(node, "laser_retro", 0.0),
         visibility_flags=values.whole(node, "visibility_flags", 0xFFFFFFFF),
         plugins=read_plugins(node),
+        extras=leftover(node, _VISUAL).children,
         source=node.source,
     )

@@ -15,6 +15,13 @@ from gazelle.formats.materials import (
     with_urdf_color,
 )
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.leftover import Pattern, leftover
+
+_PATTERN: Pattern = {
+    **dict.fromkeys(("ambient", "diffuse", "specular", "emissive")),
+    "script": {"name": None, "uri": None},
+    "pbr": {"metal": {"albedo_map": None}},
+}
 
 
 def read_material(node: Parameters | None, reading: Reading) -> Material | None:
@@ -38,6 +45,7 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
         script=name or None,
         script_uris=uris,
         texture=_texture(node, reading),
+        extras=leftover(node, _PATTERN).children,
     )
     saved = node.attributes.get(URDF_COLOR, "")
     if saved:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from gazelle.description import Frame, Model, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
+from gazelle.formats.sdf.actor import ACTOR
 from gazelle.formats.sdf.frames import Scope
 from gazelle.formats.sdf.joint import read_joints
 from gazelle.formats.sdf.link import read_link
@@ -57,6 +58,7 @@ def _content(draft: ModelFrames, reading: Reading) -> Model:
         plugins=read_plugins(node),
         transmissions=own_transmissions(node, reading),
         extras=tuple(child for child in node.children if child.tag in _EXTRAS),
+        actor=node.find(f"{ACTOR}/actor"),
         source=node.source,
     )
 

@@ -6,8 +6,16 @@ from dataclasses import replace
 
 from gazelle.description import Ode, Parameters, Physics
 from gazelle.formats import values
+from gazelle.formats.sdf.leftover import Pattern, leftover
 
-_OTHERS = ("bullet", "dart", "simbody")
+_SOLVER = ("type", "min_step_size", "iters", "precon_iters", "sor", "friction_model")
+_CONSTRAINTS = ("cfm", "erp", "contact_max_correcting_vel", "contact_surface_layer")
+_STEPS = ("max_step_size", "real_time_factor", "real_time_update_rate", "max_contacts")
+_PATTERN: Pattern = {
+    **dict.fromkeys(("@name", "@default", "@type", *_STEPS, "gravity", "magnetic_field")),
+    "ode": {"solver": dict.fromkeys(_SOLVER), "constraints": dict.fromkeys(_CONSTRAINTS)},
+}
+"""What is read here, and by the world up to SDF 1.5."""
 
 
 def read_physics(node: Parameters) -> Physics:
@@ -28,7 +36,7 @@ def read_physics(node: Parameters) -> Physics:
         real_time_update_rate=values.real(node, "real_time_update_rate", 1000.0),
         max_contacts=values.whole(node, "max_contacts", 20),
         ode=read_solver(node),
-        extras=tuple(child for child in node.children if child.tag in _OTHERS),
+        extras=leftover(node, _PATTERN).children,
         source=node.source,
     )
 

@@ -11,8 +11,25 @@ from gazelle.description import (
     TorsionalFriction,
 )
 from gazelle.formats import values
+from gazelle.formats.sdf.leftover import Pattern, leftover
 
 NO_SLIP = 1e9
+
+_PATTERN: Pattern = {
+    "friction": {
+        "ode": dict.fromkeys(("mu", "mu2", "fdir1", "slip1", "slip2")),
+        "torsional": {
+            **dict.fromkeys(("coefficient", "use_patch_radius", "patch_radius", "surface_radius")),
+            "ode": {"slip": None},
+        },
+    },
+    "contact": {
+        "ode": dict.fromkeys(("kp", "kd", "soft_cfm", "soft_erp", "max_vel", "min_depth")),
+        **dict.fromkeys(("collide_bitmask", "category_bitmask", "collide_without_contact")),
+        "collide_without_contact_bitmask": None,
+    },
+    "bounce": dict.fromkeys(("restitution_coefficient", "threshold")),
+}
 
 
 def read_surface(node: Parameters | None) -> Surface:
@@ -23,7 +40,7 @@ def read_surface(node: Parameters | None) -> Surface:
         friction=read_friction(node.find("friction")),
         contact=read_contact(node.find("contact")),
         bounce=read_bounce(node.find("bounce")),
-        extras=tuple(node.find_all("soft_contact")),
+        extras=leftover(node, _PATTERN).children,
     )
 
 

@@ -45,6 +45,7 @@ from gazelle.formats.sdf.prepare import prepared
 
 _EXTRAS = ("audio", "gui", "road")
 USER_CAMERA = "user_camera"
+_SCENE: Pattern = {**dict.fromkeys(("ambient", "background", "shadows", "grid")), "sky": {}}
 _GRAVITY = (0.0, 0.0, -9.8)
 _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
 
@@ -163,6 +164,7 @@ def read_scene(node: Parameters | None) -> Scene:
         shadows=values.flag(node, "shadows", default=True),
         sky=node.find("sky") is not None,
         grid=values.flag(node, "grid", default=True),
+        extras=leftover(node, _SCENE).children,
     )
 
 

@@ -31,6 +31,7 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
             leaf("gearbox_reference_body", joint.gearbox_reference_body, ""),
             leaf("thread_pitch", joint.thread_pitch, 1.0),
             *map(write_axis, ("axis", "axis2"), joint.axes),
+            *joint.extras,
             write_joint_physics(joint.physics),
             None if joint.safety is None else write_safety(joint.safety, SAFETY),
             *map(write_sensor, joint.sensors),

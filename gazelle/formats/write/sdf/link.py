@@ -16,7 +16,16 @@ from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.materials import STANDARD, URDF_COLOR, brightened, script_colors
 from gazelle.formats.sound import check_inertia
-from gazelle.formats.write.element import element, group, inside, leaf, limit, pose_leaf, written
+from gazelle.formats.write.element import (
+    element,
+    group,
+    inside,
+    leaf,
+    limit,
+    overlay,
+    pose_leaf,
+    written,
+)
 from gazelle.formats.write.sdf.geometry import write_geometry
 from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.sdf.sensor import write_sensor
@@ -118,6 +127,7 @@ def visual_extras(visual: Visual) -> tuple[Parameters | None, ...]:
         leaf("laser_retro", visual.laser_retro, 0.0),
         leaf("transparency", visual.transparency, 0.0),
         leaf("visibility_flags", visual.visibility_flags, _ALL_FLAGS),
+        *visual.extras,
     )
 
 
@@ -129,7 +139,7 @@ def write_material(material: Material, writing: Writing) -> Parameters:
     attributes = {}
     if material.urdf_color is not None:
         attributes[URDF_COLOR] = written(material.urdf_color)
-    return element(
+    known = element(
         "material",
         leaf("ambient", ambient),
         leaf("diffuse", diffuse),
@@ -143,6 +153,7 @@ def write_material(material: Material, writing: Writing) -> Parameters:
         group("pbr", group("metal", albedo)),
         **attributes,
     )
+    return overlay(element("material", *material.extras), known) if material.extras else known
 
 
 def _own_colors(material: Material) -> tuple[Color | None, Color | None]:

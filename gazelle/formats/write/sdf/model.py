@@ -17,6 +17,8 @@ from gazelle.formats.write.writing import Writing
 def write_model(model: Model, writing: Writing) -> Parameters:
     """A model and all that is nested in it."""
     with inside("model", model):
+        if model.actor is not None:
+            return write_actor(model, model.actor)
         _refuse_unreadable(model)
         return element(
             "model",
@@ -35,6 +37,11 @@ def write_model(model: Model, writing: Writing) -> Parameters:
             name=model.name,
             canonical_link=model.canonical_link,
         )
+
+
+def write_actor(model: Model, actor: Parameters) -> Parameters:
+    """The actor that a model stands for, where the model is now."""
+    return element("actor", pose_leaf(model.pose), *actor.children, name=model.name)
 
 
 def write_part(model: Model, writing: Writing) -> Parameters:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from gazelle.description import Bounce, Contact, Friction, Parameters, Surface, TorsionalFriction
-from gazelle.formats.write.element import element, group, leaf
+from gazelle.formats.write.element import element, group, leaf, overlay
 
 
 def write_surface(surface: Surface) -> Parameters | None:
     """Friction, contact and bounce; None where all is as by default."""
-    return group(
+    known = group(
         "surface",
         write_friction(surface.friction),
         write_contact(surface.contact),
         write_bounce(surface.bounce),
-        *surface.extras,
     )
+    if not surface.extras:
+        return known
+    kept = element("surface", *surface.extras)
+    return kept if known is None else overlay(kept, known)
 
 
 def write_friction(friction: Friction) -> Parameters | None:

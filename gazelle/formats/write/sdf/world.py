@@ -52,18 +52,18 @@ def write_physics(physics: Physics) -> Parameters:
     """``<physics>``: one profile."""
     usual = Physics()
     with inside("physics", physics):
-        return element(
+        known = element(
             "physics",
             leaf("max_step_size", physics.max_step_size),
             leaf("real_time_factor", physics.real_time_factor),
             leaf("real_time_update_rate", physics.real_time_update_rate),
             leaf("max_contacts", physics.max_contacts, usual.max_contacts),
             write_ode(physics.ode),
-            *physics.extras,
             name=physics.name,
             default="true" if physics.default else "",
             type=physics.type,
         )
+        return overlay(element("physics", *physics.extras), known) if physics.extras else known
 
 
 def write_ode(ode: Ode) -> Parameters | None:
@@ -116,7 +116,7 @@ def write_scene(scene: Scene) -> Parameters | None:
     """``<scene>``; None for the usual one."""
     if scene == Scene():
         return None
-    return element(
+    known = element(
         "scene",
         leaf("ambient", scene.ambient),
         leaf("background", scene.background),
@@ -124,6 +124,7 @@ def write_scene(scene: Scene) -> Parameters | None:
         leaf("grid", scene.grid, True),
         element("sky") if scene.sky else None,
     )
+    return overlay(element("scene", *scene.extras), known) if scene.extras else known
 
 
 def _extras(world: World) -> list[Parameters]:

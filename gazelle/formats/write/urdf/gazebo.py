@@ -43,8 +43,6 @@ def gazebo_of_link(link: Link, shift: Pose, writing: Writing) -> Parameters | No
     """Surfaces, materials, sensors and flags of a link."""
     names = read_names(link)
     solid = surfaces(link)
-    if any(collision.surface.extras for collision in link.collisions):
-        writing.note("URDF has no soft contacts: they are left out", link.source)
     return _referring(
         link.name,
         *(_surface(solid[0][0]) if solid else ()),
