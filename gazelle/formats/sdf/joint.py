@@ -115,10 +115,7 @@ def read_joint(
 def _axes(node: Parameters, kind: JointType) -> list[Parameters]:
     """The axis elements that the type has; the default one where the file gives none."""
     count = _AXES.get(kind, 1)
-    return [
-        node.find(tag) or Parameters("axis", source=node.source)
-        for tag in _AXIS_TAGS[:count]
-    ]
+    return [node.find(tag) or Parameters("axis", source=node.source) for tag in _AXIS_TAGS[:count]]
 
 
 def joint_type(node: Parameters) -> JointType:

@@ -23,10 +23,8 @@ from gazelle.formats.sound import is_sound, sound_inertial
 _EXTRAS = (
     "audio_sink", "audio_source", "battery", "must_be_base_link", "particle_emitter", "projector",
 )  # fmt: skip
-_VISUAL: Pattern = dict.fromkeys(
-    ("geometry", "material", "plugin", "pose", "cast_shadows", "laser_retro", "transparency")
-    + ("visibility_flags",)
-)
+_LOOKS = ("cast_shadows", "laser_retro", "transparency", "visibility_flags")
+_VISUAL: Pattern = dict.fromkeys((*_LOOKS, "geometry", "material", "plugin", "pose"))
 
 
 def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool = False) -> Link:
