@@ -1,7 +1,8 @@
 """Controllers: what they add to a physics step, in one world and in many, and many robots at once.
 
 The peer is the same scene in the same run without controllers, stepped in turns with it: what a
-controller costs is a share of the physics step. Goals are printed beside figures.
+controller costs is a share of the physics step. It is in the pose that controllers hold, without
+gravity, as MuJoCo takes no sines of joints that are at zero. Goals are printed beside figures.
 """
 
 from __future__ import annotations
@@ -79,12 +80,17 @@ def arm_text() -> str:
 
 
 def arms(nworld: int, count: int = 1) -> tuple[gazelle.Simulation, list[gazelle.Robot]]:
-    """Arms side by side, with nothing loaded."""
-    sim = gazelle.Simulation(World("lab"), nworld=nworld, time_step=STEP, threads=1)
+    """Arms side by side at the targets, with nothing loaded."""
+    world = World("lab", gravity=(0.0, 0.0, 0.0))
+    sim = gazelle.Simulation(world, nworld=nworld, time_step=STEP, threads=1)
     model = formats.load_model_string(arm_text())
     side = 10
     places = [gazelle.Pose(x=2.0 * (i % side), y=2.0 * (i // side)) for i in range(count)]
-    return sim, [sim.spawn(model, name=f"arm_{i}", pose=at) for i, at in enumerate(places)]
+    robots = [sim.spawn(model, name=f"arm_{i}", pose=at) for i, at in enumerate(places)]
+    for robot in robots:
+        for name, target in zip(JOINTS, TARGETS, strict=True):
+            robot.joints[name].position = target
+    return sim, robots
 
 
 def driven(nworld: int, kind: str, **more: object) -> gazelle.Simulation:

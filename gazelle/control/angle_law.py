@@ -11,20 +11,30 @@ from typing import Final
 _TURN: Final = 2.0 * math.pi
 
 
-def shortest(start: float, end: float) -> float:
-    """By how much to turn from one angle to another, the shorter way round [rad]; pi stays pi."""
-    turn = end - start
-    if not -_TURN < turn < _TURN:
-        turn = math.fmod(turn, _TURN) if math.isfinite(turn) else math.nan
+def shorter(turn: float) -> float:
+    """The shorter way round of a turn that is less than a whole one [rad]; pi stays pi."""
     if turn < 0.0:
         turn += _TURN
     return turn - _TURN if turn > math.pi else turn
 
 
-def distance(start: float, end: float, continuous: bool, lower: float, upper: float) -> float:  # noqa: FBT001  as in C
-    """By how much to turn: the shorter way round if that stays within limits, or if neither does."""
-    short = shortest(start, end)
-    if continuous or lower <= start + short <= upper:
+def shortest(start: float, end: float) -> float:
+    """By how much to turn from one angle to another, the shorter way round [rad]; pi stays pi."""
+    turn = end - start
+    if not -_TURN < turn < _TURN:
+        turn = math.fmod(turn, _TURN) if math.isfinite(turn) else math.nan
+    return shorter(turn)
+
+
+def within(start: float, short: float, lower: float, upper: float) -> float:
+    """A turn if that stays within limits, or the one the other way round if only that does."""
+    if lower <= start + short <= upper:
         return short
     other = short - _TURN if short > 0.0 else short + _TURN
     return other if lower <= start + other <= upper else short
+
+
+def distance(start: float, end: float, continuous: bool, lower: float, upper: float) -> float:  # noqa: FBT001  as in C
+    """By how much to turn: the shorter way round if that stays within limits, or if neither does."""
+    short = shortest(start, end)
+    return short if continuous else within(start, short, lower, upper)

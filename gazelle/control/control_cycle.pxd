@@ -11,6 +11,11 @@ cdef class ControlCycle(JointSystem):
     cdef readonly object updated_ns, written_ns
     cdef long long[::1] updated, written
     cdef long long period, step
+    cdef Py_ssize_t nworld
+    @cython.locals(w=Py_ssize_t, last_update="long long", last_write="long long")
+    cpdef begin(self, long long updated, long long written)
+    @cython.locals(w=Py_ssize_t, updated="long long", written="long long")
+    cpdef tuple times(self)
     @cython.locals(w=Py_ssize_t, passed="long long", since="long long")
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
     @cython.locals(index=Py_ssize_t, place="void*")

@@ -28,6 +28,7 @@ class ControlCycle(JointSystem):
 
     def __init__(self, nworld: int, joints: int) -> None:
         JointSystem.__init__(self, nworld, joints)
+        self.nworld = nworld
         self.updated_ns, self.written_ns = np.full((2, nworld), -1, np.int64)
         self.updated, self.written = self.updated_ns, self.written_ns
         self.table = np.zeros(0, np.int64)
@@ -45,6 +46,19 @@ class ControlCycle(JointSystem):
         self.hardware, self.laws = hardware, list(laws)
         self.table = np.array([id(each) for each in laws], np.int64)
         self.period, self.step = period, step
+
+    def begin(self, updated: int, written: int) -> None:
+        """Say when controllers were updated and commands written last, in all worlds [ns]; -1 for never."""
+        last_update, last_write = updated, written
+        for w in range(self.nworld):
+            self.updated[w], self.written[w] = last_update, last_write
+
+    def times(self) -> tuple[int, int]:
+        """When controllers were updated and commands written last, in any world [ns]; -1 for never."""
+        updated, written = self.updated[0], self.written[0]
+        for w in range(1, self.nworld):
+            updated, written = max(updated, self.updated[w]), max(written, self.written[w])
+        return updated, written
 
     def update(self, first: int, last: int, time: int) -> None:
         """Bring worlds to a time: controllers once a period, limits always."""

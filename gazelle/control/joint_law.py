@@ -10,12 +10,17 @@ from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.control.angle_law import distance, shortest
+from cython.cimports.gazelle.control.angle_law import distance, shorter, shortest
 from cython.cimports.gazelle.control.limit_law import LimitLaw, clamp
 from cython.cimports.gazelle.control.pid_law import PidLaw
+from cython.cimports.gazelle.native.joint_system import copy
+from cython.cimports.gazelle.native.rows import column, offset, start
 from cython.cimports.libc.math import isfinite, isnan
 
 from gazelle.array_types import Bools, Floats
+from gazelle.native.rows import first_of_run
+
+_TURN = cython.declare(cython.double, 6.283185307179586)
 
 # How a joint is commanded: by an effort, by a position or a velocity that gains turn into one, by
 # a motor, or by being put there.
@@ -76,7 +81,14 @@ class JointLaw:
         self.placed_speed, self.previous = memory.placed_speed, memory.previous
         self.held, self.wanted = memory.held, memory.wanted
         self.stopped = memory.stopped.view(np.uint8)
-        self.turning, self.endless = np.array(turning, np.uint8), np.array(endless, np.uint8)
+        self.turning, self.endless = np.array(turning, np.float64), np.array(endless, np.uint8)
+        self.count = self.position.shape[1]
+        self.measured_at, self.applied_at = start(self.measured), start(self.applied)
+        self.measured_rate_at = start(self.measured_rate)
+        self.position_at, self.velocity_at = start(self.position), start(self.velocity)
+        self.effort_at, self.turning_at = start(self.effort), column(self.turning)
+        self.wanted_at, self.command_at = start(self.wanted), start(self.effort_command)
+        self.width = self.effort_command.shape[1]
 
     def arrange(self, kinds: Any, columns: Any, limits: LimitLaw, pid: PidLaw) -> None:
         """Command joints in other ways.
@@ -89,24 +101,32 @@ class JointLaw:
         """
         self.kinds, self.columns = np.array(kinds, np.int64), np.array(columns, np.intp)
         self.limits, self.pid = limits, pid
+        self.first = first_of_run(columns)
+        self.placing = BY_PLACE in kinds
+        self.by_effort = self.first >= 0 and all(each == BY_EFFORT for each in kinds)
 
     def read(self, world: int) -> None:
         """Measure; joints that turn are followed round and round, and never jump."""
-        for i in range(self.kinds.shape[0]):
-            if self.turning[i]:
-                self.position[world, i] += shortest(
-                    self.position[world, i], self.measured[world, i]
-                )
-            else:
-                self.position[world, i] = self.measured[world, i]
-            self.effort[world, i] = self.applied[world, i]
-            if self.kinds[i] == BY_PLACE:  # what a step adds to it the next one takes away
-                self.velocity[world, i] = self.placed_speed[world, i]
-            else:
-                self.velocity[world, i] = self.measured_rate[world, i]
+        count, first = self.count, world * self.count
+        at, measured = offset(self.position_at, first), offset(self.measured_at, first)
+        if not follow(count, at, measured, self.turning_at):
+            for i in range(count):
+                if self.turning[i] != 0.0:
+                    at[i] += shortest(at[i], measured[i])
+                else:
+                    at[i] = measured[i]
+        copy(count, offset(self.applied_at, first), offset(self.effort_at, first))
+        copy(count, offset(self.measured_rate_at, first), offset(self.velocity_at, first))
+        if self.placing:
+            for i in range(count):
+                if self.kinds[i] == BY_PLACE:  # what a step adds to it the next one takes away
+                    self.velocity[world, i] = self.placed_speed[world, i]
 
     def write(self, world: int, period: float) -> None:
         """Hold commands within limits, and act on them."""
+        if self.by_effort:
+            self.write_efforts(world)
+            return
         for i in range(self.kinds.shape[0]):
             kind, out = self.kinds[i], self.hold(world, i, period)
             self.wanted[world, i] = out
@@ -118,6 +138,20 @@ class JointLaw:
                 out = self.pid.push(world, i, self.lack(world, i, out), period, False, 0.0)
                 most = self.limits.effort[i]
                 self.push(world, i, clamp(out, -most, most))
+
+    def write_efforts(self, world: int) -> None:
+        """``write`` of joints that are all commanded by efforts."""
+        first, stopped = world * self.count, self.stopped[world]
+        command = offset(self.command_at, world * self.width + self.first)
+        self.limits.hold_effort_row(
+            command, offset(self.position_at, first), offset(self.velocity_at, first)
+        )
+        wanted, applied = offset(self.wanted_at, first), offset(self.applied_at, first)
+        for i in range(self.count):
+            wanted[i] = 0.0 if stopped else command[i]
+            safe = wanted[i] if isfinite(wanted[i]) else 0.0
+            if safe != applied[i]:
+                applied[i], self.pushed[world, i] = safe, 1
 
     def hold(self, world: int, i: int, period: float) -> float:
         """A command within limits, and what the emergency stop makes of it."""
@@ -145,7 +179,7 @@ class JointLaw:
         """What is missing; of a position the way round that limits allow."""
         if self.kinds[i] == BY_VELOCITY:
             return wanted - self.velocity[world, i]
-        if not self.turning[i]:
+        if self.turning[i] == 0.0:
             return wanted - self.position[world, i]
         low, high = self.limits.lower[i], self.limits.upper[i]
         return distance(self.position[world, i], wanted, self.endless[i], low, high)
@@ -173,3 +207,17 @@ class JointLaw:
         with cython.nogil:
             for w in range(self.position.shape[0]):
                 self.write(w, since)
+
+
+def follow(count: int, position: Floats, measured: Floats, turning: Floats) -> bool:
+    """Follow joints, those that turn the shorter way; False, and nothing done, where one is far."""
+    far = 0
+    for i in range(count):
+        turn = measured[i] - position[i]
+        far += 0 if -_TURN < turn < _TURN else 1
+    if far > 0:
+        return False
+    for i in range(count):
+        turn = position[i] + shorter(measured[i] - position[i])
+        position[i] = turn if turning[i] != 0.0 else measured[i]
+    return True

@@ -165,8 +165,7 @@ class PositionTargets(PidControl):
         self._lower = np.array([each.lower for each in limits])
         self._upper = np.array([each.upper for each in limits])
         turning = np.array([joint.type != "prismatic" for joint in described], bool)
-        endless = turning & np.isinf(self._lower) & np.isinf(self._upper)
-        self._law.hold_positions((self._lower, self._upper), turning, endless)
+        self._law.hold_positions((self._lower, self._upper), turning)
 
     def begin(self, rows: Worlds) -> None:
         """Hold positions, within limits."""

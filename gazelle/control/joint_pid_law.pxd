@@ -5,10 +5,20 @@ from gazelle.control.pid_law cimport PidLaw
 
 cdef class JointPidLaw(ControlLaw):
     cdef PidLaw pid
-    cdef double[:, ::1] position, velocity, targets, error, command
+    cdef double[:, ::1] position, velocity, targets, error, command, read_row, push_row
     cdef Py_ssize_t[::1] joints, columns
-    cdef unsigned char[::1] turning, endless
-    cdef double[::1] lower, upper
+    cdef Py_ssize_t count, first_joint, first_column, width, command_width
+    cdef double *measured_at, *targets_at, *error_at, *command_at
+    cdef double *turning_at, *lower_at, *upper_at
+    cdef double[::1] turning, lower, upper
     cdef bint by_velocity
-    @cython.locals(i=Py_ssize_t, at=double, wanted=double, lack=double)
+    @cython.locals(i=Py_ssize_t, first=Py_ssize_t, at="double*", out="double*", error="double*", targets="double*")
     cdef void control(self, Py_ssize_t world, long long now, double period) noexcept nogil
+    @cython.locals(i=Py_ssize_t, at="double*", values="double*")
+    cdef double* measured(self, Py_ssize_t world) noexcept nogil
+
+@cython.locals(i=Py_ssize_t)
+cdef void velocities_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error) noexcept nogil
+
+@cython.locals(i=Py_ssize_t, lack=double, wanted=double, far=Py_ssize_t)
+cdef void positions_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error, double* restrict lower, double* restrict upper, double* restrict turning) noexcept nogil

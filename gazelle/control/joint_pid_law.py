@@ -5,17 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.control.angle_law import distance
+from cython.cimports.gazelle.control.angle_law import shorter, shortest, within
 from cython.cimports.gazelle.control.control_law import ControlLaw
-from cython.cimports.gazelle.control.limit_law import clamp
 from cython.cimports.gazelle.control.pid_law import PidLaw
+from cython.cimports.gazelle.native.rows import column, offset, start
 
 from gazelle.array_types import Bools, Floats
 from gazelle.control.interfaces import JointHandles
+from gazelle.native.rows import first_of_run
+
+_TURN = cython.declare(cython.double, 6.283185307179586)
 
 
 @cython.cclass
@@ -36,37 +38,76 @@ class JointPidLaw(ControlLaw):
         self.position, self.velocity = joints.states.position, joints.states.velocity
         self.joints = joints.columns
         self.command, self.columns = joints.commands[joints.fields[0]]
-        self.by_velocity = True
+        self.first_joint = first_of_run(joints.columns)
+        self.first_column = first_of_run(joints.commands[joints.fields[0]][1])
+        self.read_row, self.push_row = np.zeros((2, *targets.shape))
+        self.by_velocity, self.count = True, len(joints.columns)
+        self.width, self.command_width = self.position.shape[1], self.command.shape[1]
+        self.measured_at, self.targets_at = start(self.velocity), start(self.targets)
+        self.error_at, self.command_at = start(self.error), start(self.command)
 
-    def hold_positions(self, limits: Sequence[Floats], turning: Bools, endless: Bools) -> None:
+    def hold_positions(self, limits: Sequence[Floats], turning: Bools) -> None:
         """Bring joints to positions instead, within limits.
 
         Args:
             limits: Lower and upper ones [m or rad], shape (joints,) each.
             turning: Which joints turn, shape (joints,).
-            endless: Which of them do so without limits.
         """
-        self.by_velocity = False
+        self.by_velocity, self.measured_at = False, start(self.position)
         self.lower, self.upper = (np.array(each, np.float64) for each in limits)
-        self.turning, self.endless = (self._flags(each) for each in (turning, endless))
-
-    @staticmethod
-    def _flags(values: Bools) -> Any:
-        return np.array(values, np.uint8)
+        self.turning = np.array(turning, np.float64)
+        self.turning_at = column(self.turning)
+        self.lower_at, self.upper_at = column(self.lower), column(self.upper)
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
         """Push towards the targets; positions the way round that limits allow."""
-        for i in range(self.joints.shape[0]):
-            wanted = self.targets[world, i]
-            if self.by_velocity:
-                lack = wanted - self.velocity[world, self.joints[i]]
-            else:
-                wanted = clamp(wanted, self.lower[i], self.upper[i])
-                self.targets[world, i] = wanted
-                at = self.position[world, self.joints[i]]
-                if self.turning[i]:
-                    lack = distance(at, wanted, self.endless[i], self.lower[i], self.upper[i])
-                else:
-                    lack = wanted - at
-            self.error[world, i] = lack
-            self.command[world, self.columns[i]] = self.pid.push(world, i, lack, period, False, 0.0)
+        count, first = self.count, world * self.count
+        at, targets = self.measured(world), offset(self.targets_at, first)
+        error = offset(self.error_at, first)
+        if self.by_velocity:
+            velocities_lacking(count, at, targets, error)
+        else:
+            lower, upper = self.lower_at, self.upper_at
+            positions_lacking(count, at, targets, error, lower, upper, self.turning_at)
+        if self.first_column >= 0:
+            out = offset(self.command_at, world * self.command_width + self.first_column)
+            self.pid.push_row(world, error, period, False, error, out)
+            return
+        out = offset(start(self.push_row), first)
+        self.pid.push_row(world, error, period, False, error, out)
+        for i in range(count):
+            self.command[world, self.columns[i]] = out[i]
+
+    def measured(self, world: int) -> Floats:
+        """What is to be as the targets are."""
+        values = offset(self.measured_at, world * self.width)
+        if self.first_joint >= 0:
+            return offset(values, self.first_joint)
+        at = offset(start(self.read_row), world * self.count)
+        for i in range(self.count):
+            at[i] = values[self.joints[i]]
+        return at
+
+
+def velocities_lacking(count: int, at: Floats, targets: Floats, error: Floats) -> None:
+    """What velocities lack."""
+    for i in range(count):
+        error[i] = targets[i] - at[i]
+
+
+def positions_lacking(
+    count: int, at: Floats, targets: Floats, error: Floats, lower: Floats, upper: Floats,
+    turning: Floats,
+) -> None:  # fmt: skip
+    """What positions lack, of joints that turn the way round that limits allow."""
+    far = 0
+    for i in range(count):
+        targets[i] = min(max(targets[i], lower[i]), upper[i])
+        lack = targets[i] - at[i]
+        far += 0 if -_TURN < lack < _TURN else 1
+        error[i] = within(at[i], shorter(lack), lower[i], upper[i]) if turning[i] != 0.0 else lack
+    if far == 0:
+        return
+    for i in range(count):  # more than a whole turn, or not finite
+        if turning[i] != 0.0:
+            error[i] = within(at[i], shortest(at[i], targets[i]), lower[i], upper[i])

@@ -4,9 +4,14 @@ cimport cython
 cdef class LimitLaw:
     cdef double[::1] lower, upper, velocity, acceleration, effort, k_position, k_velocity, soft_lower, soft_upper
     cdef unsigned char[::1] soft, bounded
+    cdef readonly bint hard
+    cdef Py_ssize_t count
+    cdef double *lower_at, *upper_at, *velocity_at, *effort_at
     cdef double soft_bound(self, Py_ssize_t i, double position, bint high) noexcept nogil
     @cython.locals(low=double, high=double, least=double, most=double)
     cdef double hold_effort(self, Py_ssize_t i, double command, double position, double velocity) noexcept nogil
+    @cython.locals(i=Py_ssize_t)
+    cdef void hold_effort_row(self, double* command, double* position, double* velocity) noexcept nogil
     @cython.locals(low=double, high=double)
     cdef double hold_position(self, Py_ssize_t i, double command, double before, double dt) noexcept nogil
     @cython.locals(low=double, high=double, change=double, start=double)
@@ -19,3 +24,6 @@ cdef class LimitLaw:
     cpdef hold_velocities(self, command, position, velocity, previous, double dt)
 
 cdef double clamp(double value, double low, double high) noexcept nogil
+
+@cython.locals(i=Py_ssize_t, low=double, high=double)
+cdef void hold_efforts_hard(Py_ssize_t count, double* restrict command, double* restrict position, double* restrict velocity, double* restrict lower, double* restrict upper, double* restrict fastest, double* restrict strongest) noexcept nogil

@@ -9,6 +9,7 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.native.rows import column
 from cython.cimports.libc.math import INFINITY, isfinite
 
 from gazelle.array_types import Floats
@@ -27,6 +28,9 @@ class LimitLaw:
         columns: By name, shape (n,) each: ``lower``, ``upper``, ``velocity``, ``acceleration``,
             ``effort``, ``soft`` (whether there are soft limits), ``bounded`` (whether they bound
             positions), ``k_position``, ``k_velocity``, ``soft_lower``, ``soft_upper``.
+
+    Attributes:
+        hard: Whether no joint has soft limits.
     """
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
@@ -38,6 +42,9 @@ class LimitLaw:
         self.soft_lower, self.soft_upper = numbers["soft_lower"], numbers["soft_upper"]
         self.soft = np.array(columns["soft"], np.uint8)
         self.bounded = np.array(columns["bounded"], np.uint8)
+        self.hard, self.count = not np.any(columns["soft"]), len(columns["soft"])
+        self.lower_at, self.upper_at = column(self.lower), column(self.upper)
+        self.velocity_at, self.effort_at = column(self.velocity), column(self.effort)
 
     def soft_bound(self, i: int, position: float, high: bool) -> float:  # noqa: FBT001  native code
         """The least or the greatest velocity that soft limits let a joint have at a position."""
@@ -61,6 +68,23 @@ class LimitLaw:
             if position > self.upper[i] or velocity > self.velocity[i]:
                 high = 0.0
         return clamp(command, low, high)
+
+    def hold_effort_row(self, command: Floats, position: Floats, velocity: Floats) -> None:
+        """``hold_effort`` of every joint, in place."""
+        if self.hard:
+            hold_efforts_hard(
+                self.count,
+                command,
+                position,
+                velocity,
+                self.lower_at,
+                self.upper_at,
+                self.velocity_at,
+                self.effort_at,
+            )
+            return
+        for i in range(self.count):
+            command[i] = self.hold_effort(i, command[i], position[i], velocity[i])
 
     def hold_position(self, i: int, command: float, before: float, dt: float) -> float:
         """What position is commanded after one before."""
@@ -115,3 +139,16 @@ class LimitLaw:
                 for i in range(a.shape[1]):
                     out[w, i] = self.hold_velocity(i, a[w, i], b[w, i], c[w, i], out[w, i], period)
         return held
+
+
+def hold_efforts_hard(
+    count: int, command: Floats, position: Floats, velocity: Floats, lower: Floats, upper: Floats,
+    fastest: Floats, strongest: Floats,
+) -> None:  # fmt: skip
+    """What ``LimitLaw.hold_effort`` does without soft limits, for several joints at a time."""
+    for i in range(count):
+        low = 0.0 if velocity[i] < -fastest[i] else -strongest[i]
+        low = 0.0 if position[i] < lower[i] else low
+        high = 0.0 if velocity[i] > fastest[i] else strongest[i]
+        high = 0.0 if position[i] > upper[i] else high
+        command[i] = min(max(command[i], low), high)

@@ -126,9 +126,13 @@ class Pid:
             Shape (nworld, n); 0 for an error that is not finite, which is not remembered either.
         """
         output = np.empty(self.output.shape)
-        rate = None if error_dot is None else np.broadcast_to(error_dot, output.shape)
-        self.law.compute(np.broadcast_to(error, output.shape), dt, rate, output)
+        rate = None if error_dot is None else self._whole(error_dot)
+        self.law.compute(self._whole(error), dt, rate, output)
         return output
+
+    def _whole(self, values: Floats) -> Floats:
+        """Values for every loop of every world."""
+        return np.array(np.broadcast_to(values, self.output.shape), np.float64, order="C")
 
     @property
     def i_term(self) -> Floats:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import cython
+from cython.cimports.gazelle.native.rows import column, offset, start
 from cython.cimports.libc.math import isfinite
 
 from gazelle.array_types import Floats
@@ -23,6 +24,10 @@ class PidLaw:
 
     def __init__(self, memory: Sequence[Floats]) -> None:
         self.last, self.p_error, self.i_error, self.d_error, self.output = memory
+        self.count = self.last.shape[1]
+        self.last_at, self.p_error_at = start(self.last), start(self.p_error)
+        self.i_error_at, self.d_error_at = start(self.i_error), start(self.d_error)
+        self.output_at = start(self.output)
 
     def tune(self, columns: Sequence[Floats]) -> None:
         """Go on with other gains, shape (loops,) each.
@@ -32,6 +37,9 @@ class PidLaw:
         """
         self.p, self.i, self.d = columns[:3]
         self.sum_least, self.sum_most, self.term_least, self.term_most = columns[3:]
+        self.p_at, self.i_at, self.d_at = column(self.p), column(self.i), column(self.d)
+        self.sum_least_at, self.sum_most_at = column(self.sum_least), column(self.sum_most)
+        self.term_least_at, self.term_most_at = column(self.term_least), column(self.term_most)
 
     def push(
         self,
@@ -67,11 +75,98 @@ class PidLaw:
         self.d_error[world, loop], self.output[world, loop] = rate, out
         return out
 
+    def push_row(
+        self,
+        world: int,
+        errors: Floats,
+        dt: float,
+        rated: bool,  # noqa: FBT001  native code
+        rates: Floats,
+        out: Floats,
+    ) -> None:
+        """``push`` of all loops of a world.
+
+        Args:
+            world: Which.
+            errors: Of each loop.
+            dt: Since the last time [s].
+            rated: Whether rates of errors are given.
+            rates: Those.
+            out: What comes out.
+        """
+        count, first = self.count, world * self.count
+        if dt <= 0.0 or not are_finite(count, errors):
+            for k in range(count):
+                out[k] = self.push(world, k, errors[k], dt, rated, rates[k] if rated else 0.0)
+            return
+        known = offset(self.d_error_at, first)
+        if rated:
+            for k in range(count):
+                known[k] = rates[k]
+        else:
+            differentiate(count, dt, errors, offset(self.last_at, first), known)
+        push_loops(
+            count,
+            dt,
+            errors,
+            known,
+            offset(self.p_error_at, first),
+            offset(self.i_error_at, first),
+            offset(self.output_at, first),
+            out,
+            self.p_at,
+            self.i_at,
+            self.d_at,
+            self.sum_least_at,
+            self.sum_most_at,
+            self.term_least_at,
+            self.term_most_at,
+        )
+
     def compute(self, error: Floats, dt: float, rate: Floats | None, into: Floats) -> None:
         """``push`` of all loops in all worlds; all shapes are (nworld, loops)."""
+        if not into.size:
+            return
         rated = rate is not None
         errors, rates, out, period = error, error if rate is None else rate, into, dt
         with cython.nogil:
             for w in range(errors.shape[0]):
-                for k in range(errors.shape[1]):
-                    out[w, k] = self.push(w, k, errors[w, k], period, rated, rates[w, k])
+                first = w * self.count
+                self.push_row(
+                    w,
+                    offset(start(errors), first),
+                    period,
+                    rated,
+                    offset(start(rates), first),
+                    offset(start(out), first),
+                )
+
+
+def are_finite(count: int, values: Floats) -> bool:
+    """Whether all numbers are."""
+    odd = 0
+    for k in range(count):
+        odd += 0 if isfinite(values[k]) else 1
+    return odd == 0
+
+
+def differentiate(count: int, dt: float, errors: Floats, last: Floats, rates: Floats) -> None:
+    """Rates of errors since the last time."""
+    for k in range(count):
+        rates[k] = (errors[k] - last[k]) / dt
+        last[k] = errors[k]
+
+
+def push_loops(
+    count: int, dt: float, errors: Floats, rates: Floats, p_error: Floats, i_error: Floats,
+    output: Floats, out: Floats, p: Floats, i: Floats, d: Floats, sum_least: Floats,
+    sum_most: Floats, term_least: Floats, term_most: Floats,
+) -> None:  # fmt: skip
+    """What ``PidLaw.push`` does, of errors that are finite, for several loops at a time."""
+    for k in range(count):
+        whole = i_error[k] + dt * errors[k]
+        whole = min(max(whole, sum_least[k]), sum_most[k])
+        term = min(max(i[k] * whole, term_least[k]), term_most[k])
+        output[k] = p[k] * errors[k] + term + d[k] * rates[k]
+        out[k] = output[k]
+        p_error[k], i_error[k] = errors[k], whole

@@ -9,8 +9,18 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.native.rows import (
+    bytes_offset,
+    bytes_start,
+    column,
+    offset,
+    places_column,
+    start,
+)
 from cython.cimports.gazelle.native.system import System
 from numpy.typing import NDArray
+
+from gazelle.native.rows import first_of_run
 
 # Systems by their addresses, for Python that runs the sources of compiled modules.
 _KNOWN: dict[int, Any] = {}
@@ -45,6 +55,10 @@ class JointSystem(System):
         self.position, self.velocity = self.position_in, self.velocity_in
         self.effort, self.speed = self.effort_out, self.speed_out
         self.pushed, self.driven = self.pushed_out, self.driven_out
+        self.count = joints
+        self.position_at, self.velocity_at = start(self.position), start(self.velocity)
+        self.effort_at = start(self.effort)
+        self.pushed_at, self.driven_at = bytes_start(self.pushed), bytes_start(self.driven)
         nowhere = np.zeros(joints, np.intp)
         self.bind(nowhere, nowhere, np.zeros(joints), nowhere - 1)
 
@@ -64,6 +78,8 @@ class JointSystem(System):
             motors: Among its motors; -1 for none.
         """
         self.places, self.dofs, self.most, self.motors = places, dofs, most, motors
+        self.most_at, self.dofs_at = column(self.most), places_column(self.dofs)
+        self.first_place, self.first_dof = first_of_run(places), first_of_run(dofs)
 
     def read(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Read the joints of all worlds, from arrays as of ``exchange`` of each."""
@@ -98,19 +114,33 @@ class JointSystem(System):
             user: Velocities that motors hold.
             time: Simulated time [ns].
         """
-        for i in range(self.places.shape[0]):
-            self.position[world, i] = qpos[self.places[i]]
-            self.velocity[world, i] = qvel[self.dofs[i]]
+        count, first = self.count, world * self.count
+        position, velocity = offset(self.position_at, first), offset(self.velocity_at, first)
+        if self.first_place >= 0 and self.first_dof >= 0:
+            copy(count, offset(qpos, self.first_place), position)
+            copy(count, offset(qvel, self.first_dof), velocity)
+        else:
+            for i in range(count):
+                position[i] = qpos[self.places[i]]
+                velocity[i] = qvel[self.dofs[i]]
         self.update(world, world + 1, time)
-        for i in range(self.places.shape[0]):
-            if self.pushed[world, i]:
-                self.pushed[world, i] = 0
-                most, value = self.most[i], self.effort[world, i]
-                applied[self.dofs[i]] = min(max(value, -most), most)
-            if self.driven[world, i]:
-                self.driven[world, i] = 0
+        effort = offset(self.effort_at, first)
+        pushed, driven = bytes_offset(self.pushed_at, first), bytes_offset(self.driven_at, first)
+        for i in range(count):
+            if pushed[i]:
+                pushed[i] = 0
+                most, value = self.most_at[i], effort[i]
+                applied[self.dofs_at[i]] = min(max(value, -most), most)
+            if driven[i]:
+                driven[i] = 0
                 if self.motors[i] >= 0:
                     user[self.motors[i]] = self.speed[world, i]
+
+
+def copy(count: int, start: Any, end: Any) -> None:
+    """Copy numbers, several at a time: what is read so again was not written one by one."""
+    for i in range(count):
+        end[i] = start[i]
 
 
 def bring_systems(

@@ -62,16 +62,18 @@ class ControlLoop(ModelPlugin):
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
         self._released: Bools = np.zeros(hardware.nworld, bool)
+        self._told = self._restarts = False
         self._period_ns: int | None = None
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
-        self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int | None] | None = None
+        self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
         for name in self.hardware.motors - hardware.motors:
             self._robot.joints[name].add_motor(0.0)
         self.hardware = self.manager.hardware = hardware
+        self._told = False
 
     def set_period(self, seconds: float) -> None:
         """Let controllers act at this period; as often as the physics if it is never set."""
@@ -89,6 +91,17 @@ class ControlLoop(ModelPlugin):
         before = self.stopped.copy()
         self.stopped[rows] = on
         self._released = (self._released | (before & ~self.stopped)) & ~self.stopped
+        self._tell_of_stops()
+
+    def _tell_of_stops(self) -> None:
+        """What the hardware was told of the emergency stop holds no more."""
+        self._told, self._restarts = False, bool(self._released.any())
+
+    def _stop_emergency(self) -> None:
+        """Tell the hardware of the emergency stop, if there is anything new."""
+        if not self._told:
+            self.hardware.stop_emergency(self.stopped)
+            self._told = type(self.hardware) is JointHardware  # another may want to know each time
 
     @property
     def active(self) -> bool:
@@ -98,14 +111,14 @@ class ControlLoop(ModelPlugin):
     def on_update(self, time: float) -> None:
         """Read, control, write."""
         now, step, period = self._clock.now_ns, self._clock.step_ns, self._control_ns
-        self.hardware.stop_emergency(self.stopped)
+        self._stop_emergency()
         due = self._updated_ns is None or now - self._updated_ns >= period
         if due:
             passed = period if self._updated_ns is None else now - self._updated_ns
             self._updated_ns = now
             self.hardware.read(time, passed / NANOSECONDS)
-            restart = np.flatnonzero(self._released) if self._released.any() else None
-            self._released[:] = False
+            restart = np.flatnonzero(self._released) if self._restarts else None
+            self._released[:] = self._restarts = False
             self.manager.update(now, passed / NANOSECONDS, restart=restart)
         since = step if self._written_ns is None else now - self._written_ns
         self._written_ns = now
@@ -114,18 +127,18 @@ class ControlLoop(ModelPlugin):
     def carried(self) -> tuple[JointSystem, float] | None:
         """All of ``on_update`` in native code, until somebody wants to know."""
         hardware = self.hardware
-        if not isinstance(hardware, JointHardware) or self._released.any() or not self.active:
+        if not isinstance(hardware, JointHardware) or self._restarts or not self.active:
             return None
         laws = self.manager.laws()
         cycle = None if laws is None else hardware.carried
         if laws is None or cycle is None:
             return None
-        hardware.stop_emergency(self.stopped)
-        if self._carrying is None or self._carrying[1:] != (hardware.law, laws, self._period_ns):
-            cycle.run(hardware.law, laws, self._control_ns, self._clock.step_ns)
-            self._carrying = (cycle, hardware.law, laws, self._period_ns)
-        cycle.updated_ns[:] = -1 if self._updated_ns is None else self._updated_ns
-        cycle.written_ns[:] = -1 if self._written_ns is None else self._written_ns
+        self._stop_emergency()
+        wanted = (cycle, hardware.law, laws, self._control_ns, self._clock.step_ns)
+        if self._carrying != wanted:
+            cycle.run(*wanted[1:])
+            self._carrying = wanted
+        cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         return cycle, self.manager.wake_ns()
 
     @property
@@ -138,9 +151,8 @@ class ControlLoop(ModelPlugin):
         if self._carrying is None:
             return
         cycle = self._carrying[0]
-        before, now = self._updated_ns, int(cycle.updated_ns.max())
+        before, (now, written) = self._updated_ns, cycle.times()
         self._updated_ns = None if now < 0 else now
-        written = int(cycle.written_ns.max())
         self._written_ns = None if written < 0 else written
         if self._updated_ns == before:
             return
@@ -153,6 +165,7 @@ class ControlLoop(ModelPlugin):
         """Begin anew: controllers that run hold the robot where it is put."""
         rows = slice(None) if worlds is None else worlds
         self.stopped[rows] = self._released[rows] = False
+        self._tell_of_stops()
         self.hardware.reset(worlds)
         now, rewind = self._clock.now_ns, worlds is None
         if rewind:
@@ -176,9 +189,14 @@ class ControlLoop(ModelPlugin):
         times = [None if each < 0 else int(each) for each in state["times"]]
         self._updated_ns, self._written_ns = times
         self.stopped, self._released = (np.array(row, bool) for row in state["stop"])
+        self._tell_of_stops()
         self.hardware.restore(_below("hardware/", state))
         self.manager.now_ns = self._clock.now_ns
         self.manager.restore(_below("controllers/", state))
+
+
+def _or_never(time_ns: int | None) -> int:
+    return -1 if time_ns is None else time_ns
 
 
 def _below(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.generic]]:

@@ -32,6 +32,7 @@ class CarryingSteps(ForcedSteps):
 
     _recipe: CompilerInput
     _revision = 0
+    _looks_once = False
 
     @abstractmethod
     def step(self, count: int = 1) -> None:
@@ -54,7 +55,7 @@ class CarryingSteps(ForcedSteps):
     @property
     def carries(self) -> bool:
         """Whether it can, the way it integrates."""
-        return self._batch.model.opt.integrator in _ONCE
+        return self._looks_once
 
     def expect_systems(self) -> None:
         """Be ready to carry systems: what has to be compiled for that is."""
@@ -65,6 +66,7 @@ class CarryingSteps(ForcedSteps):
     def _begin_carrying(self, batch: Batch, recipe: CompilerInput) -> None:
         """Tell a new batch which world is which, and what is too fast in it."""
         self._revision += 1
+        self._looks_once = batch.model.opt.integrator in _ONCE
         if not recipe.hooks:
             return
         self._hooks.limit(self._layout.limits)

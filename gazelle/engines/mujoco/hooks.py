@@ -49,7 +49,7 @@ class Hooks:
         """Let systems act in the steps that follow."""
         if self._systems != systems:
             self._systems, self._table = list(systems), addresses(systems)
-        self._times[:] = now_ns
+        self._times.fill(now_ns)
         self._numbers[:3] = len(systems), self._table.ctypes.data, step_ns
 
     def end(self, applied: Floats) -> None:
