@@ -1,5 +1,8 @@
-"""Damped joints: Euler's method takes their forces anew, so the solver has to find forces well."""
+"""Damped joints: implicit Euler, constraints included; what stands and grips on them is still."""
 
+from dataclasses import replace
+
+import grips
 import numpy as np
 import pytest
 import scenes
@@ -69,3 +72,51 @@ def test_so_it_does_if_joints_are_damped_at_run_time():
         engine.set_parameter("joint_damping", joint, [[0.0], [1.0]])
     np.testing.assert_array_equal(engine.snapshot()[:, : before.shape[1]], before)
     assert fastest(engine, 5.0) < 0.01
+
+
+def slider(damping, mass):
+    """A body on a slide."""
+    inertial = Inertial(mass, inertia=Inertia(0.01, 0.01, 0.01))
+    axis = JointAxis((1.0, 0.0, 0.0), damping=damping)
+    base = Link("base", inertial=Inertial(1.0, inertia=Inertia(0.1, 0.1, 0.1)))
+    links = (base, Link("body", inertial=inertial))
+    joints = (
+        Joint("hold", "fixed", "world", "base"),
+        Joint("slide", "prismatic", "base", "body", axes=(axis,)),
+    )
+    return Model("slider", links=links, joints=joints)
+
+
+@pytest.mark.parametrize("changed", [False, True])
+@pytest.mark.parametrize("damping", [0.5, 100.0, 1e5])
+def test_damping_is_implicit_euler(damping, changed):
+    mass = 0.08
+    engine = make_engine("mujoco", scenes.world(slider(0.0 if changed else damping, mass)))
+    if changed:
+        engine.set_parameter("joint_damping", "slider::slide", [damping])
+    engine.set_joint_velocity("slider::slide", [1.0])
+    engine.step(5)
+    left = (mass / (mass + engine.time_step * damping)) ** 5
+    assert engine.joint_velocity("slider::slide")[0, 0] == pytest.approx(left, rel=1e-6, abs=1e-12)
+
+
+def test_light_fingers_with_strong_dampers_hold_what_they_close_on():
+    """Fetch's: 80 g, 100 N s/m; they push with 60 N each on a cube that stands on the ground."""
+    model = grips.gripper()
+    axes = [replace(joint.axes[0], damping=100.0) for joint in model.joints[1:]]
+    joints = [replace(j, axes=(a,)) for j, a in zip(model.joints[1:], axes, strict=True)]
+    low = [replace(link, pose=Pose(y=link.pose.y, z=0.03)) for link in model.links[1:]]
+    hand = replace(model, links=(model.links[0], *low), joints=(model.joints[0], *joints))
+    cube = scenes.solid("cube", Box((0.05, 0.05, 0.05)), mass=0.25, moments=(1e-4, 1e-4, 1e-4),
+                        pose=Pose(z=0.025, yaw=0.02))  # fmt: skip
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), hand, cube))
+    for name in ("left", "right"):
+        engine.set_joint_effort(f"g::{name}_joint", [-60.0])
+    where, fastest_m_s = engine.model_placement("cube").position[0].copy(), 0.0
+    for _ in range(1000):
+        engine.step()
+        now = engine.model_placement("cube").position[0].copy()
+        fastest_m_s = max(fastest_m_s, float(np.linalg.norm(now - where)) / engine.time_step)
+        where = now
+    assert fastest_m_s < 1.0
+    assert where == pytest.approx((0.0, 0.0, 0.025), abs=0.01)

@@ -30,7 +30,12 @@ from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.linkless import with_link
 from gazelle.engines.mujoco.loose import swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
-from gazelle.engines.mujoco.options import add_probes, find_forces, set_options, skip_idle_forces
+from gazelle.engines.mujoco.options import (
+    add_probes,
+    damp_implicitly,
+    set_options,
+    skip_idle_forces,
+)
 from gazelle.engines.mujoco.remarks import warn_of_links
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
@@ -109,7 +114,6 @@ class Draft:
         closures: Joints that close loops or couple others.
         extras: Laws that MuJoCo alone does not know.
         slips: Of wheels that may slip, by link.
-        damped: Whether joints may be damped that the world's are not.
     """
 
     spec: mujoco.MjSpec
@@ -120,7 +124,6 @@ class Draft:
     closures: Sequence[Closure]
     extras: Extras
     slips: Mapping[str, Slip]
-    damped: bool = False
 
     def compile(self, *, as_written: bool = True) -> mujoco.MjModel:
         """The MuJoCo model.
@@ -144,9 +147,6 @@ class Draft:
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
         tune_slips(compiled, self.slips)
         stiffen(compiled)
-        if self.damped or compiled.dof_damping.any():
-            find_forces(compiled.opt)
-            find_forces(self.spec.option)
         self._solve_at_once(compiled)
         return compiled
 
@@ -210,6 +210,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
         # and bounce with what bounces; its sides do not turn.
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    damp_implicitly(spec)
     closures = [closure for tree in trees.values() for closure in tree.closures]
     slides = may_slide(builder.solids)
     extras = Extras(
@@ -232,7 +233,6 @@ def draft_world(recipe: CompilerInput) -> Draft:
         closures,
         extras,
         slips,
-        recipe.damped,
     )
 
 

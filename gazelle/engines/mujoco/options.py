@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import mujoco
+import numpy as np
 
 from gazelle.description import World
 from gazelle.engines.mujoco.loose import SLEEP_SPEED, has_loose, lets_sleep, looks_ahead
@@ -15,10 +16,6 @@ from gazelle.errors import EngineError, did_you_mean
 
 # So often MuJoCo's line search may halve its interval: motors and dry friction are stiff.
 _LINE_SEARCH_ITERATIONS = 100
-
-# Improvements smaller than this end the search where joints are damped, in place of MuJoCo's
-# 1e-8, and how much coarser than that a line is searched: as finely as elsewhere.
-_FINE, _FINE_LINE = 1e-14, 1e4
 
 # Names of how contacts are solved.
 CONTACTS = ("exact", "fast")
@@ -92,14 +89,20 @@ def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
     return mujoco.mjtCone.mjCONE_ELLIPTIC if cone else mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
-def find_forces(option: mujoco.MjOption) -> None:
-    """Let the solver go on until forces are found as well as accelerations.
+def damp_implicitly(spec: mujoco.MjSpec) -> None:
+    """Let Euler's method damp joints implicitly, constraints included.
 
-    Newton's method is done when the acceleration is, which a stiff contact has while its force is
-    still wrong by a thousand newtons. That does no harm unless joints are damped: Euler's implicit
-    method then finds the acceleration anew, from the forces. What stands shakes so.
+    With the damping D and the step h, implicit Euler is (M + h D) a = f - D v. MuJoCo's own way
+    (``eulerdamp``) solves constraints with M, and finds the acceleration anew with M + h D from their
+    forces: what a motor and a stiff contact ask for is not what comes of it, and a robot that grips
+    or leans on something shakes until it flies apart. Here h D is part of the joints' inertia (as an
+    armature), so that both are found together; motion without constraints is the same.
     """
-    option.tolerance, option.ls_tolerance = _FINE, _FINE_LINE
+    if spec.option.integrator != mujoco.mjtIntegrator.mjINT_EULER:
+        return
+    spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
+    for joint in spec.joints:
+        joint.armature += spec.option.timestep * float(np.ravel(joint.damping)[0])
 
 
 def skip_idle_forces(model: mujoco.MjModel) -> None:

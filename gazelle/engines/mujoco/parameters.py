@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import mujoco
 import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import ArrayLike
@@ -153,8 +154,14 @@ def _write_gravity_share(target: _Target, name: str, values: Floats) -> None:
 
 
 def _write_damping(target: _Target, name: str, values: Floats) -> None:
+    option = target.batch.model.opt
+    implicit = option.integrator == mujoco.mjtIntegrator.mjINT_EULER
     for axis, dofs in enumerate(target.dofs(name)):
-        target.batch.expand("dof_damping")[:, dofs] = values[:, axis : axis + 1]
+        damping = target.batch.expand("dof_damping")
+        if implicit:  # as ``damp_implicitly`` has it
+            change = values[:, axis : axis + 1] - damping[:, dofs]
+            target.batch.expand("dof_armature")[:, dofs] += option.timestep * change
+        damping[:, dofs] = values[:, axis : axis + 1]
 
 
 def _write_joint_friction(target: _Target, name: str, values: Floats) -> None:
@@ -240,7 +247,9 @@ _NOT_NEGATIVE = frozenset(
 )
 
 # What MuJoCo derives other constants from, by ``mj_setConst``.
-_DERIVED_FROM = frozenset({"link_centre", "link_gravity", "link_inertia", "link_mass"})
+_DERIVED_FROM = frozenset(
+    {"joint_damping", "link_centre", "link_gravity", "link_inertia", "link_mass"}
+)
 
 
 class ParameterStore:
