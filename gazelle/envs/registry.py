@@ -81,7 +81,10 @@ def _driving() -> list[RegisteredTask]:
             vector_env=f"{home}:{name}VectorEnv",
             max_episode_steps=500,
         )
-        for name in ("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World")
+        for name in (
+            *("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World"),
+            *("Husarion", "SummitXLRoom"),
+        )
     ]
 
 

@@ -45,6 +45,8 @@ PACKAGES = [
     ),
     Launched("turtlebot3_gazebo", model="turtlebot3"),
     Launched("kobuki_maze_rl", model="kobuki_robot"),
+    Launched("rosbot_gazebo", worlds=("start_world_maze.launch",), model="rosbot"),
+    Launched("summit_xl_gazebo", model="summit_xl"),
 ]
 
 

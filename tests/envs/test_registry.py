@@ -10,7 +10,7 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 19
+    assert len(task_ids()) == 21
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
@@ -21,6 +21,8 @@ def test_all_ids_are_known_to_gymnasium():
             "MovingCube": 1000,
             "TurtleBot2": 500,
             "Kobuki": 1000,
+            "Husarion": 500,
+            "SummitXL": 500,
         }
         assert spec.max_episode_steps == next(steps[key] for key in steps if key in task)
         assert spec.vector_entry_point is not None

@@ -6,7 +6,13 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, ClassVar
 
-from gazelle.envs.discrete_drive.rules import MAZE, TURTLEBOT3_WORLD, WALL
+from gazelle.envs.discrete_drive.rules import (
+    HUSARION,
+    MAZE,
+    SUMMIT_XL,
+    TURTLEBOT3_WORLD,
+    WALL,
+)
 from gazelle.envs.discrete_drive.task import DriveSettings, DriveTask
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
@@ -197,3 +203,122 @@ class TurtleBot3WorldVectorEnv(DriveVectorEnv):
     """`TurtleBot3WorldEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = partial(DriveTask, TURTLEBOT3_WORLD)
+
+
+class HusarionEnv(DriveEnv):
+    """A ROSbot drives to a place in a playground.
+
+    The task ``HusarionGetToPosTurtleBotPlayGround-v0`` of openai_ros with its observation, actions, reward
+    and ends, in simulated time. Id: ``gazelle/Husarion-v0``. Robot and playground are Gazelle's own: four driven
+    wheels of 85 mm under 2.84 kg, which slip when it turns; posts and blocks.
+
+    ## Observation
+
+    ``Box``, float32, shape (45,), all rounded to 0.1.
+
+    ======  =========================================================  =====  =====  =====
+    Index   Meaning                                                    Min    Max    Unit
+    ======  =========================================================  =====  =====  =====
+    0..39   every 18th range of 720 counter-clockwise from straight    0.3    6      m
+            back, raised to 0.3; 6 for nothing in range
+    40, 41  x and y                                                    -8     4      m
+                                                                       -6     4
+    42      yaw                                                        -3.15  3.15   rad
+    43, 44  x and y of the goal                                        as 40, 41
+    ======  =========================================================  =====  =====  =====
+
+    ## Action
+
+    ``Discrete(4)``, for 0.2 s each: 0 asks for 0.5 m/s ahead, 1 for 1.5 rad/s left, 2 for 1.5 rad/s right, 3 for
+    0.5 m/s ahead once more: that is called "backwards" in the published code, but is not. openai_ros waits until
+    odometry shows the speed.
+
+    ## Reward
+
+    10 where x and y as seen are nearer to the goal than before, else 0. The last step: 200 at the goal, -200
+    elsewhere.
+
+    ## Start
+
+    At the origin, at rest, looking along x. With ``starts="training"`` or ``"held-out"`` anywhere within the
+    work space with any heading, 0.6 m or more from what stands.
+
+    ## End
+
+    Terminated when a range is seen as 0.3 m, when x leaves (-7, 3] or y leaves (-5, 3], and within 0.1 m of the
+    goal, in x and in y. **The published goal (-2.94, 3.92) lies beyond the published work space**, so no episode
+    can end well; ``goal=(-2.9, 2.5)``, say, can be reached. Truncated after 500 steps (10,000 in openai_ros).
+
+    ## Options
+
+    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m].
+
+    ## Versions
+
+    - v0: the first.
+    """
+
+    task_class = partial(DriveTask, HUSARION)
+
+
+class HusarionVectorEnv(DriveVectorEnv):
+    """`HusarionEnv` in many worlds at once; that page is the data sheet."""
+
+    task_class = partial(DriveTask, HUSARION)
+
+
+class SummitXLRoomEnv(DriveEnv):
+    """A Summit XL drives to a corner of a room with columns.
+
+    The task ``SumitXlRoom-v0`` of openai_ros with its observation, actions, reward and ends, in simulated time. Id:
+    ``gazelle/SummitXLRoom-v0``. Robot and room are Gazelle's own, of the published figures: 25 kg on four driven wheels of
+    6.5 kg, which slip when it turns.
+
+    ## Observation
+
+    ``Box``, float32, shape (8,).
+
+    ======  =========================================================  =====  =====  =====
+    Index   Meaning                                                    Min    Max    Unit
+    ======  =========================================================  =====  =====  =====
+    0..4    ranges of rays 0, 144, ..., 576 of 720, from 90 degrees    0      6      m
+            right to 90 left, cut to whole metres
+    5, 6    x and y, rounded to 0.01                                   -5     5      m
+    7       yaw, rounded to 0.01                                       -3.15  3.15   rad
+    ======  =========================================================  =====  =====  =====
+
+    ## Action
+
+    ``Discrete(3)``, for 0.2 s each: 0.5 m/s ahead, or 0.05 m/s with 0.3 rad/s left or right.
+
+    ## Reward
+
+    10 where x and y as seen are nearer to (-2.94, 3.92) than before, else 1. The last step: 200 at the goal, -200
+    elsewhere.
+
+    ## Start
+
+    At the origin, at rest, looking along x; ``starts`` as in `HusarionEnv`, 0.85 m from what stands.
+
+    ## End
+
+    Terminated when one of the five ranges is below 0.5 m, when x or y are beyond 4 m, and within 0.05 m of the
+    goal, in x and in y; steps ahead are 0.1 m long. The published task also ends at an acceleration above 20 m/s2, which is
+    meant to notice bumps. Truncated after 500 steps (10,000 in openai_ros).
+
+    ## Options
+
+    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m].
+
+    ## Versions
+
+    - v0: the first.
+    """
+
+    task_class = partial(DriveTask, SUMMIT_XL)
+
+
+class SummitXLRoomVectorEnv(DriveVectorEnv):
+    """`SummitXLRoomEnv` in many worlds at once; that page is the data sheet."""
+
+    task_class = partial(DriveTask, SUMMIT_XL)

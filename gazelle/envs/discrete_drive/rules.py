@@ -98,3 +98,35 @@ TURTLEBOT3_WORLD = DriveRules(
     forward_reward=5.0,
     turn_reward=1.0,
 )
+HUSARION = DriveRules(
+    world="rosbot_playground",
+    robot="rosbot",
+    space_step=0.01,
+    start_margin=0.6,
+    every=18,
+    decimals=1,
+    least=0.3,
+    crash_range=0.35,  # what is rounded to the least range is a crash
+    velocities=((0.5, 0.0), (0.0, 1.5), (0.0, -1.5), (0.5, 0.0)),
+    closer_reward=10.0,
+    goal=(-2.9, 3.9),  # as seen: the parameter is (-2.94, 3.92)
+    tolerance=0.1,
+    bounds=(-7.0, 3.0, -5.0, 3.0),
+    place_decimals=1,
+    sees_yaw=True,
+    sees_goal=True,
+)
+SUMMIT_XL = DriveRules(
+    world="summit_xl_room",
+    robot="summit_xl",
+    space_step=0.01,
+    every=144,
+    crash_range=0.5,
+    velocities=_turns(0.05, 0.3),
+    forward_reward=1.0,
+    turn_reward=1.0,
+    closer_reward=9.0,
+    goal=(-2.94, 3.92),
+    bounds=(-4.005, 4.0, -4.005, 4.0),  # -4.00 itself, as seen, is within
+    sees_yaw=True,
+)

@@ -179,12 +179,9 @@ class DriveTask(SimulationTask):
         if self._goal is not None and rules.bounds is not None:
             x0, x1, y0, y1 = rules.bounds
             # Where an episode ends the base can be a step beyond the bounds.
-            low += [x0 - 1.0, y0 - 1.0]
-            high += [x1 + 1.0, y1 + 1.0]
-            if rules.sees_yaw:
-                low, high = [*low, -3.15], [*high, 3.15]
-            if rules.sees_goal:
-                low, high = [*low, *self._goal], [*high, *self._goal]
+            least, most = [x0 - 1.0, y0 - 1.0], [x1 + 1.0, y1 + 1.0]
+            low += least + [-3.15] * rules.sees_yaw + least * rules.sees_goal
+            high += most + [3.15] * rules.sees_yaw + most * rules.sees_goal
         return gym.spaces.Box(
             np.array(low, np.float32), np.array(high, np.float32), dtype=np.float32
         )
