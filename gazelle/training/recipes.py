@@ -227,7 +227,7 @@ RECIPES: dict[str, Recipe] = {
     # As published the goal is out of the work space; see the data sheet.
     "Husarion": dataclasses.replace(
         _DRIVING,
-        training_options=_DRIVING.training_options | {"goal": [-2.9, 2.5]},
+        training_options={**_DRIVING.training_options, "goal": [-2.9, 2.5]},
     ),
     "TurtleBot2Maze": _DRIVING,
     "TurtleBot3World": _DRIVING,
