@@ -9,6 +9,7 @@
 """
 
 from gazelle.clients.agv import AGV, AGVFleet
+from gazelle.clients.arm_services import ArmCommander
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.descriptions import load_parameters, load_urdf, read_urdf
 from gazelle.clients.errors import ClientError
@@ -33,6 +34,7 @@ from gazelle.clients.trajectories import (
 __all__ = [
     "AGV",
     "AGVFleet",
+    "ArmCommander",
     "ClientError",
     "Controllers",
     "Driver",

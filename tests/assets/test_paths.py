@@ -52,7 +52,7 @@ PACKAGES = [
 PACKAGES += ["rrbot_description", "rrbot_gazebo", "rrbot_control"]
 PACKAGES += ["courier_control", "ackermann_base_description", "ackermann_base_control"]
 PACKAGES += ["arm6_description", "arm6_control"]
-PACKAGES += ["fetch_description", "fetch_gazebo", "fetch_moveit_config"]
+PACKAGES += ["fetch_description", "fetch_gazebo", "fetch_moveit_config", "fetch_train"]
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -33,6 +33,11 @@ class ClientSession:
         """Say what an own node is called, and its command line with remappings."""
         self._name, self._arguments = name or _NAME, [str(each) for each in arguments]
 
+    def use(self, node: Node) -> None:
+        """Talk through a node that somebody else opens and closes."""
+        with self._lock:
+            self._node = node
+
     def node(self) -> Node:
         """The node; made when there is none yet."""
         shared = process.node

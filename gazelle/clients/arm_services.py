@@ -1,0 +1,70 @@
+"""Move an arm by the four services that openai_ros' tasks of Fetch call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gazelle.clients.calls import Caller
+from gazelle.clients.errors import ClientError
+from gazelle.clients.poses import ModelState, Vector
+from gazelle.closing import Closeable
+from gazelle.ros import Node, load_message
+
+
+class ArmCommander(Closeable):
+    """Calls ``ee_traj_srv``, ``joint_traj_srv``, ``ee_pose_srv`` and ``ee_rpy_srv`` (package ``fetch_train``).
+
+    Args:
+        node: Calls.
+        namespace: Of the services.
+        timeout: For a service to be there and for it to answer, each [s of wall time]; a motion is
+            over when the answer comes.
+    """
+
+    def __init__(self, node: Node, namespace: str = "/", timeout: float = 60.0) -> None:
+        self._caller = Caller(node, namespace, timeout, retries=1)
+
+    def go_to(self, position: Sequence[float]) -> None:
+        """Move the end effector, turned as the frame that is planned in.
+
+        Args:
+            position: x, y, z in that frame [m].
+
+        Raises:
+            ClientError: It did not get there, and why; or the service is not there.
+        """
+        pose: Any = load_message("geometry_msgs/Pose")()
+        pose.position.x, pose.position.y, pose.position.z = map(float, position)
+        pose.orientation.w = 1.0
+        self._move("ee_traj_srv", "EeTraj", pose=pose)
+
+    def go_to_joints(self, positions: Sequence[float]) -> None:
+        """Move the joints of the group, in its order [rad or m].
+
+        Raises:
+            ClientError: They did not get there, and why; or the service is not there.
+        """
+        values = [float(each) for each in positions]
+        point = load_message("trajectory_msgs/JointTrajectoryPoint")(positions=values)
+        self._move("joint_traj_srv", "JointTraj", point=point)
+
+    def _move(self, name: str, kind: str, **fields: Any) -> None:
+        answer = self._caller.call_once(name, f"fetch_train/{kind}", **fields)
+        if not answer.success:
+            raise ClientError(f"{name}: {answer.message}")
+
+    def pose(self) -> ModelState:
+        """Where the end effector is, in the frame that is planned in."""
+        pose = self._caller.call("ee_pose_srv", "fetch_train/EePose").pose
+        place, turn = pose.position, pose.orientation
+        return ModelState((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+
+    def rpy(self) -> Vector:
+        """Roll, pitch and yaw of the end effector [rad]; the service has the last two exchanged."""
+        answer = self._caller.call("ee_rpy_srv", "fetch_train/EeRpy")
+        return (answer.r, answer.y, answer.p)
+
+    def close(self) -> None:
+        """Close the connections."""
+        self._caller.close()
