@@ -21,13 +21,13 @@ SUMS = {
 
 @pytest.fixture(scope="module")
 def graph():
-    with commander_graph(trajectory_execution={"allowed_goal_duration_margin": 60.0}) as (
-        client,
-        _,
+    patient = {"allowed_goal_duration_margin": 60.0}
+    with (
+        commander_graph(trajectory_execution=patient) as (client, _),
+        Node("/fetch_moveit", master_uri=client.node.master_uri) as node,
     ):
-        with Node("/fetch_moveit", master_uri=client.node.master_uri) as node:
-            ArmServices(node)
-            yield client
+        ArmServices(node)
+        yield client
 
 
 @pytest.fixture
