@@ -20,6 +20,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from gazelle import ros
 from gazelle.ros.errors import RosError
@@ -52,11 +53,18 @@ def main() -> int:
     parser.add_argument("only", nargs="*")
     parser.add_argument("--limit", type=float, default=120.0, help="for each script [s]")
     parser.add_argument("--episodes", type=int, default=1, help="enough of each")
+    parser.add_argument(
+        "--before",
+        action="append",
+        default=[],
+        metavar="PACKAGE/LAUNCHFILE",
+        help="launch that first, for scripts that want a world that runs",
+    )
     parser.add_argument("--markdown", action="store_true")
     options = parser.parse_args()
     outcomes = []
     for launch in found(options.folder.resolve(), options.only):
-        outcomes.append(run(launch, options.folder.resolve(), options.limit, options.episodes))
+        outcomes.append(run(launch, options))
         print(row(outcomes[-1], markdown=options.markdown), flush=True)
     return sum(not each.episodes for each in outcomes)
 
@@ -75,9 +83,9 @@ def is_among(launch: Path, only: list[str]) -> bool:
     return package in only or f"{package}/{launch.name}" in only
 
 
-def run(launch: Path, folder: Path, limit: float, enough: int) -> Outcome:
+def run(launch: Path, options: argparse.Namespace) -> Outcome:
     """Launch one on a master of its own, and count."""
-    package = launch.parents[1].name
+    package, folder = launch.parents[1].name, options.folder.resolve()
     info = ros.load_message("openai_ros/RLExperimentInfo")
     heard: list[int] = []
     # The folder may hold an openai_ros of its own; the packages with scripts are what is wanted.
@@ -94,23 +102,30 @@ def run(launch: Path, folder: Path, limit: float, enough: int) -> Outcome:
             "ROS_MASTER_URI": master.uri,
             "ROS_PACKAGE_PATH": os.pathsep.join(map(str, packages)),
         }
-        process = subprocess.Popen(
-            [sys.executable, "-m", "gazelle", "launch", package, launch.name],
-            env=environment,
-            stdout=said,
-            stderr=said,
-        )
+        worlds = [start(each.split("/"), environment, said) for each in options.before]
+        process = start([package, launch.name], environment, said)
         # The first message comes with the first reset, so the first end of an episode is the second.
-        while process.poll() is None and time.monotonic() - begun < limit and len(heard) <= enough:
+        while (
+            process.poll() is None
+            and time.monotonic() - begun < options.limit
+            and len(heard) <= options.episodes
+        ):
             time.sleep(0.1)
         seconds = time.monotonic() - begun
-        end(process)
+        for each in (process, *reversed(worlds)):
+            end(each)
         said.seek(0)
         text = said.read()
         task = task_of(node, text)
     return Outcome(
         f"{package}/{script_of(launch)}", task, max(0, len(heard) - 1), seconds, last_words(text)
     )
+
+
+def start(words: list[str], environment: dict[str, str], said: IO[str]) -> subprocess.Popen[bytes]:
+    """Start a launch file of a package."""
+    command = [sys.executable, "-m", "gazelle", "launch", *words]
+    return subprocess.Popen(command, env=environment, stdout=said, stderr=said)
 
 
 def end(process: subprocess.Popen[bytes]) -> None:

@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import importlib
 import math
-import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from compat.cart_graph import cart_graph
 from graph import until
 from hypothesis import given
 from hypothesis import strategies as st
 
-import gazelle
 import gazelle.ros as ros
-from gazelle import assets
-from gazelle.bridges import serve_ros
-from gazelle.clients import Controllers, load_parameters
+from gazelle.clients import Controllers
 from gazelle.compat.openai_ros.task_envs import geometry
 from gazelle.compat.openai_ros.task_envs.moving_cube.one_disk_walk import MovingCubeOneDiskWalkEnv
 from gazelle.compat.openai_ros.task_envs.task_envs_list import MODULES, WITHOUT_ROBOT
-from gazelle.description import World
+from gazelle.compat.shared import background
 from gazelle.errors import TaskError
 from gazelle.ros.launch.errors import MissingPackageError
 
@@ -35,29 +32,10 @@ CONTROLLERS = [
 @pytest.fixture(scope="module")
 def cart():
     """openai_ros' cart and pole on a graph, running, and rospy's node in this process."""
-    from gazelle.ros.compat.rospy import client
-
-    with (
-        pytest.MonkeyPatch.context() as patch,
-        ros.Master(port=0, rosout=False) as master,
-        ros.Node("tester", master_uri=master.uri) as node,
-        gazelle.Simulation(World("w")) as sim,
-    ):
-        path, arguments = assets.robot("cartpole"), {"ros_control": "true"}
-        (model,) = gazelle.formats.load(path, xacro_args=arguments).models
-        sim.spawn(model, name="cartpole_v0")
-        load_parameters(node, "config/cartpole_control.yaml", package="cartpole_description")
-        patch.setenv("ROS_MASTER_URI", master.uri)
-        patch.setattr(sys, "argv", ["train"])
-        with serve_ros(sim, master.uri) as door, ros.install():
-            door.start()
-            with Controllers(node, "/cartpole_v0", timeout=60.0) as controllers:
-                controllers.spawn(CONTROLLERS)
-            client.reset()
-            rospy = importlib.import_module("rospy")
-            rospy.init_node("train", disable_signals=True)
-            yield SimpleNamespace(sim=sim, node=node, rospy=rospy)
-            client.reset()
+    with cart_graph() as graph:
+        with Controllers(graph.node, "/cartpole_v0", timeout=60.0) as controllers:
+            controllers.spawn(CONTROLLERS)
+        yield graph
 
 
 @pytest.fixture(scope="module")
@@ -286,8 +264,7 @@ def test_what_is_missing_is_named_and_where_it_is_from(cart, tmp_path):
         patch.setenv("ROS_PACKAGE_PATH", "")
         common.ROSLauncher("my_own_robot", "put.launch", str(tmp_path))
     assert cart.node.get_param("/put_there") == 5
-    common._processes().stop_all()
-    common._processes.cache_clear()
+    background.stop_all()
 
 
 def test_tasks_that_are_not_here_are_said(cart):

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import atexit
 import os
-from functools import cache
 from pathlib import Path
 
-from gazelle.clients.processes import Processes
 from gazelle.compat.gym.core import Env
 from gazelle.compat.gym.envs.registration import make
 from gazelle.compat.openai_ros.sources import missing_package
 from gazelle.compat.openai_ros.task_envs.task_envs_list import RegisterOpenAI_Ros_Env
+from gazelle.compat.shared import background
 from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.launch.errors import MissingPackageError
 from gazelle.ros.launch.packages import Packages
 
@@ -65,10 +62,12 @@ class ROSLauncher:
             folder = self.DownloadRepo(rospackage_name, ros_ws_abspath)
         rospy.loginfo(f"starting {launch_file_name} of {folder}")
         file = folder / "launch" / launch_file_name
+        # What it starts ends before this node does, whose master it needs for that.
+        rospy.on_shutdown(background.stop_all)
         if file.is_file():
-            _processes().start_launch(file)
+            background.processes().start_launch(file)
         else:  # elsewhere in the package, or nowhere
-            _processes().start_launch(launch_file_name, package=rospackage_name)
+            background.processes().start_launch(launch_file_name, package=rospackage_name)
 
     def DownloadRepo(  # noqa: N802  # openai_ros' name
         self, package_name: str, ros_ws_abspath: str | None = None
@@ -90,12 +89,3 @@ def _add_workspace(workspace: str | None) -> None:
     known = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     if str(sources) not in known:
         os.environ["ROS_PACKAGE_PATH"] = os.pathsep.join([*filter(None, known), str(sources)])
-
-
-@cache
-def _processes() -> Processes:
-    """What has been started in this process; it ends with it."""
-    started = Processes(process.require().master_uri)
-    atexit.register(started.stop_all)
-    rospy.on_shutdown(started.stop_all)
-    return started

@@ -26,6 +26,8 @@ from gazelle.ros.messages.search import find_packages
 HOME = "gazelle.ros.compat"
 UPSTAIRS = ("gazelle.compat", "gazelle.bridges.moveit.modules")
 """Modules that stand on rooms of which this one knows nothing; imported when a script does."""
+_NOT_OFFERED = frozenset({"shared"})
+"""Beside them, for their own use."""
 _COMPILED = frozenset({"moveit_ros_planning_interface"})
 """Of C++ where they are installed, for a Python that is not this one: ours come first."""
 _KINDS = ("msg", "srv")
@@ -60,7 +62,7 @@ def substitutes() -> dict[str, str]:
         folder = Path(__file__).parents[3].joinpath(*home.split("."))
         names = {path.stem for path in folder.glob("*.py")} - {"__init__"}
         names |= {path.parent.name for path in folder.glob("*/__init__.py")}
-        found |= dict.fromkeys(names, home)
+        found |= dict.fromkeys(names - _NOT_OFFERED, home)
     return found
 
 

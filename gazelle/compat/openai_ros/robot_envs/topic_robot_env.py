@@ -124,12 +124,23 @@ class TopicRobotEnv(RobotGazeboEnv):
             TaskError: There is none within a minute.
         """
         (sensor,) = (each for each in self.sensors if each.attribute == attribute)
+        if not hasattr(self, "_heard"):  # tasks ask before the robot's constructor
+            return self._first(sensor)
         before, deadline = self._heard[attribute], time.monotonic() + PATIENCE_S
         while self._heard[attribute] == before:
             if time.monotonic() > deadline:
                 raise self._silent(sensor)
             self._look_again()
         return getattr(self, attribute)
+
+    def _first(self, sensor: RobotTopic) -> Any:
+        """The next message of a topic that is not listened to yet."""
+        try:
+            return rospy.wait_for_message(sensor.topic, load_message(sensor.kind), PATIENCE_S)
+        except rospy.ROSInterruptException:
+            raise
+        except rospy.ROSException:
+            raise self._silent(sensor) from None
 
     def _silent(self, sensor: RobotTopic) -> TaskError:
         known = dict(rospy.get_published_topics())

@@ -1,0 +1,41 @@
+"""The beginning of a task of your own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+
+from gazelle.compat.frobs_rl.templates.CustomRobotEnv import CustomRobotEnv
+
+
+class CustomTaskEnv(CustomRobotEnv):
+    """What is seen, done and rewarded: here nothing yet.
+
+    Args:
+        options: See `RobotBasicEnv`.
+    """
+
+    def __init__(self, **options: Any) -> None:
+        self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
+        self.observation_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
+        super().__init__(**options)
+
+    def _set_episode_init_params(self) -> None:
+        """Begin the variables of an episode."""
+
+    def _send_action(self, action: Any) -> None:
+        """Publish the action, and wait while it acts."""
+
+    def _get_observation(self) -> Any:
+        """What is seen now."""
+        return np.zeros(1, np.float32)
+
+    def _get_reward(self) -> float:
+        """What the last action is worth."""
+        return 0.0
+
+    def _check_if_done(self) -> bool:
+        """Whether the episode is over; set ``self.info["is_success"] = 1.0`` for a success."""
+        return False

@@ -1,0 +1,1 @@
+"""Beginnings of environments: copy them, and fill them in."""

@@ -1,0 +1,24 @@
+"""Environments of the old gym among those of Gymnasium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+
+from gazelle.compat.gym.adapted import OldInterface
+from gazelle.compat.gym.core import Env
+from gazelle.compat.shimmy import GymV21CompatibilityV0
+
+
+def modern(env: Any) -> gymnasium.Env[Any, Any]:
+    """An environment with Gymnasium's interface, whichever it has.
+
+    Scripts for frobs_rl of old make theirs by ``gym.make``.
+    """
+    if isinstance(env, OldInterface):
+        return env.env
+    if isinstance(env, Env):
+        return GymV21CompatibilityV0(env=env)
+    made: gymnasium.Env[Any, Any] = env
+    return made
