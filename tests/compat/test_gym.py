@@ -299,6 +299,11 @@ def test_a_gym_of_the_users_own_comes_first(tmp_path, monkeypatch):
         del sys.modules[name]
 
 
+def test_what_our_modules_share_is_not_offered():
+    with ros.install(), pytest.raises(ModuleNotFoundError):
+        importlib.import_module("shared")
+
+
 def test_without_exec_there_is_no_gym():
     code = (
         "import gazelle, importlib.util, sys; sys.exit(importlib.util.find_spec('gym') is not None)"
