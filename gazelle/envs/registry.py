@@ -101,7 +101,25 @@ def _kobuki() -> list[RegisteredTask]:
     ]
 
 
-ENTRIES = (*_turtlebot3(), _agv_fleet(), _cartpole(), _moving_cube(), *_driving(), *_kobuki())
+def _camera_world() -> RegisteredTask:
+    home = "gazelle.envs.camera_world.envs"
+    return RegisteredTask(
+        id="gazelle/TurtleBot3CameraWorld-v0",
+        env=f"{home}:TurtleBot3CameraWorldEnv",
+        vector_env=f"{home}:TurtleBot3CameraWorldVectorEnv",
+        max_episode_steps=120,
+    )
+
+
+ENTRIES = (
+    *_turtlebot3(),
+    _camera_world(),
+    _agv_fleet(),
+    _cartpole(),
+    _moving_cube(),
+    *_driving(),
+    *_kobuki(),
+)
 
 
 def register_all() -> None:

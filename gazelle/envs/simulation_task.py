@@ -84,16 +84,19 @@ class SimulationTask(BatchedTask):
         """Change what an episode begins with, after these worlds were reset; shape (n,)."""
 
     @abstractmethod
-    def observe(self, worlds: Worlds | None) -> Floats:
-        """What is seen in these worlds (all if None), shape (n, size)."""
+    def observe(self, worlds: Worlds | None) -> NDArray[Any]:
+        """What is seen in these worlds (all if None), shape (n, ...) as ``observation_space`` says.
+
+        It becomes what that space holds: float32 of numbers, uint8 of pictures (`CameraObservation`).
+        """
 
     @abstractmethod
     def act(self, actions: NDArray[Any]) -> None:
         """Command what the control step does; int64 of shape (nworld,), or float64 of (nworld, n)."""
 
     @abstractmethod
-    def outcome(self, observation: Floats32) -> StepOutcome:
-        """What came of the step, given what is seen after it, shape (nworld, size)."""
+    def outcome(self, observation: Any) -> StepOutcome:
+        """What came of the step, given what is seen after it, shape (nworld, ...)."""
 
     def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:
         """Random numbers for these worlds, shape (n, count): those of a world do not depend on others."""
@@ -132,8 +135,8 @@ class SimulationTask(BatchedTask):
         came = self.outcome(observation)
         return Verdict(observation, came.reward, came.terminated, dict(came.info))
 
-    def _seen(self, worlds: Worlds | None) -> Floats32:
-        seen = np.asarray(self.observe(worlds), dtype=np.float32)
+    def _seen(self, worlds: Worlds | None) -> Any:
+        seen = np.asarray(self.observe(worlds), dtype=self.observation_space.dtype)
         shape = (self.nworld if worlds is None else len(worlds), *self.observation_space.shape)
         if seen.shape != shape:
             raise TaskError(

@@ -78,7 +78,9 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         self._first_seed = seed
         self._begun = False
         self._over = np.zeros(task.nworld, np.bool_)
-        self._observation = np.zeros((task.nworld, *task.row_space.shape), np.float32)
+        self._observation: Any = np.zeros(
+            (task.nworld, *task.row_space.shape), task.row_space.dtype
+        )
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

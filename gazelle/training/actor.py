@@ -1,6 +1,7 @@
 """A trained policy as a few numpy arrays: acts without torch, many times faster on small batches.
 
-Every algorithm's policy is one multi-layer perceptron with a head:
+Every algorithm's policy is one multi-layer perceptron with a head, behind convolutions if it looks at
+pictures:
 
 - ``categorical``: logits of discrete actions; draws from them, or takes the likeliest (PPO);
 - ``greedy``: values of discrete actions; takes the best (DQN);
@@ -22,11 +23,13 @@ import numpy.typing as npt
 from gazelle.array_types import Floats32
 from gazelle.errors import FormatError
 from gazelle.training.features import Features
+from gazelle.training.picture_layers import PictureLayers
 
 Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 
 _FORMAT = "gazelle-policy-1"
 _FEATURES = ("angles", "magnitudes", "spans")
+_PICTURE = "picture"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,7 @@ class Actor:
         high: Upper bounds of the actions (continuous heads), shape (actions,).
         first_action: The number of the first discrete action.
         features: What is added to observations before the first layer, if anything.
+        pictures: What makes pictures numbers for the first layer, of a policy that sees.
     """
 
     weights: tuple[Floats32, ...]
@@ -54,10 +58,13 @@ class Actor:
     high: Floats32 | None = None
     first_action: int = 0
     features: Features | None = None
+    pictures: PictureLayers | None = None
 
     @property
     def inputs(self) -> int:
         """Entries of an observation."""
+        if self.pictures is not None:
+            return self.pictures.inputs
         added = 0 if self.features is None else self.features.count
         return len(self.weights[0]) - added
 
@@ -84,7 +91,10 @@ class Actor:
         Returns:
             Shape (N, outputs), float32.
         """
-        x = obs if self.features is None else self.features.added_to(obs)
+        if self.pictures is not None:
+            x = self.pictures.features(obs)
+        else:
+            x = obs if self.features is None else self.features.added_to(obs)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = x @ weight
             x += bias
@@ -105,7 +115,8 @@ class Actor:
         Returns:
             Shape (N,) int64 for discrete actions, else (N, actions) float32 within the bounds.
         """
-        outputs = self.outputs(np.asarray(obs, dtype=np.float32).reshape(len(obs), -1))
+        given = np.asarray(obs, dtype=None if self.pictures is not None else np.float32)
+        outputs = self.outputs(given.reshape(len(obs), -1))
         if rng is None or self.head in {"greedy", "squashed"}:
             return self.to_env(self.mode(outputs))
         return self.to_env(self.sample(outputs, rng))
@@ -179,6 +190,8 @@ class Actor:
                 arrays[name] = getattr(self, name)
         if self.features is not None:
             arrays |= {name: getattr(self.features, name) for name in _FEATURES}
+        if self.pictures is not None:
+            arrays |= _picture_arrays(self.pictures)
         about = {
             "format": _FORMAT,
             "layers": len(self.weights),
@@ -205,6 +218,8 @@ def load_actor(path: Path) -> Actor:
             }
             if _FEATURES[0] in file:
                 extra["features"] = Features(*(file[name] for name in _FEATURES))
+            if _PICTURE in file:
+                extra["pictures"] = _picture_layers(file)
             return Actor(
                 weights=tuple(file[f"weight{i}"] for i in layers),
                 biases=tuple(file[f"bias{i}"] for i in layers),
@@ -217,6 +232,26 @@ def load_actor(path: Path) -> Actor:
         raise FormatError(
             f"not a policy: {error}", file=str(path), hint="expected a policy.npz of a Gazelle run"
         ) from error
+
+
+def _picture_arrays(pictures: PictureLayers) -> dict[str, npt.NDArray[Any]]:
+    """Layers for pictures as arrays by name."""
+    arrays: dict[str, npt.NDArray[Any]] = {_PICTURE: np.array([*pictures.shape, pictures.pooling])}
+    for number, (weight, bias) in enumerate(zip(pictures.weights, pictures.biases, strict=True)):
+        arrays[f"convolution{number}"], arrays[f"convolution_bias{number}"] = weight, bias
+    return arrays
+
+
+def _picture_layers(file: Any) -> PictureLayers:
+    """What `_picture_arrays` gave."""
+    height, width, channels, pooling = map(int, file[_PICTURE])
+    numbers = range(sum(name.startswith("convolution_bias") for name in file))
+    return PictureLayers(
+        (height, width, channels),
+        pooling,
+        tuple(file[f"convolution{number}"] for number in numbers),
+        tuple(file[f"convolution_bias{number}"] for number in numbers),
+    )
 
 
 def _read_about(text: str) -> dict[str, Any]:

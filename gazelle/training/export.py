@@ -12,6 +12,7 @@ from torch import nn
 from gazelle.array_types import Floats32
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, Head
+from gazelle.training.picture_features import PictureFeatures
 
 
 class NoActorError(TaskError):
@@ -25,7 +26,7 @@ def export_actor(policy: Any) -> Actor:
 
     Args:
         policy: The ``policy`` of a Stable-Baselines3 PPO, DQN, SAC, TD3 or DDPG
-            with the features extractor `ScaledObservations`.
+            with the features extractor `ScaledObservations` or `PictureFeatures`.
 
     Raises:
         TaskError: The policy is not a multi-layer perceptron.
@@ -33,12 +34,14 @@ def export_actor(policy: Any) -> Actor:
     space = policy.action_space
     head, extractor, modules = _parts(policy)
     weights, biases = _linear_layers(modules)
+    sees = isinstance(extractor, PictureFeatures)
     if hasattr(policy, "quantile_net"):
         _take_means(weights, biases, policy.quantile_net.n_quantiles)
-    gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
-    entries = len(gain)
-    biases[0] = biases[0] + offset @ weights[0][:entries]
-    weights[0][:entries] *= gain[:, None]
+    if not sees:
+        gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
+        entries = len(gain)
+        biases[0] = biases[0] + offset @ weights[0][:entries]
+        weights[0][:entries] *= gain[:, None]
     relu = any(isinstance(module, nn.ReLU) for module in modules)
     continuous = isinstance(space, gym.spaces.Box)
     return Actor(
@@ -50,7 +53,8 @@ def export_actor(policy: Any) -> Actor:
         low=space.low.astype(np.float32) if continuous else None,
         high=space.high.astype(np.float32) if continuous else None,
         first_action=int(space.start) if isinstance(space, gym.spaces.Discrete) else 0,
-        features=extractor.features,
+        features=None if sees else extractor.features,
+        pictures=extractor.exported() if sees else None,
     )
 
 

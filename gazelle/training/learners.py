@@ -14,6 +14,8 @@ from torch import nn
 from gazelle.errors import TaskError
 from gazelle.training.library import build_library_learner
 from gazelle.training.memories import replay_options
+from gazelle.training.picture_features import PictureFeatures
+from gazelle.training.picture_layers import is_picture
 from gazelle.training.ppo import FastPPO
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, OffPolicySettings, PPOSettings, Recipe
 from gazelle.training.scaling import ObservationScale, ScaledObservations
@@ -29,6 +31,8 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     Raises:
         TaskError: The algorithm does not know this kind of actions.
     """
+    if is_picture(env.observation_space) and recipe.algo != "ppo":
+        raise TaskError(f"{recipe.algo} cannot learn from pictures", hint="use ppo")
     if recipe.algo in LIBRARY_ALGORITHMS:
         return _scaled(build_library_learner(recipe, env, _common(recipe, env, seed)), env)
     continuous = isinstance(env.action_space, gym.spaces.Box)
@@ -139,7 +143,8 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     """What all algorithms take."""
     activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
     rate = recipe.learning_rate
-    scale = ObservationScale(env.observation_space, scale=recipe.scale_observations)
+    sees = is_picture(env.observation_space)
+    scale = ObservationScale(env.observation_space, scale=recipe.scale_observations and not sees)
     return {
         "learning_rate": (lambda left: left * rate) if recipe.learning_rate_decay else rate,
         "gamma": recipe.gamma,
@@ -148,8 +153,9 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
         "policy_kwargs": {
             "net_arch": list(recipe.net_arch),
             "activation_fn": activation,
-            "features_extractor_class": ScaledObservations,
+            "features_extractor_class": PictureFeatures if sees else ScaledObservations,
             "features_extractor_kwargs": {"scale": scale, "features": recipe.features},
+            "normalize_images": False,  # as the features extractor does it
         },
     }
 

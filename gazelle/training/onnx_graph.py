@@ -19,6 +19,7 @@ import numpy.typing as npt
 from gazelle.errors import MissingExtraError
 from gazelle.training.actor import Actor
 from gazelle.training.features import LEAST, MIDDLE, Features
+from gazelle.training.picture_layers import STRIDE, PictureLayers
 
 try:
     import onnx
@@ -44,7 +45,9 @@ def onnx_model(actor: Actor, *, metadata: dict[str, str] | None = None) -> onnx.
     """
     graph = _Graph()
     name = "observation"
-    if actor.features is not None:
+    if actor.pictures is not None:
+        name = _add_pictures(graph, actor.pictures, name)
+    elif actor.features is not None:
         name = _add_features(graph, actor.features, name)
     outputs = _add_layers(graph, actor, name)
     action = _add_head(graph, actor, outputs)
@@ -107,6 +110,22 @@ def _add_features(graph: _Graph, features: Features, name: str) -> str:
         part = graph.add("Log", graph.add("Add", part, graph.constant(LEAST)))
         parts.append(graph.add("Add", part, graph.constant(MIDDLE)))
     return graph.add("Concat", *parts, axis=1)
+
+
+def _add_pictures(graph: _Graph, pictures: PictureLayers, name: str) -> str:
+    """What `PictureLayers.features` does."""
+    shape = graph.constant([-1, *pictures.shape], np.int64)
+    name = graph.add("Transpose", graph.add("Reshape", name, shape), perm=[0, 3, 1, 2])
+    name = graph.add("Mul", name, graph.constant(1.0 / 255.0))
+    name = graph.add("Sub", name, graph.constant(0.5))
+    if pictures.pooling > 1:
+        side = [pictures.pooling] * 2
+        name = graph.add("AveragePool", name, kernel_shape=side, strides=side)
+    for weight, bias in zip(pictures.weights, pictures.biases, strict=True):
+        kernel = graph.constant(weight.transpose(3, 2, 0, 1))
+        name = graph.add("Conv", name, kernel, graph.constant(bias), strides=[STRIDE, STRIDE])
+        name = graph.add("Relu", name)
+    return graph.add("Flatten", graph.add("Transpose", name, perm=[0, 2, 3, 1]))
 
 
 def _add_layers(graph: _Graph, actor: Actor, name: str) -> str:

@@ -22,11 +22,13 @@ from stable_baselines3.common.utils import explained_variance
 from gazelle.array_types import Floats32
 from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
-from gazelle.training.ppo_update import NAMES, Transitions, Weights, loss_of
+from gazelle.training.ppo_update import NAMES, Transitions, Weights, learns_features, loss_of
 from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
 from gazelle.training.threads import products
 from gazelle.training.vecenv import VectorEnvAdapter
+
+_TOGETHER = 4096  # observations that are valued at once: pictures of a whole rollout are large
 
 
 class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
@@ -47,8 +49,10 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
         actions = self._flat(self.actions)[valid]
         if isinstance(self.action_space, gym.spaces.Discrete):
             actions = actions[:, 0].long()
-        with torch.no_grad():
-            features = policy.features_extractor(observations)
+        features = observations
+        if not learns_features(policy):
+            with torch.no_grad():
+                features = policy.features_extractor(observations)
         return Transitions(
             features,
             actions,
@@ -75,6 +79,11 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     bfloat16: bool = False
     _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
+
+    @staticmethod
+    def _wrap_env(env: VectorEnvAdapter, *_arguments: Any, **_options: Any) -> VectorEnvAdapter:
+        """As it is: episodes are counted by it, and pictures are turned by the network."""
+        return env
 
     def _setup_model(self) -> None:
         self.rollout_buffer_class = MaskedRolloutBuffer
@@ -179,8 +188,11 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
     def _values(self, obs: Floats32) -> Floats32:
         with torch.no_grad():
-            values: Floats32 = self.policy.predict_values(torch.as_tensor(obs)).numpy().reshape(-1)
-        return values
+            whole = torch.as_tensor(obs)
+            size = _TOGETHER if learns_features(self.policy) else max(1, len(whole))
+            parts = [whole[first : first + size] for first in range(0, len(whole), size)]
+            values: Floats32 = torch.cat([self.policy.predict_values(x) for x in parts]).numpy()
+        return values.reshape(-1)
 
 
 def _log_probs(actor: Actor, outputs: Floats32, actions: npt.NDArray[Any]) -> Floats32:

@@ -21,7 +21,8 @@ class Transitions:
     """What a rollout brought, n transitions.
 
     Attributes:
-        features: What the networks are given, shape (n, features).
+        features: What the networks are given, shape (n, features); of pictures these themselves,
+            as the layers that look at them learn, too.
         actions: Numbers of choices, int64 of shape (n,), or float32 of shape (n, actions).
         log_probs: Of the actions when they were drawn, shape (n,).
         advantages: Shape (n,).
@@ -74,7 +75,10 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
         weights: Of the parts of the loss.
     """
     nets = policy.mlp_extractor
-    outputs = policy.action_net(nets.policy_net(batch.features))
+    features = batch.features
+    if learns_features(policy):
+        features = policy.features_extractor(features)
+    outputs = policy.action_net(nets.policy_net(features))
     log_probs, entropy = _judged(policy, outputs, batch.actions)
     log_ratio = log_probs - batch.log_probs
     ratio = log_ratio.exp()
@@ -83,7 +87,7 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
         advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
     within = ratio.clamp(1.0 - weights.clip_range, 1.0 + weights.clip_range)
     gain = torch.min(advantages * ratio, advantages * within).mean()
-    values = policy.value_net(nets.value_net(batch.features))[:, 0]
+    values = policy.value_net(nets.value_net(features))[:, 0]
     error = (values - batch.returns).square().mean()
     loss = weights.vf_coef * error - gain - weights.ent_coef * entropy
     with torch.no_grad():
@@ -92,6 +96,11 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
         clipped = (ratio != within).float().mean()
         told = torch.stack((loss, -gain, error, -entropy, kl, clipped))
     return loss, told
+
+
+def learns_features(policy: Any) -> bool:
+    """Whether what makes observations features has weights of its own."""
+    return next(policy.features_extractor.parameters(), None) is not None
 
 
 def _judged(

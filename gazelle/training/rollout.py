@@ -80,7 +80,7 @@ def play(
         What was met; None if it did not go on.
     """
     copies = env.num_envs
-    observations = np.empty((steps, *env.obs.shape), np.float32)
+    observations = np.empty((steps, *env.obs.shape), env.obs.dtype)
     outputs = np.empty((steps, copies, len(actor.biases[-1])), np.float32)
     rewards = np.empty((steps, copies), np.float32)
     starts, valid = (np.empty((steps, copies), np.bool_) for _ in range(2))
@@ -154,7 +154,7 @@ def join(rollouts: Sequence[Rollout]) -> Rollout:
 def _cut_off(found: list[tuple[int, npt.NDArray[np.intp], Floats32]], like: Floats32) -> CutOff:
     if not found:
         none = np.zeros(0, np.intp)
-        return CutOff(none, none, np.zeros((0, *like.shape[1:]), np.float32))
+        return CutOff(none, none, np.zeros((0, *like.shape[1:]), like.dtype))
     return CutOff(
         np.concatenate([np.full(len(slots), row, np.intp) for row, slots, _ in found]),
         np.concatenate([slots for _, slots, _ in found]),

@@ -27,6 +27,7 @@ from gazelle.envs.dict_rows import DictRows
 from gazelle.errors import TaskError
 from gazelle.training.episodes import OUTCOMES, Episodes
 from gazelle.training.goal_reward import GoalReward, GoalRewards
+from gazelle.training.picture_layers import observation_dtype
 
 SCENARIO = "scenario"
 """In the info of an episode's first moment: numbers that set it apart from others."""
@@ -84,6 +85,7 @@ class Stepper:
         goal_reward: GoalReward | None = None,
     ) -> None:
         self.observation_space, self.rows = _learnable(env.single_observation_space)
+        self._dtype = observation_dtype(self.observation_space)
         self.env = env
         self.num_envs = env.num_envs
         self.mode = AutoresetMode(env.metadata.get("autoreset_mode", AutoresetMode.NEXT_STEP))
@@ -201,7 +203,7 @@ class Stepper:
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Continue from a state that `get_state` returned."""
-        self.obs = np.array(state["obs"], dtype=np.float32)
+        self.obs = np.array(state["obs"], dtype=self._dtype)
         self._resetting = np.array(state["resetting"], dtype=np.bool_)
         self._returns = np.array(state["returns"], dtype=np.float64)
         self._lengths = np.array(state["lengths"], dtype=np.int64)
@@ -228,11 +230,11 @@ class Stepper:
             return self.rows.join(parts), info.get("final_info", info)
         if last.dtype == np.object_:
             last = np.stack(list(last))
-        return np.asarray(last, dtype=np.float32), info.get("final_info", info)
+        return np.asarray(last, dtype=self._dtype), info.get("final_info", info)
 
     def _array(self, obs: Any) -> Floats32:
         """Observations of all copies as an array of its own, shape (N, ...)."""
-        return np.array(obs, np.float32) if self.rows is None else self.rows.join(obs)
+        return np.array(obs, self._dtype) if self.rows is None else self.rows.join(obs)
 
     def _close_episodes(
         self, slots: npt.NDArray[np.intp], info: dict[str, Any], truncated: Bools

@@ -10,11 +10,12 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 21
+    assert len(task_ids()) == 22
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
             "TurtleBot3World": 500,
+            "TurtleBot3Camera": 120,
             "TurtleBot3": 501,
             "AGVFleet": 500,
             "CartPole": 1000,

@@ -114,8 +114,10 @@ def test_all_networks_of_a_learner_scale_alike_and_so_does_its_numpy_actor(algo)
     env.close()
 
 
-# The bounds of the cart and pole are openai_ros', far from where it is.
-@pytest.mark.parametrize("task", [task for task in task_ids() if "CartPole" not in task])
+# The bounds of the cart and pole are openai_ros', far from where it is; pictures are not scaled so.
+@pytest.mark.parametrize(
+    "task", [task for task in task_ids() if "CartPole" not in task and "Camera" not in task]
+)
 def test_bounds_of_our_own_tasks_fit(task):
     env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", engine="planar")
     scale = ObservationScale(env.single_observation_space)

@@ -15,6 +15,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.copies import TaskCopies
 from gazelle.training.episodes import Episodes
 from gazelle.training.goal_replay import GoalReplay
+from gazelle.training.picture_layers import observation_dtype
 from gazelle.training.rollout import Rollout, join
 from gazelle.training.workers.shards import ShardStep
 from gazelle.training.workers.team import Team
@@ -59,7 +60,8 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         self.contract = spaces.contract
         super().__init__(sum(sizes), spaces.observation, spaces.action)
         self.obs: Floats32 = np.zeros(
-            (self.num_envs, *(spaces.observation.shape or ())), np.float32
+            (self.num_envs, *(spaces.observation.shape or ())),
+            observation_dtype(spaces.observation),
         )
         self.starts: Bools = np.ones(self.num_envs, np.bool_)
 
@@ -157,7 +159,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
     def set_state(self, state: dict[str, Any]) -> None:
         """Go on from a state that `get_state` returned, whatever the number of workers then."""
         self.team.call("set_state", dict(enumerate(state["shards"])))
-        self.obs = np.array(state["obs"], np.float32)
+        self.obs = np.array(state["obs"], observation_dtype(self.observation_space))
         self.starts = np.array(state["starts"], np.bool_)
 
     def close(self) -> None:

@@ -1,0 +1,1 @@
+"""A TurtleBot3 finds a post of a colour by sight."""
