@@ -22,6 +22,7 @@ class Material:
         script: Name of a material script such as ``Gazebo/Grey``, whose colours the
             readers have already put into the fields above where they know it.
         script_uris: Where the file says the script is; empty for Gazebo's own.
+        script_places: The files and folders behind ``script_uris`` that are there.
         texture: Image file of the diffuse texture, or None.
         extras: What has no effect here, kept as the file has it: shaders, other maps, ...
         urdf_color: The colour that a URDF's own ``<material>`` gives, which a script hides.
@@ -33,6 +34,7 @@ class Material:
     emissive: Color | None = None
     script: str | None = None
     script_uris: tuple[str, ...] = ()
+    script_places: tuple[Path, ...] = field(default=(), compare=False)
     texture: Path | None = None
     extras: tuple[Parameters, ...] = field(default=(), hash=False)
     urdf_color: Color | None = field(default=None, compare=False)

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
-from gazelle.formats import collada, stl, wavefront
-from gazelle.formats.mesh_looks import PLAIN, MeshLook
+from gazelle.formats import collada, stl, wavefront, wavefront_looks
+from gazelle.formats.mesh_looks import PLAIN, MeshLook, look_of_trimesh
 
 MAX_BYTES = 512 * 2**20
 CACHED = 256
@@ -79,6 +79,8 @@ def load_mesh_parts(mesh: Mesh) -> tuple[MeshPart, ...]:
         FormatError: As ``load_mesh``.
     """
     parts = _parts_of(mesh)
+    if mesh.path is not None and mesh.path.suffix.lower() == ".obj":
+        parts = [MeshPart(*piece) for piece in wavefront_looks.painted(mesh.path, parts)]
     vertices = _placed(_joined(parts), mesh).vertices
     turned = slice(None, None, -1) if np.prod(mesh.scale) < 0.0 else slice(None)
     placed, begin = [], 0
@@ -213,8 +215,13 @@ def _parse_with_trimesh(data: bytes, kind: str) -> list[MeshPart]:
         )
     scene = trimesh.load_scene(io.BytesIO(data), file_type=kind, process=False)
     return [
-        MeshPart(name, np.asarray(piece.vertices, np.float64), np.asarray(piece.faces, np.int32))
-        for name, piece in ((m.metadata.get("name", ""), m) for m in scene.dump())
+        MeshPart(
+            piece.metadata.get("name", ""),
+            np.asarray(piece.vertices, np.float64),
+            np.asarray(piece.faces, np.int32),
+            look_of_trimesh(piece),
+        )
+        for piece in scene.dump()
         if hasattr(piece, "faces")
     ]
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from gazelle.array_types import Floats
+import numpy as np
+
+from gazelle.array_types import Bytes, Floats
 
 Rgb = tuple[float, float, float]
 
@@ -17,6 +20,9 @@ class MeshLook:
     Attributes:
         color: Red, green and blue, 0 to 1; None if the file does not say.
         texture: The picture file that it names; empty for none.
+        pixels: The picture, where it is inside the mesh file: bytes of shape (height, width, 3), top
+            row first.
+        alpha: 0 for what cannot be seen to 1.
         uv: Where in the picture the corners of each triangle are, to the right and up, 0 to 1 and
             again beyond, shape (m, 3, 2); None for nowhere.
     """
@@ -24,6 +30,8 @@ class MeshLook:
     color: Rgb | None = None
     texture: str = ""
     uv: Floats | None = None
+    pixels: Bytes | None = None
+    alpha: float = 1.0
 
 
 PLAIN = MeshLook()
@@ -56,3 +64,38 @@ def texture_file(mesh: Path, name: str) -> Path | None:
         if found.is_file() and found.is_relative_to(model):
             return found
     return None
+
+
+def look_of_trimesh(mesh: Any) -> MeshLook:
+    """The look of what trimesh read: glTF's and PLY's colours, and pictures inside the file."""
+    visual: Any = getattr(mesh, "visual", None)
+    kind = getattr(visual, "kind", None)
+    if kind in {"vertex", "face"}:  # one colour is shown: their mean
+        red, green, blue, alpha = (visual.face_colors.mean(axis=0) / 255.0).tolist()
+        return MeshLook(color=(red, green, blue), alpha=alpha)
+    material = getattr(visual, "material", None)
+    if material is None:
+        return PLAIN
+    red, green, blue, alpha = _factor(getattr(material, "baseColorFactor", None), material)
+    picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+    uv = getattr(visual, "uv", None)
+    pixels: Bytes | None = None
+    if picture is not None and uv is not None:
+        tinted = np.asarray(picture.convert("RGB"), np.float64) * (red, green, blue)
+        pixels = np.clip(np.rint(tinted), 0.0, 255.0).astype(np.uint8)
+    if getattr(material, "alphaMode", None) != "BLEND":
+        alpha = 1.0  # glTF: the alpha of what is not blended says nothing
+    places = None if pixels is None else np.asarray(uv, np.float64)[np.asarray(mesh.faces)]
+    return MeshLook((red, green, blue), uv=places, pixels=pixels, alpha=alpha)
+
+
+def _factor(factor: Any, material: Any) -> tuple[float, float, float, float]:
+    """Red, green, blue and alpha, 0 to 1, of glTF's base colour or an older material's."""
+    given = factor if factor is not None else getattr(material, "diffuse", None)
+    if given is None:
+        return (1.0, 1.0, 1.0, 1.0)
+    values = np.asarray(given, np.float64).ravel()
+    if np.asarray(given).dtype.kind in "iu":
+        values = values / 255.0
+    red, green, blue, alpha = np.clip(np.append(values, 1.0)[:4], 0.0, 1.0).tolist()
+    return (red, green, blue, alpha)

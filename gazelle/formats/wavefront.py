@@ -1,4 +1,4 @@
-"""Wavefront OBJ files: positions and faces; materials do not matter here, and are not opened.
+"""Wavefront OBJ files: positions and faces; materials are for who draws them (`wavefront_looks`).
 
 Not by trimesh: ``docs/decisions/009-own-stl-and-obj.md``.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ def parse(data: bytes) -> list[Piece]:
     vertices: list[tuple[float, float, float]] = []
     groups: dict[str, list[tuple[int, int, int]]] = {}
     faces = groups.setdefault("", [])
-    for number, line in _lines(data):
+    for number, line in numbered_lines(data):
         words = line.split()
         if not words:
             continue
@@ -46,10 +47,10 @@ def parse(data: bytes) -> list[Piece]:
     pieces = [(name, np.array(found)) for name, found in groups.items() if found]
     if any(found.max() > len(positions) for _, found in pieces):
         raise _beyond(data, len(positions))
-    return [(name, *_used(positions, found - 1)) for name, found in pieces]
+    return [(name, *used_only(positions, found - 1)) for name, found in pieces]
 
 
-def _lines(data: bytes) -> Iterator[tuple[int, str]]:
+def numbered_lines(data: bytes) -> Iterator[tuple[int, str]]:
     """Lines with their numbers; those that end with a backslash go on, but comments do not."""
     lines = enumerate(data.decode("utf-8", errors="replace").splitlines(), start=1)
     if b"\\" not in data:
@@ -76,7 +77,7 @@ def _beyond(data: bytes, count: int) -> FormatError:
     """The first face that names more than the ``count`` vertices there are."""
     number, line = next(
         (number, line)
-        for number, line in _lines(data)
+        for number, line in numbered_lines(data)
         if (words := line.split())[:1] == ["f"]
         and max(_corners(line, words, count), default=0) > count
     )
@@ -85,9 +86,7 @@ def _beyond(data: bytes, count: int) -> FormatError:
 
 def _corners(line: str, words: list[str], count: int) -> list[int]:
     """Indices from 1 of a face with ``7``, ``7/1``, ``7/1/2`` or ``-1``, the last of ``count``."""
-    if "#" in line:
-        words = line.partition("#")[0].split()
-    corners = [int(word.split("/", 1)[0]) for word in words[1:]]
+    corners = [int(word.split("/", 1)[0]) for word in corner_words(line, words)]
     if corners and min(corners) < 1:
         if 0 in corners or -min(corners) > count:
             raise ValueError(line)
@@ -95,8 +94,13 @@ def _corners(line: str, words: list[str], count: int) -> list[int]:
     return corners
 
 
-def _used(
-    positions: NDArray[np.float64], faces: NDArray[np.int64]
+def corner_words(line: str, words: list[str]) -> list[str]:
+    """The corners of a face as they are written; a comment may follow them."""
+    return (line.partition("#")[0].split() if "#" in line else words)[1:]
+
+
+def used_only(
+    positions: NDArray[np.float64], faces: NDArray[np.integer[Any]]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Only the vertices that the faces name."""
     used, inverse = np.unique(faces, return_inverse=True)

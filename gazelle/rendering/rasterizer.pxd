@@ -7,6 +7,8 @@ cdef class DrawnShapes:
     cdef readonly int[:, ::1] faces
     cdef readonly long long[:, ::1] meshes, parts
     cdef readonly float[:, ::1] color, glow
+    cdef readonly float[::1] alpha
+    cdef readonly bint clear
     cdef readonly long long[:, ::1] textures
     cdef readonly unsigned char[:, ::1] texels
 
@@ -29,6 +31,9 @@ cdef class Rasterizer:
     cdef size_t inverse_at, owner_at
 
     cdef void draw(self, Py_ssize_t n) noexcept nogil
+    @cython.locals(r=Py_ssize_t, c=Py_ssize_t)
+    cdef void draw_clear(self, Py_ssize_t n) noexcept nogil
+    cdef void draw_parts(self, Py_ssize_t n, bint clear) noexcept nogil
     cdef void clear(self) noexcept nogil
     @cython.locals(dx=double, dy=double, dz=double, link=Py_ssize_t, world=Py_ssize_t, a=double,
                    b=double, c=double, x=double)

@@ -40,6 +40,7 @@ class DrawnShapes:
         local: Of each part in its link, rotation by rows and place [m], shape (p, 12).
         color: Red, green and blue of each part, 0 to 1, shape (p, 3).
         glow: What it shines itself, likewise.
+        alpha: Of each part, 1 for what hides all behind it, shape (p,).
         uv: Of the vertices, to the right and up in a picture, shape (n, 2).
         textures: As ``columns.FIRST_TEXEL`` and what follows say, shape (t, TEXTURE).
         texels: Red, green and blue of the pixels of all textures, bottom row first, shape (x, 3).
@@ -56,6 +57,7 @@ class DrawnShapes:
         local: Floats,
         color: Floats32,
         glow: Floats32,
+        alpha: Floats32,
         uv: Floats,
         textures: Ints64,
         texels: Bytes,
@@ -63,6 +65,7 @@ class DrawnShapes:
         self.vertices, self.normals, self.faces = vertices, normals, faces
         self.meshes, self.spheres = meshes, spheres
         self.parts, self.local, self.color, self.glow = parts, local, color, glow
+        self.alpha, self.clear = alpha, bool((alpha < 1.0).any())
         self.uv, self.textures, self.texels = uv, textures, texels
 
 
@@ -116,9 +119,23 @@ class Rasterizer:
         )
 
     def draw(self, n: int) -> None:
-        """Draw all that camera n sees."""
+        """Draw all that camera n sees, but for what lets see through."""
         self.clear()
+        self.draw_parts(n, False)
+
+    def draw_clear(self, n: int) -> None:
+        """Draw what lets see through and is before all else, after ``draw``; of that the nearest."""
+        self.count = 0
+        for r in range(self.height):
+            for c in range(self.width):
+                self.owner[r, c] = -1
+        self.draw_parts(n, True)
+
+    def draw_parts(self, n: int, clear: bool) -> None:  # noqa: FBT001
+        """Draw the parts that let see through, or those that do not."""
         for p in range(self.shapes.parts.shape[0]):
+            if (self.shapes.alpha[p] < 1.0) != clear:
+                continue
             self.place(n, p)
             if self.is_in_view(p):
                 self.project(p)

@@ -15,7 +15,7 @@ cdef class Shader:
     cdef float[:, ::1] planes
     cdef unsigned char[:, ::1] flat
     cdef double[:, ::1] corners, bends, shares
-    cdef double[::1] light, normal, base
+    cdef double[::1] light, normal, base, behind
     cdef Py_ssize_t slots
 
     cdef void draw_one(self, Py_ssize_t n) noexcept nogil
@@ -24,6 +24,11 @@ cdef class Shader:
         red=cython.uchar, green=cython.uchar, blue=cython.uchar, constant=cython.bint,
         r=int, c=int)
     cdef void put_color(self, Py_ssize_t n) noexcept nogil
+    @cython.locals(r=int, c=int, t=int, k=int, s=Py_ssize_t, p=Py_ssize_t, alpha=double,
+                   mixed=double)
+    cdef void put_clear(self, Py_ssize_t n) noexcept nogil
+    cdef void shade(
+        self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t t) noexcept nogil
     @cython.locals(z=cython.float, value=cython.float, x=int)
     cdef void shade_smoothly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s) noexcept nogil
@@ -51,6 +56,6 @@ cdef class Shader:
     cdef void find_shares(self) noexcept nogil
     @cython.locals(depth=cython.float[:, :, ::1], inverse=cython.float[:, ::1], owner=int[:, ::1],
                    r=int, c=int)
-    cdef void put_depth(self, Py_ssize_t n) noexcept nogil
+    cdef void put_depth(self, Py_ssize_t n, bint over) noexcept nogil
     @cython.locals(t=int, r=int, c=int)
-    cdef void put_labels(self, Py_ssize_t n) noexcept nogil
+    cdef void put_labels(self, Py_ssize_t n, bint over) noexcept nogil

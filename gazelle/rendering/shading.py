@@ -62,6 +62,7 @@ class Shader:
         self.corners, self.bends = np.empty((3, 3)), np.zeros((3, 5))
         self.shares = np.empty((3, 3))
         self.light, self.normal, self.base = np.empty(3), np.empty(3), np.empty(3)
+        self.behind = np.empty(3)
 
     def draw(self, first: int, last: int) -> None:
         """Draw the pictures of cameras first to last, without the interpreter's lock."""
@@ -80,9 +81,17 @@ class Shader:
             self.lighting.look(self.seen.cameras, n)
             self.put_color(n)
         if self.measured:
-            self.put_depth(n)
+            self.put_depth(n, False)
         if self.labelled:
-            self.put_labels(n)
+            self.put_labels(n, False)
+        if self.seen.shapes.clear:
+            self.seen.draw_clear(n)
+            if self.colored:
+                self.put_clear(n)
+            if self.measured:
+                self.put_depth(n, True)
+            if self.labelled:
+                self.put_labels(n, True)
 
     def put_color(self, n: int) -> None:
         """Colour all pixels."""
@@ -104,12 +113,36 @@ class Shader:
                     red, green, blue = self.flat[s, 0], self.flat[s, 1], self.flat[s, 2]
                 if constant:
                     color[n, r, c, 0], color[n, r, c, 1], color[n, r, c, 2] = red, green, blue
-                elif self.lighting.local:
-                    self.shade_exactly(n, r, c, s, t)
-                elif self.seen.shapes.parts[self.seen.part_of[t], TEXTURE_OF_PART] >= 0:
-                    self.shade_picture(n, r, c, s, self.seen.part_of[t])
                 else:
-                    self.shade_smoothly(n, r, c, s)
+                    self.shade(n, r, c, s, t)
+
+    def put_clear(self, n: int) -> None:
+        """Mix what lets see through into what is behind it."""
+        self.slots = 1
+        for r in range(self.seen.height):
+            for c in range(self.seen.width):
+                t = self.seen.owner[r, c]
+                if t < 0:
+                    continue
+                s, p = self.prepare(t), self.seen.part_of[t]
+                for k in range(3):
+                    self.behind[k] = self.color[n, r, c, k]
+                    self.color[n, r, c, k] = self.flat[s, k]
+                if self.flat[s, 3] == 0:
+                    self.shade(n, r, c, s, t)
+                alpha = self.seen.shapes.alpha[p]
+                for k in range(3):
+                    mixed = alpha * self.color[n, r, c, k] + (1.0 - alpha) * self.behind[k]
+                    self.color[n, r, c, k] = cython.cast(cython.uchar, mixed + 0.5)
+
+    def shade(self, n: int, r: int, c: int, s: int, t: int) -> None:
+        """Colour a pixel of a triangle that does not look the same all over."""
+        if self.lighting.local:
+            self.shade_exactly(n, r, c, s, t)
+        elif self.seen.shapes.parts[self.seen.part_of[t], TEXTURE_OF_PART] >= 0:
+            self.shade_picture(n, r, c, s, self.seen.part_of[t])
+        else:
+            self.shade_smoothly(n, r, c, s)
 
     def shade_smoothly(self, n: int, r: int, c: int, s: int) -> None:
         """Colour a pixel by what lies between the corners of its triangle."""
@@ -307,18 +340,24 @@ class Shader:
             self.shares[i, 0], self.shares[i, 1] = x, y
             self.shares[i, 2] = z + x * (0.5 - self.seen.cx) + y * (0.5 - self.seen.cy)
 
-    def put_depth(self, n: int) -> None:
-        """Turn inverse depths into depths."""
+    def put_depth(self, n: int, over: bool) -> None:  # noqa: FBT001
+        """Turn inverse depths into depths; ``over`` leaves alone where nothing is."""
         depth, inverse, owner = self.depth, self.seen.inverse, self.seen.owner
         for r in range(self.seen.height):
             for c in range(self.seen.width):
-                depth[n, r, c] = 1.0 / inverse[r, c] if owner[r, c] >= 0 else NOTHING
+                if owner[r, c] >= 0:
+                    depth[n, r, c] = 1.0 / inverse[r, c]
+                elif not over:
+                    depth[n, r, c] = NOTHING
 
-    def put_labels(self, n: int) -> None:
-        """Say which labels are seen."""
+    def put_labels(self, n: int, over: bool) -> None:  # noqa: FBT001
+        """Say which labels are seen; ``over`` leaves alone where nothing is."""
         for r in range(self.seen.height):
             for c in range(self.seen.width):
                 t = self.seen.owner[r, c]
-                self.labels[n, r, c] = (
-                    -1 if t < 0 else self.seen.shapes.parts[self.seen.part_of[t], LABEL_OF_PART]
-                )
+                if t >= 0:
+                    self.labels[n, r, c] = self.seen.shapes.parts[
+                        self.seen.part_of[t], LABEL_OF_PART
+                    ]
+                elif not over:
+                    self.labels[n, r, c] = -1

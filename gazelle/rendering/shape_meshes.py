@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.array_types import Bytes
 from gazelle.description import (
     Box,
     Capsule,
@@ -35,12 +36,14 @@ class ShapePiece:
     Attributes:
         mesh: The triangles.
         color: Red, green and blue as the mesh file says; None if it does not.
-        texture: The picture on it; None for none.
+        texture: The picture on it: a file, or pixels of shape (height, width, 3); None for none.
+        alpha: 0 for what cannot be seen to 1.
     """
 
     mesh: t.TriangleMesh
     color: tuple[float, float, float] | None = None
-    texture: Path | None = None
+    texture: Path | Bytes | None = None
+    alpha: float = 1.0
 
 
 def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
@@ -57,9 +60,11 @@ def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
     pieces = []
     for part in load_mesh_parts(shape):
         look = part.look
-        texture = texture_file(shape.path, look.texture) if look.texture else None
+        texture: Path | Bytes | None = look.pixels
+        if look.texture:
+            texture = texture_file(shape.path, look.texture)
         mesh = t.creased(part.vertices, np.ascontiguousarray(part.faces), look.uv)
-        pieces.append(ShapePiece(mesh, look.color, texture))
+        pieces.append(ShapePiece(mesh, look.color, texture, look.alpha))
     return tuple(pieces)
 
 

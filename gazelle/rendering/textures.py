@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import warnings
 from pathlib import Path
 
@@ -25,7 +26,7 @@ class TextureTable:
     """
 
     def __init__(self) -> None:
-        self._numbers: dict[Path, int | None] = {}
+        self._numbers: dict[Path | bytes, int | None] = {}
         self._pixels: list[Bytes] = []
 
     @property
@@ -33,8 +34,19 @@ class TextureTable:
         """How many there are."""
         return len(self._pixels)
 
-    def number(self, path: Path) -> int | None:
-        """The number of a texture; None, with a warning, if it cannot be read."""
+    def number(self, picture: Path | Bytes) -> int | None:
+        """The number of a texture; None, with a warning, if it cannot be read.
+
+        Args:
+            picture: A file, or red, green and blue of shape (height, width, 3), top row first.
+        """
+        if isinstance(picture, np.ndarray):
+            key = hashlib.blake2b(picture.tobytes(), digest_size=16).digest()
+            if key not in self._numbers:
+                self._pixels.append(_ready(picture))
+                self._numbers[key] = len(self._pixels) - 1
+            return self._numbers[key]
+        path = picture
         if path not in self._numbers:
             try:
                 self._pixels.append(_read(path))
@@ -67,12 +79,17 @@ class TextureTable:
 
 def _read(path: Path) -> Bytes:
     """Red, green, blue, bottom row first, shape (height, width, 3)."""
-    from PIL import Image
-
     from gazelle.formats.picture import read_picture
 
     pixels = read_picture(path)
     color = pixels[..., :3] if pixels.shape[2] >= len("rgb") else np.repeat(pixels[..., :1], 3, 2)
+    return _ready(color)
+
+
+def _ready(color: Bytes) -> Bytes:
+    """A picture that is not too large, bottom row first."""
+    from PIL import Image
+
     size = max(color.shape[:2])
     if size > LARGEST:
         height, width = (max(1, side * LARGEST // size) for side in color.shape[:2])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,10 +12,9 @@ from gazelle.description import Geometry, Pose, Visual, World
 from gazelle.rendering import columns as c
 from gazelle.rendering.rasterizer import DrawnShapes
 from gazelle.rendering.shape_meshes import ShapePiece, pieces_of
+from gazelle.rendering.surface_looks import SurfaceLook, surface_look
 from gazelle.rendering.tessellation import TriangleMesh, joined
-from gazelle.rendering.textures import Rgb, TextureTable
-
-GREY = (0.7, 0.7, 0.7)
+from gazelle.rendering.textures import TextureTable
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,15 +103,18 @@ class _Gathered:
         self._textures = TextureTable()
         self._parts: list[tuple[int, int, int, int]] = []
         self._visuals: list[Visual] = []
-        self._colors: list[Rgb] = []
+        self._looks: list[SurfaceLook] = []
 
     def add(self, visual: Visual, link: int, label: int) -> None:
         """Add a visual: as many parts as its shape has looks."""
         for mesh, piece in self._pieces(visual.geometry):
-            color, texture = self._look(visual, piece)
-            self._parts.append((mesh, link, label, -1 if texture is None else texture))
+            look = surface_look(visual, piece)
+            number = None if look.texture is None else self._textures.number(look.texture)
+            if number is not None and piece.mesh.uv is None:  # it is nowhere in the picture
+                look, number = replace(look, color=self._textures.mean(number)), None
+            self._parts.append((mesh, link, label, -1 if number is None else number))
             self._visuals.append(visual)
-            self._colors.append(color)
+            self._looks.append(look)
 
     def drawn(self) -> DrawnShapes:
         """All as arrays."""
@@ -127,8 +129,9 @@ class _Gathered:
             np.array([_ball(mesh) for mesh in meshes]).reshape(-1, 4),
             np.array(self._parts, np.int64).reshape(-1, c.PART),
             np.array([_row(visual.pose) for visual in visuals]).reshape(-1, 12),
-            np.array(self._colors, np.float32).reshape(-1, 3),
-            np.array([_glow(visual) for visual in visuals], np.float32).reshape(-1, 3),
+            np.array([look.color for look in self._looks], np.float32).reshape(-1, 3),
+            np.array([look.glow for look in self._looks], np.float32).reshape(-1, 3),
+            np.array([look.alpha for look in self._looks], np.float32),
             np.zeros((count, 2)) if together.uv is None else np.ascontiguousarray(together.uv),
             self._textures.rows(),
             self._textures.texels(),
@@ -141,19 +144,6 @@ class _Gathered:
             self._meshes += [piece.mesh for piece in pieces]
             self._known[shape] = tuple(enumerate(pieces, first))
         return self._known[shape]
-
-    def _look(self, visual: Visual, piece: ShapePiece) -> tuple[Rgb, int | None]:
-        """Colour and texture: the visual's material goes before what is in the mesh file."""
-        material = visual.material
-        if material is None:
-            color, path = piece.color or GREY, piece.texture
-        else:
-            chosen, path = material.diffuse or material.ambient, material.texture
-            color = GREY if chosen is None else chosen[:3]
-        number = None if path is None else self._textures.number(path)
-        if number is not None and piece.mesh.uv is None:
-            return self._textures.mean(number), None  # it is nowhere in the picture
-        return color, number
 
 
 def _table(meshes: list[TriangleMesh]) -> Ints64:
@@ -182,9 +172,3 @@ def _ball(mesh: TriangleMesh) -> tuple[float, float, float, float]:
     radius = float(np.linalg.norm(mesh.vertices - middle, axis=1).max())
     x, y, z = middle.tolist()
     return (x, y, z, radius)
-
-
-def _glow(visual: Visual) -> tuple[float, float, float]:
-    material = visual.material
-    glow = None if material is None else material.emissive
-    return (0.0, 0.0, 0.0) if glow is None else glow[:3]

@@ -16,7 +16,7 @@ from gazelle.array_types import Floats
 from gazelle.description import Light, Plane, Pose, Visual, World
 from gazelle.engines.tracer import RayHits, Tracer
 from gazelle.rendering.lamps import SKY_HORIZON, SKY_TOP, SUN
-from gazelle.rendering.visible import GREY
+from gazelle.rendering.surface_looks import GREY
 
 _LINE = 0.012  # half width of the lines of the ground grid [m]
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well

@@ -44,6 +44,7 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
         emissive=_color(node, "emissive"),
         script=name or None,
         script_uris=uris,
+        script_places=_places(uris, node, reading),
         texture=_texture(node, reading),
         extras=leftover(node, _PATTERN).children,
     )
@@ -58,6 +59,12 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
 def _color(node: Parameters, tag: str) -> Color | None:
     child = node.find(tag)
     return values.parse_color(child, child.text) if child is not None and child.text else None
+
+
+def _places(uris: tuple[str, ...], node: Parameters, reading: Reading) -> tuple[Path, ...]:
+    """What of a script's files is there; as of pictures, none is missed."""
+    found = (reading.find(uri, node, required=False) for uri in uris)
+    return tuple(path for path in found if path is not None)
 
 
 def _texture(node: Parameters, reading: Reading) -> Path | None:

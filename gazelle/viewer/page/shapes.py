@@ -47,6 +47,7 @@ class _Tables:
     local: Floats
     color: Floats32
     glow: Floats32
+    alpha: Floats32
     textures: Ints64
     texels: Bytes
 
@@ -176,8 +177,7 @@ class ShapeBatches:
             dressed = textured_mesh(vertices, faces, uv, _picture(shapes, texture))
             return scene.add_batched_meshes_trimesh(name, dressed, way, at, lod="off")
         colors = np.clip(shapes.color[parts] + shapes.glow[parts], 0.0, 1.0)
-        visuals = [self._seen.parts[label].visual for label in self._labels[parts].tolist()]
-        clear = np.array([1.0 - visual.transparency for visual in visuals]) * self._opacity
+        clear = shapes.alpha[parts].astype(np.float64) * self._opacity
         see_through = bool((clear < 1.0).any())
         return scene.add_batched_meshes_simple(
             name,

@@ -29,7 +29,7 @@ def test_spaces_hold_what_is_returned(task):
     env.close()
 
 
-@pytest.mark.parametrize("task", [task for task in task_ids() if "TurtleBot3" in task])
+@pytest.mark.parametrize("task", [task for task in task_ids() if "TurtleBot3Stage" in task])
 def test_world_0_is_the_single_environment_bit_for_bit(task):
     many, one = make(5, task, max_episode_steps=6), gym.make(task, max_episode_steps=6)
     many.action_space.seed(4)
