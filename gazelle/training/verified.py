@@ -25,6 +25,11 @@ class Verified:
 
 VERIFIED: dict[str, Verified] = {
     "CartPoleStayUp": Verified(success={"mujoco": SuccessRate(256, 256)}, seeds=2, seconds=22),
+    "TurtleBot3CameraWorld": Verified(
+        success={"planar": SuccessRate(480, 512), "mujoco": SuccessRate(236, 256)},
+        seeds=2,
+        seconds=70,
+    ),
     "TurtleBot3Stage1": Verified(
         success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
         seeds=2,
