@@ -21,11 +21,26 @@ from gazelle.planning.constraints import (
     goal_of_pose,
 )
 from gazelle.planning.execution import Execution, ExecutionReport
+from gazelle.planning.grasps import (
+    Grasp,
+    GripperTranslation,
+    ParallelHand,
+    PlaceLocation,
+    box_grasps,
+)
+from gazelle.planning.gripper import GripperReport, RobotGripper
 from gazelle.planning.group import Group, GroupPlan
 from gazelle.planning.inverse import IkSolutions, InverseKinematics
 from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.manipulation import Manipulation
+from gazelle.planning.manipulation_plan import (
+    ContactRules,
+    ManipulationPlan,
+    ManipulationStage,
+)
 from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
+from gazelle.planning.pick_place import PickPlacePlanner
 from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene, SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
@@ -38,8 +53,12 @@ __all__ = [
     "AttachedObject",
     "CartesianPath",
     "ConstraintSet",
+    "ContactRules",
     "Execution",
     "ExecutionReport",
+    "Grasp",
+    "GripperReport",
+    "GripperTranslation",
     "Group",
     "GroupPlan",
     "IkSolutions",
@@ -49,20 +68,28 @@ __all__ = [
     "JointModelGroup",
     "JumpLimits",
     "LinkFrame",
+    "Manipulation",
+    "ManipulationPlan",
+    "ManipulationStage",
     "MotionPlan",
     "MotionPlanner",
     "NoPlanError",
     "OrientationConstraint",
+    "ParallelHand",
     "PathLimits",
+    "PickPlacePlanner",
+    "PlaceLocation",
     "PlanOptions",
     "PlanOutcome",
     "PlanningScene",
     "PositionConstraint",
+    "RobotGripper",
     "RobotModel",
     "SceneContact",
     "SceneObject",
     "TimedPath",
     "Variable",
+    "box_grasps",
     "goal_of_pose",
     "parameterize",
     "voxel_boxes",

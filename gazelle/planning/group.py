@@ -17,8 +17,13 @@ from gazelle.planning.cartesian_path import JumpLimits
 from gazelle.planning.constraints import ConstraintSet
 from gazelle.planning.execution import Execution, ExecutionReport, begin_execution
 from gazelle.planning.goal_states import Goal
+from gazelle.planning.grasps import Grasp, PlaceLocation
+from gazelle.planning.gripper import RobotGripper
 from gazelle.planning.joint_group import JointModelGroup
+from gazelle.planning.manipulation import Manipulation
+from gazelle.planning.manipulation_plan import ContactRules
 from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
+from gazelle.planning.pick_place import PickPlacePlanner
 from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene
 from gazelle.planning.scene_objects import SceneObject
@@ -251,6 +256,53 @@ class Group:
     def go(self, goal: Goal) -> ExecutionReport:
         """Plan to a goal and go there: ``plan(goal).run()``."""
         return self.plan(goal).run()
+
+    def pick(
+        self,
+        name: str,
+        grasps: Sequence[Grasp],
+        *,
+        effector: str = "",
+        gripper: RobotGripper | None = None,
+        rules: ContactRules | None = None,
+    ) -> Manipulation:
+        """A plan to take a thing of the scene with the gripper; ``run`` it.
+
+        Args:
+            name: Of the thing, as ``scene`` has it.
+            grasps: Of which one is taken, better ones first (``box_grasps``).
+            effector: Name of the end effector in the SRDF; the group's one if empty.
+            gripper: That closes; the robot's one if None.
+            rules: What may touch.
+
+        Raises:
+            NoPlanError: No grasp can be done, and why.
+            PlanningError: There is no such end effector, or no gripper.
+        """
+        state = self.state()
+        planner = PickPlacePlanner(self.scene, self.model, effector, self.options)
+        plan = planner.pick(name, grasps, start=state, rules=rules)
+        return Manipulation(plan, self, gripper or RobotGripper(self.robot, world=self.world))
+
+    def place(
+        self,
+        name: str,
+        places: Sequence[PlaceLocation],
+        *,
+        effector: str = "",
+        gripper: RobotGripper | None = None,
+        rules: ContactRules | None = None,
+    ) -> Manipulation:
+        """A plan to put down a thing that is held; see ``pick``.
+
+        Raises:
+            NoPlanError: It can be put down at none of the places, and why.
+            PlanningError: There is no such end effector, or no gripper.
+        """
+        state = self.state()
+        planner = PickPlacePlanner(self.scene, self.model, effector, self.options)
+        plan = planner.place(name, places, start=state, rules=rules)
+        return Manipulation(plan, self, gripper or RobotGripper(self.robot, world=self.world))
 
     def check_start(self, plan: MotionPlan) -> None:
         """See that the robot is where a plan begins.

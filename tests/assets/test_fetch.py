@@ -236,6 +236,13 @@ def test_fingers_go_to_an_opening_alike(fetch):
         assert left == pytest.approx(right, abs=1e-4)
 
 
+def test_its_topics_have_the_robots_names(fetch):
+    topics = {port.topic for port in fetch.outputs.values()}
+    assert {"/odom", "/tf", "/base_scan", "/joint_states"} <= topics
+    assert {"/head_camera/rgb/image_raw", "/head_camera/depth_registered/points"} <= topics
+    assert fetch.inputs["cmd_vel"].topic == "/cmd_vel"
+
+
 def test_it_drives_and_knows_how_far(fetch):
     fetch.inputs["cmd_vel"].send(0.5, 0.0)
     fetch.simulation.run(3.0)

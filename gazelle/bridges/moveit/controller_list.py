@@ -16,6 +16,12 @@ TRAJECTORY, GRIPPER = "FollowJointTrajectory", "GripperCommand"
 FAKE = ("interpolate", "via points", "last point")
 """Types of MoveIt's fake controllers."""
 _TIMEOUT_S = 5.0
+_ACTIONS = {
+    "JointTrajectoryController": ("follow_joint_trajectory", TRAJECTORY),
+    "GripperActionController": ("gripper_cmd", GRIPPER),
+    "ParallelGripperController": ("gripper_action", GRIPPER),
+}
+"""Of types of controllers: their action, and what its goals are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +34,8 @@ class ActionController:
         kind: ``FollowJointTrajectory``, ``GripperCommand``, or one of ``FAKE``, which has no action.
         joints: That it moves.
         effort: Greatest one of a gripper, where a trajectory says none.
+        told: Joints of a gripper whose positions, added up, are its goal: one, or both of a parallel one.
+        may_fail: Whether a gripper that ends anywhere has done its work (``allow_failure``).
     """
 
     name: str
@@ -35,13 +43,16 @@ class ActionController:
     kind: str
     joints: tuple[str, ...]
     effort: float = 0.0
+    told: tuple[str, ...] = ()
+    may_fail: bool = False
 
 
 def controllers_of(node: Node) -> dict[str, ActionController]:
     """Controllers by name.
 
     Those of the node's own ``controller_list``, as MoveIt's simple controller manager has them; without
-    one, trajectory controllers that the ``controller_manager`` of the namespace says are running.
+    one, controllers of trajectories and grippers that the ``controller_manager`` of the namespace says
+    are running.
 
     Raises:
         PlanningError: The list is malformed.
@@ -76,7 +87,13 @@ def _entry(given: Mapping[str, Any]) -> ActionController:
     space = str(given.get("action_ns", ""))
     action = f"{name}/{space}" if space else name
     effort = float(given.get("max_effort", 0.0))
-    return ActionController(name, action, kind, tuple(map(str, joints)), effort)
+    names = tuple(map(str, joints))
+    told = names if given.get("parallel") else names[:1]
+    if given.get("command_joint") is not None:
+        told = (str(given["command_joint"]),)
+    return ActionController(
+        name, action, kind, names, effort, told, bool(given.get("allow_failure"))
+    )
 
 
 def _running(node: Node) -> dict[str, ActionController]:
@@ -89,9 +106,14 @@ def _running(node: Node) -> dict[str, ActionController]:
         return {}
     found = {}
     for each in answer.controller:
-        if each.state == "running" and each.type.endswith("JointTrajectoryController"):
-            claims = [joint for claim in each.claimed_resources for joint in claim.resources]
-            joints = tuple(dict.fromkeys(claims))
-            action = f"{each.name}/follow_joint_trajectory"
-            found[each.name] = ActionController(each.name, action, TRAJECTORY, joints)
+        kind = next((end for end in _ACTIONS if each.type.endswith(end)), None)
+        if each.state != "running" or kind is None:
+            continue
+        claims = [joint for claim in each.claimed_resources for joint in claim.resources]
+        joints = tuple(dict.fromkeys(claims))
+        action, goal = _ACTIONS[kind]
+        told = joints if goal == GRIPPER else ()
+        found[each.name] = ActionController(
+            each.name, f"{each.name}/{action}", goal, joints, told=told
+        )
     return found

@@ -1,4 +1,4 @@
-"""The actions ``move_group`` and ``execute_trajectory``, and those that only refuse."""
+"""The actions ``move_group`` and ``execute_trajectory``."""
 
 from __future__ import annotations
 
@@ -125,28 +125,6 @@ class ExecuteTrajectoryAction:
     def _say(self, state: str) -> None:
         feedback = load_message("moveit_msgs/ExecuteTrajectoryFeedback")(state=state)
         self._server.publish_feedback(feedback)
-
-
-class RefusingAction:
-    """An action of MoveIt's that is only there because its clients wait for it: every goal fails.
-
-    Args:
-        context: On its graph.
-        name: Of the action.
-        kind: Its type, without ``Action``.
-    """
-
-    def __init__(self, context: PlanningContext, name: str, kind: str) -> None:
-        self._name, self._kind = name, kind
-        action = load_message(f"moveit_msgs/{kind}Action")
-        self._server = SimpleActionServer(context.node, name, action, self._work)
-
-    def _work(self, _goal: Any) -> None:
-        result: Any = load_message(f"moveit_msgs/{self._kind}Result")()
-        result.error_code.val = int(PlanOutcome.FAILURE)
-        text = f"'{self._name}' is not planned for; plan the motions one by one"
-        LOG.error("%s", text)
-        finish(self._server, result, text)
 
 
 def outcome_of(error: PlanningError) -> int:

@@ -8,8 +8,8 @@ from gazelle.bridges.moveit.kinematics_services import KinematicsServices
 from gazelle.bridges.moveit.motion_actions import (
     ExecuteTrajectoryAction,
     MoveGroupAction,
-    RefusingAction,
 )
+from gazelle.bridges.moveit.pick_place_actions import PickupAction, PlaceAction
 from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
 from gazelle.bridges.moveit.scene_services import SceneServices
@@ -44,7 +44,5 @@ class MoveGroupNode:
         self.executor = TrajectoryExecutor(self.context)
         self.moving = MoveGroupAction(self.context, self.planning, self.scene, self.executor)
         self.following = ExecuteTrajectoryAction(self.context, self.executor)
-        self.refusing = (
-            RefusingAction(self.context, "pickup", "Pickup"),
-            RefusingAction(self.context, "place", "Place"),
-        )
+        shared = (self.context, self.planning, self.scene, self.executor)
+        self.picking, self.placing = PickupAction(*shared), PlaceAction(*shared)

@@ -45,13 +45,13 @@ class SceneServices:
         node.serve(
             "apply_planning_scene",
             load_service("moveit_msgs/ApplyPlanningScene"),
-            lambda request: {"success": self._change(lambda: self._take(request.scene))},
+            lambda request: {"success": self.change(lambda: self._take(request.scene))},
         )
-        self._change(lambda: True)
+        self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
         def hear(message: Any) -> None:
-            self._change(lambda: take(message))
+            self.change(lambda: take(message))
 
         return hear
 
@@ -60,7 +60,7 @@ class SceneServices:
             self._context.current()
             return {"scene": scene_message(self._scene, request.components.components or _ALL)}
 
-    def _change(self, act: Callable[[], bool]) -> bool:
+    def change(self, act: Callable[[], bool]) -> bool:
         """Change the scene and show it; whether all could be done."""
         with self._context.lock:
             self._context.current()

@@ -28,6 +28,8 @@ from gazelle.ros.messages import load_message
 
 _LOOK_S = 0.01
 _SERVER_S = 5.0
+_GRIPPER_S = 5.0
+"""How much longer grippers may take: what plans say of them has no times."""
 
 
 class TrajectoryExecutor:
@@ -63,12 +65,13 @@ class TrajectoryExecutor:
         if message.data == "stop":
             self._stopped.set()
 
-    def execute(self, message: Any, stop: Callable[[], bool]) -> None:
+    def execute(self, message: Any, stop: Callable[[], bool], *, may_stall: bool = False) -> None:
         """Follow a ``moveit_msgs/RobotTrajectory`` to its end.
 
         Args:
             message: The trajectory.
             stop: Asked all the time whether to end before.
+            may_stall: Whether a gripper that something keeps from its goal has done its work.
 
         Raises:
             NoPlanError: It did not get there, and why.
@@ -80,11 +83,12 @@ class TrajectoryExecutor:
             self._stopped.clear()
             self._context.refresh()
             try:
-                self._check_start(trajectory)
                 known = controllers_of(self._context.node)
                 joints = {name: each.joints for name, each in known.items()}
                 chosen = choose_controllers(joints, tuple(trajectory.joint_names))
                 kinds = [known[name].kind for name in chosen]
+                if {*kinds} != {GRIPPER}:  # of those only the end counts
+                    self._check_start(trajectory)
                 if self._fake is not None and kinds[0] in FAKE:
                     self._fake.play(kinds[0], trajectory, lambda: stop() or self._stopped.is_set())
                     return
@@ -93,7 +97,9 @@ class TrajectoryExecutor:
                 raise
             except PlanningError as error:
                 raise _failed(error.message) from error
-            self._wait(clients, trajectory, stop)
+            lenient = [may_stall or known[name].may_fail for name in chosen]
+            spare = _GRIPPER_S if GRIPPER in kinds else 0.0
+            self._wait(clients, trajectory, stop, lenient, spare)
 
     def _check_start(self, trajectory: Any) -> None:
         """See that the robot is where the trajectory begins."""
@@ -172,15 +178,20 @@ class TrajectoryExecutor:
         return made
 
     def _wait(
-        self, clients: list[SimpleActionClient], trajectory: Any, stop: Callable[[], bool]
+        self,
+        clients: list[SimpleActionClient],
+        trajectory: Any,
+        stop: Callable[[], bool],
+        lenient: list[bool],
+        spare: float,
     ) -> None:
         """Wait until all are there; when one fails, or it takes too long, all are stopped."""
         node, pause = self._context.node, threading.Event()
         duration = trajectory.points[-1].time_from_start.to_nsec()
-        limit = node.clock.now() + int(duration * self._scaling + self._margin * 1e9)
+        limit = node.clock.now() + int(duration * self._scaling + (self._margin + spare) * 1e9)
+        pairs = list(zip(clients, lenient, strict=True))
         while True:
-            states = [client.get_state() for client in clients]
-            if all(state == GoalStatus.SUCCEEDED for state in states):
+            if all(_has_arrived(client, may_stall=stalled) for client, stalled in pairs):
                 return
             failure: NoPlanError | None = None
             if stop() or self._stopped.is_set() or node.closed:
@@ -188,7 +199,12 @@ class TrajectoryExecutor:
             elif node.clock.now() > limit:
                 failure = NoPlanError("the motion took too long", PlanOutcome.TIMED_OUT)
             else:
-                failure = next(filter(None, map(_failure_of, clients)), None)
+                left = [
+                    client
+                    for client, stalled in pairs
+                    if not _has_arrived(client, may_stall=stalled)
+                ]
+                failure = next(filter(None, map(_failure_of, left)), None)
             if failure is not None:
                 _cancel(clients)
                 raise failure
@@ -199,6 +215,14 @@ def _cancel(clients: list[SimpleActionClient]) -> None:
     for client in clients:
         with contextlib.suppress(NodeClosedError):
             client.cancel_goal()
+
+
+def _has_arrived(client: SimpleActionClient, *, may_stall: bool) -> bool:
+    """Whether a goal is reached, or as near as it can be where that will do."""
+    state = client.get_state()
+    if may_stall and state == GoalStatus.ABORTED:
+        return bool(getattr(client.get_result(), "stalled", False))
+    return bool(state == GoalStatus.SUCCEEDED)
 
 
 def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
@@ -214,13 +238,14 @@ def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
 
 
 def _fill_gripper(command: Any, controller: ActionController, trajectory: Any) -> None:
-    """Where a gripper goes: the last position of its first joint."""
-    last = trajectory.points[-1]
-    number = next(
-        index for index, name in enumerate(trajectory.joint_names) if name in controller.joints
-    )
-    command.position = last.positions[number]
-    command.max_effort = last.effort[number] if len(last.effort) > number else controller.effort
+    """Where a gripper goes: the last positions of the joints that it is told, added up."""
+    last, named = trajectory.points[-1], list(trajectory.joint_names)
+    told = [named.index(name) for name in controller.told if name in named] or [
+        next(index for index, name in enumerate(named) if name in controller.joints)
+    ]
+    command.position = sum(last.positions[index] for index in told)
+    efforts = [last.effort[index] for index in told if len(last.effort) > index]
+    command.max_effort = max(efforts, default=controller.effort)
 
 
 def _failed(text: str) -> NoPlanError:

@@ -256,15 +256,6 @@ def test_what_takes_too_long_is_stopped(robot):
     assert execute(robot, planned) == PlanOutcome.TIMED_OUT
 
 
-def test_pickup_and_place_are_there_and_refuse(robot):
-    for name, kind in (("pickup", "Pickup"), ("place", "Place")):
-        client = action(robot, name, kind)
-        client.send_goal(message(f"{kind}Goal"))
-        assert client.wait_for_result(60.0)
-        assert client.get_state() == GoalStatus.ABORTED
-        assert client.get_result().error_code.val == PlanOutcome.FAILURE
-
-
 def test_nothing_moves_that_may_not():
     with moveit_graph(controller_list=CONTROLLERS, allow_trajectory_execution=False) as client:
         made = Robot(client)

@@ -1,0 +1,221 @@
+"""The actions ``pickup`` and ``place``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.grasp_messages import GraspReader, stage_message
+from gazelle.bridges.moveit.motion_actions import finish, outcome_of
+from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
+from gazelle.bridges.moveit.planning_services import PlanningServices
+from gazelle.bridges.moveit.robot_states import state_message
+from gazelle.bridges.moveit.scene_services import SceneServices
+from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
+from gazelle.errors import PlanningError
+from gazelle.planning import (
+    ContactRules,
+    JointModelGroup,
+    ManipulationPlan,
+    ManipulationStage,
+    NoPlanError,
+    PickPlacePlanner,
+    PlanOptions,
+    PlanOutcome,
+)
+from gazelle.ros.actions import SimpleActionServer
+from gazelle.ros.messages import load_message
+
+_TIME = 5.0
+"""To plan, where a goal gives none [s]."""
+
+
+class ManipulationAction:
+    """What ``pickup`` and ``place`` have in common: plan, then do one stage after another.
+
+    Args:
+        context: The robot and its scene.
+        planning: Knows the planners' settings.
+        scene: Shown when a thing is taken or left.
+        executor: Moves.
+
+    Attributes:
+        name: Of the action.
+        kind: Its type, without ``Action``.
+    """
+
+    name = ""
+    kind = ""
+
+    def __init__(
+        self,
+        context: PlanningContext,
+        planning: PlanningServices,
+        scene: SceneServices,
+        executor: TrajectoryExecutor,
+    ) -> None:
+        self.context, self._planning, self._scene, self._executor = (
+            context,
+            planning,
+            scene,
+            executor,
+        )
+        action = load_message(f"moveit_msgs/{self.kind}Action")
+        self._server = SimpleActionServer(context.node, self.name, action, self._work)
+
+    def make(
+        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+    ) -> ManipulationPlan:
+        """A plan for a goal; its start is the scene's state."""
+        raise NotImplementedError
+
+    def choose(self, goal: Any, result: Any, number: int) -> None:
+        """Say in the result which grasp or place was taken."""
+        raise NotImplementedError
+
+    def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
+        """The group, and the name of the end effector or nothing."""
+        return self.context.group(goal.group_name), ""
+
+    # -- the action ----------------------------------------------------------------------
+
+    def _work(self, goal: Any) -> None:
+        result: Any = load_message(f"moveit_msgs/{self.kind}Result")()
+        self._say("PLANNING")
+        only, text = goal.planning_options.plan_only or not self._executor.allowed, ""
+        try:
+            plan = self._plan(goal, result)
+            if self._server.is_preempt_requested():
+                raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
+            if not only:
+                self._say("MONITOR")
+                self._do(plan, result.trajectory_stages)
+            result.error_code.val = int(PlanOutcome.SUCCESS)
+        except PlanningError as error:
+            LOG.error("%s: %s", self.name, error)
+            text, result.error_code.val = error.message, outcome_of(error)
+        self._say("IDLE")
+        finish(self._server, result, text)
+
+    def _plan(self, goal: Any, result: Any) -> ManipulationPlan:
+        context = self.context
+        group, effector = self.group_of(goal)
+        with context.lock:
+            state = context.current()
+            rules = ContactRules(
+                goal.support_surface_name,
+                goal.allow_gripper_support_collision,
+                tuple(getattr(goal, "attached_object_touch_links", ())),
+                tuple(goal.allowed_touch_objects),
+            )
+            with self._scene.changed(goal.planning_options.planning_scene_diff):
+                planner = PickPlacePlanner(
+                    context.scene, group, effector, self._options(goal, group.name)
+                )
+                reader = GraspReader(context, group, state)
+                plan = self.make(goal, planner, reader, rules)
+        result.trajectory_start = state_message(context.robot, state)
+        frame = context.robot.frame
+        result.trajectory_stages = [stage_message(each, frame) for each in plan.stages]
+        result.trajectory_descriptions = [each.name for each in plan.stages]
+        result.planning_time = plan.seconds
+        self.choose(goal, result, plan.choice)
+        return plan
+
+    def _options(self, goal: Any, group: str) -> PlanOptions:
+        settings = self._planning.settings
+        return PlanOptions(
+            planner=settings.planner(goal.planner_id, group),
+            time=goal.allowed_planning_time if goal.allowed_planning_time > 0.0 else _TIME,
+            segment=settings.segment(group),
+        )
+
+    def _do(self, plan: ManipulationPlan, messages: Sequence[Any]) -> None:
+        for stage, message in zip(plan.stages, messages, strict=True):
+            stop = self._server.is_preempt_requested
+            try:
+                self._executor.execute(message, stop, may_stall=stage.name == "grasp")
+            except NoPlanError as error:
+                text = f"{stage.name}: {error.message}"
+                raise NoPlanError(text, error.outcome, error.hint) from None
+            act = self._change(plan, stage)
+            if act is not None:
+                self._scene.change(act)
+
+    def _change(
+        self, plan: ManipulationPlan, stage: ManipulationStage
+    ) -> Callable[[], bool] | None:
+        """What becomes of the thing after a stage."""
+        scene = self.context.scene
+
+        def attach() -> bool:
+            scene.attach(plan.object, plan.link, sorted(plan.touch_links))
+            return True
+
+        def detach() -> bool:
+            scene.detach(plan.object)
+            return True
+
+        return {"attach": attach, "detach": detach}.get(stage.then)
+
+    def _say(self, state: str) -> None:
+        feedback = load_message(f"moveit_msgs/{self.kind}Feedback")(state=state)
+        self._server.publish_feedback(feedback)
+
+
+class PickupAction(ManipulationAction):
+    """Takes a thing of the scene by one of the grasps of the goal."""
+
+    name, kind = "pickup", "Pickup"
+
+    def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
+        """The named group; else the one that carries the end effector."""
+        name = goal.group_name
+        if not name and goal.end_effector:
+            robot = self.context.robot
+            carriers = [
+                each.name
+                for each in robot.semantics.groups
+                if any(e.name == goal.end_effector for e in robot.group(each.name).effectors)
+            ]
+            name = carriers[0] if carriers else name
+        return self.context.group(name), goal.end_effector
+
+    def make(
+        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+    ) -> ManipulationPlan:
+        """A plan to take it."""
+        grasps = [reader.grasp(each) for each in goal.possible_grasps]
+        held = _constraints(self.context, goal)
+        return planner.pick(goal.target_name, grasps, rules=rules, constraints=held)
+
+    def choose(self, goal: Any, result: Any, number: int) -> None:
+        """The grasp."""
+        result.grasp = goal.possible_grasps[number]
+
+
+class PlaceAction(ManipulationAction):
+    """Puts down a thing that is held, at one of the places of the goal."""
+
+    name, kind = "place", "Place"
+
+    def make(
+        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+    ) -> ManipulationPlan:
+        """A plan to put it down."""
+        name, held = goal.attached_object_name, [*self.context.scene.attached]
+        if not name and len(held) == 1:
+            name = held[0]
+        places = [reader.place(each, of_tip=goal.place_eef) for each in goal.place_locations]
+        constraints = _constraints(self.context, goal)
+        return planner.place(name, places, rules=rules, constraints=constraints)
+
+    def choose(self, goal: Any, result: Any, number: int) -> None:
+        """The place."""
+        result.place_location = goal.place_locations[number]
+
+
+def _constraints(context: PlanningContext, goal: Any) -> Any:
+    state: Floats = context.scene.state
+    return context.constraints(goal.path_constraints, state) or None

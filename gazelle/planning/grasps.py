@@ -1,0 +1,174 @@
+"""How things are grasped and put down, in the words of moveit_msgs/Grasp and PlaceLocation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from gazelle.description import Pose, Vector3
+from gazelle.errors import PlanningError
+
+
+@dataclass(frozen=True, slots=True)
+class GripperTranslation:
+    """A straight way of the hand.
+
+    Attributes:
+        direction: Of any length but zero.
+        desired: How far, if nothing is in the way [m].
+        minimum: How far at least [m].
+        frame: A link whose axes the direction is along, as it is turned where the way begins; those of
+            the robot's frame if empty.
+    """
+
+    direction: Vector3
+    desired: float = 0.1
+    minimum: float = 0.05
+    frame: str = ""
+
+    def __post_init__(self) -> None:
+        """See that it is a way.
+
+        Raises:
+            PlanningError: A length is not finite, or the direction is zero.
+        """
+        numbers = (*self.direction, self.desired, self.minimum)
+        if not all(map(math.isfinite, numbers)) or min(self.desired, self.minimum) < 0.0:
+            raise PlanningError("distances of a hand's way are finite and not below zero")
+        if math.hypot(*self.direction) == 0.0:
+            raise PlanningError("the direction of a hand's way is zero")
+
+    @property
+    def unit(self) -> Vector3:
+        """The direction with the length one."""
+        length = math.hypot(*self.direction)
+        x, y, z = self.direction
+        return (x / length, y / length, z / length)
+
+
+@dataclass(frozen=True, slots=True)
+class Grasp:
+    """A way to take a thing.
+
+    Attributes:
+        pose: Where the link is when the gripper closes, in the robot's frame.
+        approach: How it gets there.
+        retreat: Where it goes then.
+        open: Positions of the gripper's joints on the way [m or rad]; as they are if empty.
+        closed: Where they are told to go to hold the thing.
+        effort: Largest one of the gripper [N or N m]; its controller's if zero.
+        link: That the pose is of; the group's tip if empty.
+        touches: What the hand may touch beside the thing.
+        quality: Better ones are tried first.
+        name: For people.
+    """
+
+    pose: Pose
+    approach: GripperTranslation
+    retreat: GripperTranslation
+    open: Mapping[str, float] = field(default_factory=dict)
+    closed: Mapping[str, float] = field(default_factory=dict)
+    effort: float = 0.0
+    link: str = ""
+    touches: Sequence[str] = ()
+    quality: float = 0.0
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceLocation:
+    """Somewhere to put a thing that is held.
+
+    Attributes:
+        pose: Of the thing in the robot's frame.
+        approach: How it gets there.
+        retreat: Where the hand goes then.
+        open: Positions of the gripper's joints that let go.
+        of_tip: Whether the pose is of the group's tip instead.
+        touches: What the hand may touch beside the thing.
+        quality: Better ones are tried first.
+        name: For people.
+    """
+
+    pose: Pose
+    approach: GripperTranslation = field(
+        default_factory=lambda: GripperTranslation((0.0, 0.0, -1.0))
+    )
+    retreat: GripperTranslation = field(default_factory=lambda: GripperTranslation((0.0, 0.0, 1.0)))
+    open: Mapping[str, float] = field(default_factory=dict)
+    of_tip: bool = False
+    touches: Sequence[str] = ()
+    quality: float = 0.0
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelHand:
+    """Two fingers that close along the y axis of a link whose x axis points ahead of them.
+
+    Attributes:
+        link: Between the tips of the fingers; fixed to the group's tip.
+        open: Positions of the fingers' joints, opened.
+        closed: Closed.
+        width: How wide it opens [m].
+        depth: How far the fingers reach beyond the link [m]: as deep as it may go over a thing.
+        effort: That it grips with [N]; its controller's if zero.
+    """
+
+    link: str
+    open: Mapping[str, float]
+    closed: Mapping[str, float]
+    width: float
+    depth: float = 0.03
+    effort: float = 0.0
+
+
+def box_grasps(
+    hand: ParallelHand, pose: Pose, size: Vector3, *, approach: float = 0.1, lift: float = 0.1
+) -> tuple[Grasp, ...]:
+    """Ways to take a box: from above and from its sides, with the fingers on two faces.
+
+    Args:
+        hand: That takes it.
+        pose: Of the box in the robot's frame.
+        size: Of the box [m].
+        approach: How far it comes straight [m].
+        lift: How far it is lifted [m], half as far at least.
+
+    Returns:
+        Best first: from above, then the more they point down. None where it is too wide.
+    """
+    half = math.pi / 2.0
+    turns = [Pose(roll=roll) for roll in (0.0, half, math.pi, -half)]
+    faces = [Pose(pitch=half), *(Pose(yaw=number * half) for number in range(4)), Pose(pitch=-half)]
+    made = []
+    for face in faces:
+        for turn in turns:
+            turned = Pose.from_quaternion((0, 0, 0), (face * turn).quaternion)
+            ahead, across = _extent(turned, (1, 0, 0), size), _extent(turned, (0, 1, 0), size)
+            if across >= hand.width:
+                continue
+            # The fingers' tips are no further than the middle of the box, or than they are long.
+            back = max(0.0, ahead / 2.0 - hand.depth)
+            at = pose * turned * Pose(-back)
+            down = -at.rotate((1.0, 0.0, 0.0))[2]
+            made.append(
+                Grasp(
+                    at,
+                    GripperTranslation((1.0, 0.0, 0.0), approach, approach / 2.0, hand.link),
+                    GripperTranslation((0.0, 0.0, 1.0), lift, lift / 2.0),
+                    open=hand.open,
+                    closed=hand.closed,
+                    effort=hand.effort,
+                    link=hand.link,
+                    quality=down,
+                )
+            )
+    return tuple(sorted(made, key=lambda each: -round(each.quality, 6)))
+
+
+def _extent(turned: Pose, axis: Vector3, size: Vector3) -> float:
+    """How long a box is along an axis of a turned frame, all axes being along edges [m]."""
+    along = turned.rotate(axis)
+    return sum(abs(part) * length for part, length in zip(along, size, strict=True))

@@ -1,0 +1,69 @@
+"""Things taken and put down by a robot in a simulation: a plan, stage by stage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from gazelle.array_types import Floats
+from gazelle.planning.execution import ExecutionReport, begin_execution
+from gazelle.planning.gripper import GripperReport, RobotGripper
+from gazelle.planning.manipulation_plan import ManipulationPlan, ManipulationStage
+from gazelle.planning.motion_planner import MotionPlan
+from gazelle.planning.outcomes import PlanOutcome
+from gazelle.planning.scene import PlanningScene
+from gazelle.simulation.robot import Robot
+
+
+class MovingGroup(Protocol):
+    """What is asked of the group (``Group``)."""
+
+    robot: Robot
+    world: int
+    scene: PlanningScene
+
+    def state(self) -> Floats:
+        """Where all joints are; the scene knows it from now on."""
+
+    def check_start(self, plan: MotionPlan) -> None:
+        """See that the robot is where a plan begins."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manipulation:
+    """A plan to take a thing, or to put it down, for a robot in a simulation."""
+
+    plan: ManipulationPlan
+    group: MovingGroup
+    gripper: RobotGripper
+
+    def run(self) -> ExecutionReport:
+        """Do all of it, stepping the simulation; the group's scene knows who holds the thing.
+
+        Returns:
+            How it ended; what fails is the last that was done.
+        """
+        seconds = 0.0
+        for stage in self.plan.stages:
+            done = self._do(stage)
+            seconds += done.seconds
+            if not done:
+                text = f"{stage.name}: {done.message}"
+                return ExecutionReport(done.outcome, text, seconds)
+            self.group.state()  # the scene knows where it is
+            if stage.then == "attach":
+                scene, plan = self.group.scene, self.plan
+                scene.attach(plan.object, plan.link, sorted(plan.touch_links))
+            elif stage.then == "detach":
+                self.group.scene.detach(self.plan.object)
+        return ExecutionReport(PlanOutcome.SUCCESS, "", seconds)
+
+    def _do(self, stage: ManipulationStage) -> ExecutionReport:
+        if stage.motion is not None:
+            self.group.check_start(stage.motion)
+            execution = begin_execution(self.group.robot, stage.motion, self.group.world)
+            return execution.run()
+        report: GripperReport = self.gripper.take(stage.posture, stage.effort)
+        if report.reached or report.stalled:
+            return ExecutionReport(PlanOutcome.SUCCESS, "", report.seconds)
+        return ExecutionReport(PlanOutcome.CONTROL_FAILED, report.message, report.seconds)

@@ -1,0 +1,94 @@
+"""What a plan to take a thing, or to put it down, is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.planning.motion_planner import MotionPlan
+from gazelle.planning.time_parameterization import TimedPath
+
+
+@dataclass(frozen=True, slots=True)
+class ManipulationStage:
+    """A part of a plan: the arm moves, or the gripper.
+
+    Attributes:
+        name: As in MoveIt: ``pre_grasp``, ``plan``, ``approach``, ``grasp``, ``release``, ``retreat``.
+        motion: Of the arm.
+        posture: Where joints of the gripper go; empty if the arm moves.
+        effort: Largest one of the gripper; its controller's if zero.
+        then: What becomes of the thing in the scene when the stage is over.
+    """
+
+    name: str
+    motion: MotionPlan | None = None
+    posture: Mapping[str, float] = field(default_factory=dict)
+    effort: float = 0.0
+    then: Literal["", "attach", "detach"] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ManipulationPlan:
+    """A plan to take a thing, or to put it down.
+
+    Attributes:
+        object: The thing.
+        stages: One after another.
+        choice: Which of the grasps or places was taken, counted as they were given.
+        link: That holds the thing.
+        touch_links: Links that it may touch then.
+        seconds: That planning took, of the wall's clock.
+    """
+
+    object: str
+    stages: tuple[ManipulationStage, ...]
+    choice: int
+    link: str
+    touch_links: frozenset[str]
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class ContactRules:
+    """What may touch while things are taken and put down.
+
+    Attributes:
+        support: What the thing stands on; it may touch that. If empty, what it touches anyhow.
+        hand_on_support: Whether the hand may touch that, too.
+        touch_links: Links that the thing may touch when it is held, beside the hand's.
+        touches: What the hand may touch.
+    """
+
+    support: str = ""
+    hand_on_support: bool = False
+    touch_links: Sequence[str] = ()
+    touches: Sequence[str] = ()
+
+
+def reversed_plan(plan: MotionPlan) -> MotionPlan:
+    """The same way back, as fast."""
+    timed = plan.trajectory
+    back = TimedPath(
+        timed.times[-1] - timed.times[::-1],
+        timed.positions[::-1].copy(),
+        -timed.velocities[::-1],
+        timed.accelerations[::-1].copy(),
+    )
+    start = plan.end
+    return MotionPlan(plan.group, start, plan.points[::-1].copy(), back, plan.seconds)
+
+
+def turned_plan(plan: MotionPlan, turns: Floats) -> MotionPlan:
+    """A plan with some joints some turns further."""
+    whole = np.round(turns / (2.0 * np.pi)) * 2.0 * np.pi * plan.group.endless
+    if not whole.any():
+        return plan
+    timed = replace(plan.trajectory, positions=plan.trajectory.positions + whole)
+    start = plan.start.copy()
+    start[plan.group.columns] += whole
+    return replace(plan, start=start, points=plan.points + whole, trajectory=timed)
