@@ -25,6 +25,7 @@ from gazelle.cli.parsing import (
     add_file_options,
     add_import_option,
     add_scenario_options,
+    add_worker_options,
     environment_options,
 )
 
@@ -52,6 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--best", action="store_true", help="the best policy of the run, not the newest"
     )
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
+    add_worker_options(parser, "processes that play the episodes")
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)
@@ -70,6 +72,8 @@ def run(args: argparse.Namespace) -> int:
         num_envs=args.num_envs,
         imports=args.imports,
         best=args.best,
+        workers=args.workers,
+        ray=args.ray,
         **environment_options(args),
     )
     for file in args.failures:

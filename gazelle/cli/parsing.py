@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
+from gazelle.argument_types import positive_int
 from gazelle.errors import did_you_mean
 
 _WIDTH = 80
@@ -106,6 +107,23 @@ def add_import_option(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="a module or file that registers your task (repeatable)",
+    )
+
+
+def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
+    """The options that have something done by other processes or machines.
+
+    Args:
+        parser: Where they are declared.
+        what: What the processes are for.
+    """
+    parser.add_argument("--workers", metavar="N", type=positive_int, help=what)
+    parser.add_argument(
+        "--ray",
+        metavar="ADDRESS",
+        nargs="?",
+        const="local",
+        help="have the workers on a Ray cluster (default: one on this machine)",
     )
 
 

@@ -25,6 +25,7 @@ from gazelle.cli.parsing import (
     add_file_options,
     add_import_option,
     add_scenario_options,
+    add_worker_options,
     environment_options,
     key_value,
 )
@@ -82,18 +83,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
     )
-    parser.add_argument(
-        "--workers",
-        metavar="N",
-        type=positive_int,
-        help="processes that play rollouts; the result does not depend on their number",
-    )
-    parser.add_argument(
-        "--ray",
-        metavar="ADDRESS",
-        nargs="?",
-        const="local",
-        help="have the workers on a Ray cluster (default: one on this machine)",
+    add_worker_options(
+        parser, "processes that play rollouts; the result does not depend on their number"
     )
     add_view(parser)
     add_import_option(parser)
@@ -143,13 +134,16 @@ def run(args: argparse.Namespace) -> int:
 
 def _sweep(args: argparse.Namespace) -> int:
     """Search hyperparameters; returns the exit code."""
-    from gazelle.training.sweep import SweepPlan, sweep
+    from gazelle.training.sweep import sweep
+    from gazelle.training.sweep_plan import SweepPlan
 
     found = sweep(
         args.task,
         SweepPlan.read(args.sweep),
         out=args.out or Path("runs"),
         imports=tuple(args.imports),
+        workers=args.workers,
+        ray=args.ray,
         **environment_options(args),
     )
     rows = [("TRIAL", "SCORE", "VALUES", "RUN")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,18 +13,13 @@ import numpy as np
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, load_actor
+from gazelle.training.exam import Exam, ExamResult, taken, taken_by_workers
 from gazelle.training.importing import TaskModule, load_all
-from gazelle.training.records import EpisodeRecord, Ledger, Trail
+from gazelle.training.records import EpisodeRecord, merged
 from gazelle.training.runs import Run
 from gazelle.training.statistics import SuccessRate
-from gazelle.training.stepper import Stepper
-from gazelle.training.tasks import (
-    control_period,
-    evaluation_options,
-    fitting_copies,
-    make_task,
-    told_by,
-)
+from gazelle.training.tasks import evaluation_options, fitting_copies
+from gazelle.training.workers.shards import divided
 
 _MOST_COPIES = 128
 
@@ -104,6 +99,8 @@ def evaluate(
     num_envs: int | None = None,
     imports: Sequence[str] = (),
     best: bool = False,
+    workers: int | None = None,
+    ray: str | None = None,
     **options: Any,
 ) -> Evaluation:
     """Let a policy act at its best and count how its attempts at goals end.
@@ -124,42 +121,42 @@ def evaluate(
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.
         best: Of a run, take the best policy of the evaluations during the training.
+        workers: How many processes play the episodes. The copies are divided among them with a seed
+            each, by their number alone: any number of workers finds the same, but other episodes
+            than without workers.
+        ray: The workers are on the Ray cluster at this address, ``local`` for one on this machine.
         options: Options of the environment that differ from the run's, from the task's own for
             evaluations, and from its recipe's ``evaluation_options``.
 
     Raises:
         TaskError: A number is below 1, no task is given, or the policy does not fit it.
         FormatError: The policy is damaged.
+        MissingExtraError: Ray is asked for and not installed.
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
-    actor, task, options = resolve_policy(
-        run_or_policy, task, load_all(imports), options, best=best
-    )
+    modules = load_all(imports)
+    actor, task, options = resolve_policy(run_or_policy, task, modules, options, best=best)
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
-    env = make_task(task, copies, **options)
-    try:
-        period = control_period(env)
-        plan = told_by(env, "floor_plan")
-        ledger = Ledger(episodes, copies, tuple(told_by(env, "scenario_names") or ()))
-        start = time.perf_counter()
-        steps = _play(actor, Stepper(env, keep_info=True), ledger, seed)
-        wall = time.perf_counter() - start
-    finally:
-        env.close()
-    return _summed_up(
-        ledger,
-        task=task,
-        seed=seed,
-        floor_plan=plan,
-        wall_seconds=wall,
-        sim_seconds=None if period is None else steps * copies * period,
-    )
+    homes = modules or _homes(run_or_policy)
+    exam = Exam(actor=actor, task=task, options=options, imports=homes)
+    if workers is None and ray is None:
+        return _summed_up([taken(exam, copies, episodes, seed)], task=task, seed=seed)
+    unit = fitting_copies(task, 1, options)
+    start = time.perf_counter()
+    parts = taken_by_workers(exam, divided(copies, unit), episodes, seed, workers, ray)
+    wall = time.perf_counter() - start
+    return replace(_summed_up(parts, task=task, seed=seed), wall_seconds=wall)
 
 
-def _summed_up(ledger: Ledger, **about: Any) -> Evaluation:
-    """What the ledger of all episodes says."""
+def _summed_up(parts: Sequence[ExamResult], **about: Any) -> Evaluation:
+    """What all parts of the episodes say."""
+    ledger = merged([part.ledger for part in parts])
+    times = [part.sim_seconds for part in parts if part.sim_seconds is not None]
     return Evaluation(
+        floor_plan=parts[0].floor_plan,
+        wall_seconds=sum(part.wall_seconds for part in parts),
+        sim_seconds=sum(times) if times else None,
         episodes=len(ledger.records),
         distinct=ledger.distinct,
         success=ledger.rate("goals") if ledger.tells("is_success") else None,
@@ -171,32 +168,6 @@ def _summed_up(ledger: Ledger, **about: Any) -> Evaluation:
         records=tuple(ledger.records),
         **about,
     )
-
-
-def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:
-    """Step until every copy has run its episodes; returns the number of steps."""
-    obs = stepper.reset(seed=seed)
-    _check_fit(actor, stepper)
-    trail = Trail(stepper.num_envs)
-    trail.follow(obs, ~stepper.waiting)
-    steps = 0
-    while ledger.left.any():
-        step = stepper.step(actor.act(obs))
-        steps += 1
-        obs = step.obs
-        if step.ended is not None and step.final_obs is not None:
-            ledger.add(step.ended, trail.end(step.ended, step.final_obs))
-        trail.follow(obs, ~stepper.waiting)
-    return steps
-
-
-def _check_fit(actor: Actor, stepper: Stepper) -> None:
-    inputs, found = actor.inputs, stepper.obs[0].size
-    if inputs != found:
-        raise TaskError(
-            f"the policy takes {inputs} observations, the task gives {found}",
-            hint="evaluate with the options it was trained with, such as lidar_samples",
-        )
 
 
 def resolve_policy(
@@ -227,6 +198,13 @@ def resolve_policy(
     if isinstance(run_or_policy, Actor):
         return run_or_policy, task, options
     return load_actor(Path(run_or_policy)), task, options
+
+
+def _homes(run_or_policy: str | Path | Actor) -> tuple[TaskModule, ...]:
+    """Modules that register the task of a run."""
+    if isinstance(run_or_policy, Actor) or Path(run_or_policy).suffix == ".npz":
+        return ()
+    return Run.open(Path(run_or_policy)).config.imports
 
 
 def _rate_to_dict(rate: SuccessRate | None) -> dict[str, float] | None:

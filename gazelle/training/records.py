@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -101,6 +102,12 @@ class Ledger:
             told = ended.scenarios
             self._keys.append(trails[row].tobytes() if told is None else told[row].tobytes())
 
+    def take_in(self, other: Ledger) -> None:
+        """Add the episodes of another one."""
+        self.records += other.records
+        self._keys += other._keys
+        self._told |= other._told
+
     def rate(self, what: str) -> SuccessRate:
         """How many of all attempts were ``goals``, or ended as `EpisodeRecord.ends` names."""
         ends = np.array([record.ends for record in self.records], dtype=np.int64)
@@ -129,6 +136,16 @@ class Ledger:
 
     def _name_of(self, index: int) -> str:
         return self._names[index] if index < len(self._names) else f"scenario_{index}"
+
+
+def merged(ledgers: Sequence[Ledger]) -> Ledger:
+    """One ledger of the episodes of several, in order."""
+    if len(ledgers) == 1:
+        return ledgers[0]
+    whole = Ledger(0, 1)
+    for ledger in ledgers:
+        whole.take_in(ledger)
+    return whole
 
 
 class Trail:

@@ -15,7 +15,7 @@ from gazelle.errors import TaskError
 from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.contracts import contract_of, save_contract
-from gazelle.training.importing import load_all
+from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress, Watched
 from gazelle.training.recipes import Recipe, recipe_for
@@ -72,7 +72,7 @@ def train(
     callbacks: Sequence[str] = (),
     progress: Progress | None = None,
     threads: int = 1,
-    imports: Sequence[str] = (),
+    imports: Sequence[str | TaskModule] = (),
     workers: int | None = None,
     ray: str | None = None,
     **options: Any,
@@ -149,7 +149,7 @@ def resume(
     steps: int | None = None,
     progress: Progress | None = None,
     threads: int = 1,
-    imports: Sequence[str] = (),
+    imports: Sequence[str | TaskModule] = (),
     workers: int | None = None,
     ray: str | None = None,
 ) -> TrainResult:

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import csv
 import itertools
-import queue
 import sys
 import threading
 import time
@@ -25,13 +24,9 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
-from gazelle.native.processors import processors
 from gazelle.training.importing import TaskModule
-from gazelle.training.workers.clusters import RayLink, connect
-from gazelle.training.workers.processes import ProcessLink
-from gazelle.training.workers.team import WorkerLink, WorkerLostError
+from gazelle.training.workers.callers import TRIES, call_all, placed
 
-_TRIES = 3
 _OWN = ("seed", "seconds", "error")
 """Columns that a study adds to those of parameters and results."""
 
@@ -133,89 +128,20 @@ def conduct(
     module, name = _found(study.function)
     kept = _Table(table, study)
     calls = [call for call in study.calls() if not kept.has(call)]
-    there = processors() if ray is None else connect(ray)
-    count = workers or there
-    threads = max(1, processors() // count)
+    count, start = placed(ray, workers, ExperimentHost, module, name)
+    total = len(kept.rows) + len(calls)
 
-    def link() -> WorkerLink:
-        if ray is None:
-            return ProcessLink(ExperimentHost, module, name, threads=threads)
-        return RayLink(ExperimentHost, module, name)
-
-    def done(row: dict[str, Any]) -> None:
-        kept.add(row)
+    def done(call: dict[str, Any], row: dict[str, Any] | None) -> None:
+        kept.add({**call, "error": f"its worker was lost {TRIES} times"} if row is None else row)
         if on_row is not None:
-            on_row(len(kept.rows), len(kept.rows) + left.qsize())
+            on_row(len(kept.rows), total)
 
-    left: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-    for call in calls:
-        left.put(call)
-    callers = [_Caller(link, left, done) for _ in range(min(count, len(calls)))]
     try:
-        for caller in callers:
-            caller.wait()
+        call_all(calls, start, done, workers=min(count, len(calls)))
     finally:
-        for caller in callers:
-            caller.stop()
         kept.close()
     failed = sum(bool(row.get("error")) for row in kept.rows)
     return StudyResult(kept.rows, len(calls), failed)
-
-
-class _Caller:
-    """A thread with a worker of its own, which takes calls until none are left."""
-
-    def __init__(
-        self,
-        link: Callable[[], WorkerLink],
-        left: queue.SimpleQueue[dict[str, Any]],
-        done: Callable[[dict[str, Any]], None],
-    ) -> None:
-        self._start, self._left, self._done = link, left, done
-        self._error: BaseException | None = None
-        self._stopped = threading.Event()
-        self._link: WorkerLink | None = None
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
-
-    def wait(self) -> None:
-        """Return when it has finished; what went wrong is raised."""
-        self._thread.join()
-        if self._error is not None:
-            raise self._error
-
-    def stop(self) -> None:
-        """End the worker, whatever it is doing."""
-        self._stopped.set()
-        if self._link is not None:
-            self._link.close()
-
-    def _run(self) -> None:
-        try:
-            self._link = self._start()
-            while not self._stopped.is_set():
-                self._done(self._call(self._left.get_nowait()))
-        except queue.Empty:
-            return
-        except BaseException as error:  # noqa: BLE001  # whoever waits gets it
-            self._error = error
-
-    def _call(self, arguments: dict[str, Any]) -> dict[str, Any]:
-        for _ in range(_TRIES):
-            try:
-                if self._link is None:
-                    self._link = self._start()
-                self._link.send("call", arguments)
-                row: dict[str, Any] = self._link.receive()
-            except WorkerLostError:
-                if self._link is not None:
-                    self._link.close()
-                self._link = None
-                if self._stopped.is_set():
-                    raise
-            else:
-                return row
-        return {**arguments, "error": f"its worker was lost {_TRIES} times"}
 
 
 class _Table:

@@ -1,30 +1,25 @@
-"""Search hyperparameters with Optuna, over processes; a search goes on where it was stopped.
+"""Search hyperparameters with Optuna, over processes or a cluster, and go on where it was stopped.
 
-Trials are kept in a journal file. The driver starts workers, each a process that trains and
-evaluates one trial after another. Workers end with the driver, however it ends; what they were at is
-tried again when the search goes on.
+The driver asks Optuna for one trial after another, has workers train and evaluate them, and keeps
+all in a journal file. Workers end with the driver, however it ends; what they were at is tried
+again when the search goes on.
 """
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import threading
 import warnings
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from multiprocessing.connection import Connection
-from multiprocessing.synchronize import Lock
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from gazelle.errors import FormatError, MissingExtraError, TaskError, did_you_mean
-from gazelle.training.evaluation import evaluate
+from gazelle.errors import MissingExtraError, TaskError
+from gazelle.training.importing import TaskModule
 from gazelle.training.overrides import with_values
 from gazelle.training.recipes import recipe_for, task_name
-from gazelle.training.session import train
+from gazelle.training.sweep_plan import SweepPlan
+from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
+from gazelle.training.workers.callers import TRIES, call_all, placed
 
 try:
     import optuna
@@ -34,73 +29,7 @@ try:
 except ModuleNotFoundError as error:
     raise MissingExtraError("optuna", "sweep") from error
 
-METRICS = ("success", "return")
-_KEYS = {"parameters", "trials", "workers", "steps", "episodes", "metric", "algo", "seed"}
 _RETRY = "retry of"
-
-
-@dataclass(frozen=True, kw_only=True)
-class SweepPlan:
-    """What a search tries."""
-
-    parameters: dict[str, dict[str, Any]]
-    """By the name of a recipe's value, see `with_values`: ``{"choices": [...]}`` or
-    ``{"low": a, "high": b}``, with ``"log": true`` for steps of equal ratio. Ints stay ints."""
-    trials: int = 20
-    """How many in all."""
-    workers: int = 1
-    """Processes."""
-    steps: int | None = None
-    """Control steps of each training; None for those of the recipe."""
-    episodes: int = 100
-    """Of each evaluation."""
-    metric: str = "success"
-    """``success`` (share of goals) or ``return`` (mean of episodes), the more the better."""
-    algo: str | None = None
-    """Algorithm; None for that of the recipe."""
-    seed: int = 0
-    """Of the first trial's training; the next ones have the next."""
-
-    @classmethod
-    def read(cls, file: Path) -> SweepPlan:
-        """Read a plan from YAML or JSON.
-
-        Raises:
-            FormatError: The file cannot be read, or says something that cannot be.
-        """
-        try:
-            values = yaml.safe_load(file.read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-            raise FormatError(f"cannot read the sweep: {error}", file=str(file)) from error
-        if not isinstance(values, dict) or not isinstance(values.get("parameters"), dict):
-            hint = "expected 'parameters:' with low and high, or choices, of each"
-            raise FormatError("this is no sweep", file=str(file), hint=hint)
-        for key in values:
-            if key not in _KEYS:
-                hint = did_you_mean(str(key), _KEYS)
-                raise FormatError(f"a sweep has no '{key}'", file=str(file), hint=hint)
-        try:
-            plan = cls(**values)
-            plan.check()
-        except (TaskError, TypeError) as error:
-            raise FormatError(f"this sweep cannot be: {error}", file=str(file)) from error
-        return plan
-
-    def check(self) -> None:
-        """Make sure that it can be done.
-
-        Raises:
-            TaskError: It cannot.
-        """
-        if self.metric not in METRICS:
-            raise TaskError(f"no metric '{self.metric}'", hint=did_you_mean(self.metric, METRICS))
-        if min(self.trials, self.workers, self.episodes) < 1:
-            raise TaskError("trials, workers and episodes must be 1 or more")
-        for name, space in self.parameters.items():
-            if not isinstance(space, dict) or not (
-                set(space) == {"choices"} or {"low", "high"} <= set(space) <= {"low", "high", "log"}
-            ):
-                raise TaskError(f"{name} needs low and high (and log), or choices")
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,23 +58,14 @@ class SweepResult:
     """How many of them in this call."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Job:
-    """What a worker needs."""
-
-    task: str
-    plan: SweepPlan
-    folder: Path
-    imports: tuple[str, ...] = ()
-    options: dict[str, Any] = field(default_factory=dict)
-
-
 def sweep(
     task: str,
     plan: SweepPlan,
     *,
     out: str | Path = "runs",
     imports: tuple[str, ...] = (),
+    workers: int | None = None,
+    ray: str | None = None,
     **options: Any,
 ) -> SweepResult:
     """Search, or go on with a search of the same task in the same folder.
@@ -155,26 +75,33 @@ def sweep(
         plan: What is tried.
         out: Folder in which the search's folder, ``TASK-sweep``, is made.
         imports: Modules or files that register the task.
+        workers: How many train at once; None for the plan's.
+        ray: They are on the Ray cluster at this address, ``local`` for one on this machine; None
+            for processes here.
         options: Options of the environment.
 
     Raises:
-        TaskError: A parameter is not part of the recipe, or all trials of this call failed.
-        MissingExtraError: Optuna is not installed.
+        TaskError: A parameter is not part of the recipe, there is no such cluster, or all trials
+            of this call failed.
+        MissingExtraError: Optuna is not installed, or Ray where it is asked for.
     """
     plan.check()
     name = task_name(task.rpartition(":")[2])
     with_values(recipe_for(name, plan.algo), dict.fromkeys(plan.parameters, 1) | {"net_arch": ()})
     folder = Path(out) / f"{name}-sweep"
     folder.mkdir(parents=True, exist_ok=True)
-    job = _Job(
-        task=task, plan=plan, folder=folder.resolve(), imports=imports, options=dict(options)
+    job = TrialJob(
+        task=task,
+        plan=plan,
+        folder=folder.resolve(),
+        imports=tuple(TaskModule.find(each) for each in imports),
+        options=dict(options),
     )
     study = _open(job.folder)
     _try_again(study)
     before = _ended(study)
     if before < plan.trials:
-        _work(job)
-    study = _open(job.folder)
+        _work(job, study, workers=workers, ray=ray)
     new = _ended(study) - before
     result = SweepResult(folder, _trials(study), new)
     if new and not any(trial.score is not None for trial in result.trials):
@@ -207,85 +134,39 @@ def _try_again(study: optuna.Study) -> None:
         study.enqueue_trial(trial.params)
 
 
-def _work(job: _Job) -> None:
+def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str | None) -> None:
     """Let workers do what is left, and end with them."""
-    context = multiprocessing.get_context("spawn")
-    # Nothing is sent: the pipe ends with this process, and so do the workers.
-    theirs, ours = context.Pipe(duplex=False)
-    lock = context.Lock()
-    workers = [
-        context.Process(target=_serve, args=(job, theirs, lock)) for _ in range(job.plan.workers)
-    ]
-    try:
-        for worker in workers:
-            worker.start()
-        theirs.close()
-        for worker in workers:
-            worker.join()
-    finally:
-        ours.close()
-        for worker in workers:
-            if worker.is_alive():
-                worker.terminate()
-                worker.join()
-
-
-def _serve(job: _Job, alive: Connection, lock: Lock) -> None:
-    """A worker: one trial after another until all are done."""
-    threading.Thread(target=_end_with, args=(alive,), daemon=True).start()
-    study = _open(job.folder)
-    while True:
-        with lock:
-            if _claimed(study) >= job.plan.trials:
-                return
-            trial = study.ask()
-        try:
-            score = _try(trial, job)
-        except Exception as error:  # noqa: BLE001  # one that fails must not end the search
-            with (job.folder / "errors.log").open("a", encoding="utf-8") as log:
-                log.write(f"trial {trial.number}, {trial.user_attrs.get('values')}: {error}\n")
-            study.tell(trial, state=TrialState.FAIL)
-        else:
-            study.tell(trial, score)
-
-
-def _claimed(study: optuna.Study) -> int:
-    """Trials that ended or that somebody works on."""
-    trials = study.get_trials(deepcopy=False)
-    return sum(
-        _RETRY not in trial.user_attrs and trial.state is not TrialState.WAITING for trial in trials
-    )
-
-
-def _end_with(alive: Connection) -> None:
-    try:
-        alive.recv()
-    except (EOFError, OSError):
-        os._exit(1)
-
-
-def _try(trial: Trial, job: _Job) -> float:
-    """Train and evaluate with the values of a trial."""
     plan = job.plan
-    values = {name: _draw(trial, name, space) for name, space in plan.parameters.items()}
-    trial.set_user_attr("values", values)
-    recipe = with_values(recipe_for(task_name(job.task.rpartition(":")[2]), plan.algo), values)
-    result = train(
-        job.task,
-        recipe=recipe,
-        steps=plan.steps,
-        seed=plan.seed + trial.number,
-        out=job.folder / "runs",
-        imports=job.imports,
-        **job.options,
-    )
-    if result.interrupted:
-        raise KeyboardInterrupt  # the search is to stop; this is tried again when it goes on
-    found = evaluate(result.run.folder, episodes=plan.episodes)
-    trial.set_user_attr("run", str(result.run.folder))
-    if plan.metric == "return" or found.success is None:
-        return found.mean_return
-    return found.success.value
+    runs = job.folder / "runs"
+    count, start = placed(ray, workers or plan.workers, TrialHost, job, ray is not None)
+
+    def done(given: TrialValues, outcome: TrialOutcome | None) -> None:
+        trial = trials.pop(given.number)
+        if outcome is None:
+            outcome = TrialOutcome(error=f"its worker was lost {TRIES} times")
+        if outcome.score is None:
+            with (job.folder / "errors.log").open("a", encoding="utf-8") as log:
+                log.write(f"trial {given.number}, {given.values}: {outcome.error}\n")
+            study.tell(trial, state=TrialState.FAIL)
+            return
+        trial.set_user_attr("run", str(outcome.unpacked(runs)))
+        study.tell(trial, outcome.score)
+
+    trials: dict[int, Trial] = {}
+    left = plan.trials - _ended(study)
+    call_all(_asked(study, plan, trials, left), start, done, workers=min(count, left))
+
+
+def _asked(
+    study: optuna.Study, plan: SweepPlan, trials: dict[int, Trial], left: int
+) -> Iterator[TrialValues]:
+    """What Optuna wants to try next, which depends on what is known by then."""
+    for _ in range(left):
+        trial = study.ask()
+        values = {name: _draw(trial, name, space) for name, space in plan.parameters.items()}
+        trial.set_user_attr("values", values)
+        trials[trial.number] = trial
+        yield TrialValues(trial.number, values)
 
 
 def _draw(trial: Trial, name: str, space: Mapping[str, Any]) -> Any:

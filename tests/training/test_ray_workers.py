@@ -5,12 +5,14 @@ from __future__ import annotations
 import importlib.util
 import os
 import signal
+from pathlib import Path
 
 import pytest
 from missing import skip_or_fail
 from test_workers import curves, trained
 
 from gazelle.errors import TaskError
+from gazelle.training.evaluation import evaluate
 from gazelle.training.progress import NoProgress
 from gazelle.training.workers.clusters import RayLink, connect
 
@@ -74,3 +76,27 @@ def test_an_error_of_the_task_is_told_as_it_is(tmp_path, tiny):
 
 def test_processors_of_the_cluster_are_counted():
     assert connect("auto") == 2
+
+
+def test_a_search_is_done_by_a_cluster_and_its_runs_come_back(tmp_path):
+    pytest.importorskip("optuna")
+    from test_sweep import TASK_FILE, write
+
+    from gazelle.training.sweep import sweep
+    from gazelle.training.sweep_plan import SweepPlan
+
+    plan = SweepPlan.read(write(tmp_path, trials=2, steps=1024))
+    found = sweep(
+        "test/Corridor-v0", plan, out=tmp_path, imports=(TASK_FILE,), workers=2, ray="auto"
+    )
+    assert [trial.score is not None for trial in found.trials] == [True, True]
+    for trial in found.trials:
+        assert Path(trial.run).parent == tmp_path / "Corridor-sweep" / "runs"
+        assert evaluate(trial.run, episodes=plan.episodes).success.value == trial.score
+
+
+def test_a_cluster_evaluates_as_processes_do(tmp_path, tiny):
+    run = trained(tmp_path, tiny, 1).run.folder
+    here = evaluate(run, episodes=30, workers=1)
+    there = evaluate(run, episodes=30, ray="auto")
+    assert there.records == here.records

@@ -14,7 +14,8 @@ import pytest
 from gazelle.errors import FormatError, TaskError
 
 pytest.importorskip("optuna")
-from gazelle.training.sweep import SweepPlan, sweep
+from gazelle.training.sweep import sweep
+from gazelle.training.sweep_plan import SweepPlan
 
 TASK_FILE = str(Path(__file__).parent / "corridor_task.py")
 PLAN = """

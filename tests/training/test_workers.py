@@ -172,3 +172,13 @@ def test_a_task_that_cannot_save_its_state_starts_anew():
     with pytest.warns(SimulationWarning, match="episodes start anew"):
         team.call("get_state")
     assert team.replaced == 1
+
+
+def test_an_evaluation_does_not_depend_on_the_number_of_workers(tmp_path, tiny):
+    run = trained(tmp_path, tiny, 1).run.folder
+    one, two = (evaluate(run, episodes=30, workers=workers) for workers in (1, 2))
+    assert one.records == two.records
+    assert len(one.records) == one.episodes == 30
+    assert one.distinct == two.distinct
+    assert one.sim_seconds == two.sim_seconds
+    assert evaluate(run, episodes=30, workers=2, seed=5).records != one.records

@@ -5,10 +5,13 @@ from __future__ import annotations
 import contextlib
 import os
 import pickle
+import queue
 import signal
 import struct
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable, Sequence
 from typing import IO, Any
 
@@ -17,6 +20,7 @@ from gazelle.training.workers.shards import Blueprint, ShardHost
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _LENGTH = struct.Struct("<Q")
+_GRACE = 5.0  # of a worker at work to end it, once its driver has gone [s]
 _PATIENCE = 10.0  # until a worker that was asked to end is killed [s]
 _LIBRARIES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -88,15 +92,31 @@ def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[in
 def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
     """A worker's life: answer requests until there are no more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver hears Ctrl-C, and ends its workers
-    with contextlib.suppress(EOFError, OSError):  # the driver needs it no more, or has gone
-        make, given = read(requests)
-        host = make(*given)
-        try:
-            while True:
-                method, arguments = read(requests)
-                write(answers, _answer(host, method, arguments))
-        finally:
-            host.close()
+    inbox: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(requests, inbox), daemon=True).start()
+    first = inbox.get()
+    if first is None:
+        return
+    make, given = first
+    host = make(*given)
+    try:
+        while (request := inbox.get()) is not None:
+            method, arguments = request
+            write(answers, _answer(host, method, arguments))
+    except OSError:
+        return  # the driver has gone
+    finally:
+        host.close()
+
+
+def _listen(requests: IO[bytes], inbox: queue.SimpleQueue[Any]) -> None:
+    """Pass on requests; when the driver needs the worker no more, or has gone, end it soon."""
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            inbox.put(read(requests))
+    inbox.put(None)
+    time.sleep(_GRACE)
+    os._exit(1)  # it is still at something long, of which nobody will hear
 
 
 def write(pipe: IO[bytes], value: Any) -> None:

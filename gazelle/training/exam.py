@@ -1,0 +1,173 @@
+"""The episodes of an evaluation, here or by workers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gazelle.envs.floor_plan import FloorPlan
+from gazelle.errors import TaskError
+from gazelle.training.actor import Actor
+from gazelle.training.importing import TaskModule, load_all
+from gazelle.training.records import Ledger, Trail
+from gazelle.training.stepper import Stepper
+from gazelle.training.tasks import control_period, make_task, told_by
+from gazelle.training.workers.callers import TRIES, call_all, placed
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exam:
+    """Which policy acts in what."""
+
+    actor: Actor
+    """The policy."""
+    task: str
+    """A task's id or name."""
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Of the environment."""
+    imports: tuple[TaskModule, ...] = ()
+    """Modules that register the task."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExamPart:
+    """A share of an exam's episodes."""
+
+    number: int
+    """From 0."""
+    copies: int
+    """Of the environment."""
+    episodes: int
+    """How many are counted."""
+    seed: int
+    """Of the environment."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExamResult:
+    """What came of some episodes."""
+
+    ledger: Ledger
+    """Each of them."""
+    wall_seconds: float
+    """Without building the environment [s]."""
+    sim_seconds: float | None
+    """Of all copies together [s]; None when the task has no control period."""
+    floor_plan: FloorPlan | None
+    """What stands in the world; None when the task does not tell."""
+
+
+def taken(exam: Exam, copies: int, episodes: int, seed: int) -> ExamResult:
+    """Let the policy act until so many episodes ended, fixed in advance for each copy."""
+    env = make_task(exam.task, copies, **exam.options)
+    try:
+        period = control_period(env)
+        plan = told_by(env, "floor_plan")
+        ledger = Ledger(episodes, copies, tuple(told_by(env, "scenario_names") or ()))
+        start = time.perf_counter()
+        steps = _play(exam.actor, Stepper(env, keep_info=True), ledger, seed)
+        wall = time.perf_counter() - start
+    finally:
+        env.close()
+    return ExamResult(ledger, wall, None if period is None else steps * copies * period, plan)
+
+
+def taken_by_workers(
+    exam: Exam,
+    sizes: Sequence[int],
+    episodes: int,
+    seed: int,
+    workers: int | None,
+    ray: str | None,
+) -> list[ExamResult]:
+    """The same, in parts that workers play.
+
+    Args:
+        exam: Which policy acts in what.
+        sizes: Copies of the environment in each part.
+        episodes: Of all parts together.
+        seed: Each part has one of its own that follows from it.
+        workers: How many; None for as many as there are processors.
+        ray: The address of a Ray cluster; None for processes on this machine.
+
+    Returns:
+        The parts in order.
+
+    Raises:
+        TaskError: There is no such cluster, or workers are lost again and again.
+    """
+    parts = list(_parts(sizes, episodes, seed))
+    found: dict[int, ExamResult] = {}
+
+    def done(part: ExamPart, result: ExamResult | None) -> None:
+        if result is None:
+            raise TaskError(
+                f"{TRIES} workers ended in the same episodes",
+                hint="their last words are above; is there enough memory?",
+            )
+        found[part.number] = result
+
+    count, start = placed(ray, workers, ExamHost, exam)
+    call_all(parts, start, done, workers=min(count, len(parts)))
+    return [found[part.number] for part in parts]
+
+
+def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[ExamPart]:
+    """Every copy runs as many episodes as in one part, but for the remainder."""
+    share, rest = divmod(episodes, sum(sizes))
+    first = 0
+    for number, size in enumerate(sizes):
+        more = min(max(rest - first, 0), size)
+        chance = int(np.random.SeedSequence([seed, number]).generate_state(1)[0])
+        if share * size + more:
+            yield ExamPart(number, size, share * size + more, chance)
+        first += size
+
+
+class ExamHost:
+    """A worker's side: plays episodes.
+
+    Args:
+        exam: Which policy acts in what.
+    """
+
+    def __init__(self, exam: Exam) -> None:
+        self._exam = exam
+
+    def call(self, part: ExamPart) -> ExamResult:
+        """What came of a part."""
+        load_all(self._exam.imports)
+        return taken(self._exam, part.copies, part.episodes, part.seed)
+
+    def close(self) -> None:
+        """Nothing is left to do."""
+
+
+def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:
+    """Step until every copy has run its episodes; returns the number of steps."""
+    obs = stepper.reset(seed=seed)
+    _check_fit(actor, stepper)
+    trail = Trail(stepper.num_envs)
+    trail.follow(obs, ~stepper.waiting)
+    steps = 0
+    while ledger.left.any():
+        step = stepper.step(actor.act(obs))
+        steps += 1
+        obs = step.obs
+        if step.ended is not None and step.final_obs is not None:
+            ledger.add(step.ended, trail.end(step.ended, step.final_obs))
+        trail.follow(obs, ~stepper.waiting)
+    return steps
+
+
+def _check_fit(actor: Actor, stepper: Stepper) -> None:
+    inputs, found = actor.inputs, stepper.obs[0].size
+    if inputs != found:
+        raise TaskError(
+            f"the policy takes {inputs} observations, the task gives {found}",
+            hint="evaluate with the options it was trained with, such as lidar_samples",
+        )
