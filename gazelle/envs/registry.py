@@ -111,6 +111,35 @@ def _camera_world() -> RegisteredTask:
     )
 
 
+def _hopper() -> RegisteredTask:
+    home = "gazelle.envs.hopper.envs"
+    return RegisteredTask(
+        id="gazelle/HopperStayUp-v0",
+        env=f"{home}:HopperStayUpEnv",
+        vector_env=f"{home}:HopperStayUpVectorEnv",
+        max_episode_steps=1000,
+    )
+
+
+def _reachers() -> list[RegisteredTask]:
+    home = "gazelle.envs.reacher.envs"
+    steps = {
+        "ABBIRB120Reach": 50,
+        "ABBIRB140Reach": 50,
+        "ABBIRB140VelocityReach": 300,
+        "UR5Reach": 50,
+    }
+    return [
+        RegisteredTask(
+            id=f"gazelle/{name}-v0",
+            env=f"{home}:{name}Env",
+            vector_env=f"{home}:{name}VectorEnv",
+            max_episode_steps=limit,
+        )
+        for name, limit in steps.items()
+    ]
+
+
 ENTRIES = (
     *_turtlebot3(),
     _camera_world(),
@@ -119,6 +148,8 @@ ENTRIES = (
     _moving_cube(),
     *_driving(),
     *_kobuki(),
+    _hopper(),
+    *_reachers(),
 )
 
 

@@ -34,11 +34,19 @@ PARTS = {
 FOUR_WHEELS = (
     "front_left_wheel_joint front_right_wheel_joint back_left_wheel_joint back_right_wheel_joint"
 )
+SIX_AXES = "joint_1 joint_2 joint_3 joint_4 joint_5 joint_6"
 # Joints that move.
 OPENAI_ROS = {
     "cartpole": "foot_joint pole_joint",
     "kobuki": "wheel_left_joint wheel_right_joint",
     "rosbot": FOUR_WHEELS,
+    "abb_irb120": SIX_AXES,
+    "abb_irb140": SIX_AXES,
+    "monoped": "haa_joint hfe_joint kfe_joint",
+    "ur5": (
+        "shoulder_pan_joint shoulder_lift_joint elbow_joint wrist_1_joint wrist_2_joint"
+        " wrist_3_joint"
+    ),
     "summit_xl": FOUR_WHEELS,
     "moving_cube": "inertia_wheel_roll_joint",
 }

@@ -47,6 +47,13 @@ PACKAGES = [
     Launched("kobuki_maze_rl", model="kobuki_robot"),
     Launched("rosbot_gazebo", worlds=("start_world_maze.launch",), model="rosbot"),
     Launched("summit_xl_gazebo", model="summit_xl"),
+    Launched(
+        "legged_robots_sims",
+        model="monoped",
+        controllers="joint_state_controller haa_joint_position_controller"
+        " hfe_joint_position_controller kfe_joint_position_controller",
+        space="/monoped",
+    ),
 ]
 
 

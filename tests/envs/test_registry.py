@@ -10,7 +10,7 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 22
+    assert len(task_ids()) == 27
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
@@ -24,6 +24,9 @@ def test_all_ids_are_known_to_gymnasium():
             "Kobuki": 1000,
             "Husarion": 500,
             "SummitXL": 500,
+            "Hopper": 1000,
+            "VelocityReach": 300,
+            "Reach": 50,
         }
         assert spec.max_episode_steps == next(steps[key] for key in steps if key in task)
         assert spec.vector_entry_point is not None

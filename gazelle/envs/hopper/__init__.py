@@ -1,0 +1,1 @@
+"""The leg of openai_ros that shall stay up."""

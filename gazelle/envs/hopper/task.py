@@ -1,0 +1,127 @@
+"""openai_ros' HopperStayUp in many worlds at once."""
+
+from __future__ import annotations
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+import gazelle
+from gazelle import assets
+from gazelle.array_types import Floats, Floats32, Worlds
+from gazelle.description import Pose
+from gazelle.envs.attitude import roll_pitch_yaw
+from gazelle.envs.decimals import rounded
+from gazelle.envs.options import TaskSettings
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.sensors import View, look_at
+from gazelle.simulation import Simulation
+
+CONTROL_PERIOD = 0.05  # [s]: openai_ros looks at the joints 20 times a second until they are there
+STEP = 0.05  # of one joint [rad]
+START = 0.03  # largest roll and pitch at the start [rad]
+HEIGHT = 1.0  # of the base when the leg is straight [m]
+DESIRED = (0.0, 0.0, 1.0)  # where the base should be [m]
+FORCE = 7.08  # that the foot should feel [N]
+ALIVE = 100.0  # reward of a step
+LOWEST, HIGHEST = 0.5, 3.0  # of the base [m]
+STEEPEST = 1.57  # roll and pitch [rad]
+JOINTS = ("haa_joint", "hfe_joint", "kfe_joint")
+LOWER, UPPER = (-1.6, -1.6, -1.6), (1.6, 1.6, 0.0)  # of the joints [rad]
+_MOTOR = 10.0  # [N m], as the robot's file says
+_TIME_STEP = 0.002
+_LEAST = (0.0, -STEEPEST, -STEEPEST, -3.15, 0.0, *LOWER, -3.0, -3.0, 0.0)
+_MOST = (3.0, STEEPEST, STEEPEST, 3.15, 14.16, *UPPER, 3.0, 3.0, HIGHEST)
+
+
+class HopperTask(SimulationTask):
+    """A leg stays up, in ``nworld`` worlds; see `HopperStayUpEnv`.
+
+    Args:
+        nworld: Number of worlds.
+        settings: What the user asks for.
+    """
+
+    scenario_names = ("start_roll", "start_pitch")
+    view = View(look_at((2.4, -1.6, 1.2), (0.0, 0.0, 0.6)), width=480, height=400, samples=1)
+
+    def __init__(self, nworld: int, settings: TaskSettings) -> None:
+        simulation = Simulation(
+            gazelle.load(assets.world("empty")),
+            settings.engine,
+            nworld=nworld,
+            seed=settings.seed or 0,
+            time_step=settings.time_step or _TIME_STEP,
+            threads=settings.threads,
+        )
+        self.robot = simulation.spawn(assets.robot("monoped"), pose=Pose(z=HEIGHT))
+        self._joints = [self.robot.joints[name] for name in JOINTS]
+        for joint in self._joints:
+            joint.add_motor(_MOTOR)
+        self.observation_space = gym.spaces.Box(
+            np.array(_LEAST, np.float32), np.array(_MOST, np.float32), dtype=np.float32
+        )
+        self.action_space = gym.spaces.Discrete(2 * len(JOINTS))
+        super().__init__(
+            simulation,
+            control_period=CONTROL_PERIOD,
+            max_episode_steps=settings.max_episode_steps,
+        )
+        self.memory["start"] = np.zeros((nworld, 2))
+
+    def start(self, worlds: Worlds) -> None:
+        """It stands straight and leans a little."""
+        lean = self.memory["start"][worlds] = self.draw(-START, START, worlds, 2)
+        half = 0.5 * lean
+        cos, sin = np.cos(half), np.sin(half)
+        turned = np.column_stack(
+            (
+                sin[:, 0] * cos[:, 1],
+                cos[:, 0] * sin[:, 1],
+                -sin[:, 0] * sin[:, 1],
+                cos[:, 0] * cos[:, 1],
+            )
+        )
+        place = np.tile((0.0, 0.0, HEIGHT), (len(worlds), 1))
+        self.robot.set_pose(place, turned, worlds=worlds)
+        for joint in self._joints:
+            joint.drive(0.0, worlds)
+
+    def scenario(self, worlds: Worlds) -> Floats:
+        """Roll and pitch at the start [rad], shape (n, 2)."""
+        start: Floats = self.memory["start"][worlds]
+        return start
+
+    def observe(self, worlds: Worlds | None) -> Floats:
+        """What openai_ros' code makes of leg and base, rounded to 0.1."""
+        placement = self.robot.placement(worlds)
+        count = len(placement.position)
+        angles = np.column_stack([joint.positions(worlds)[:, 0] for joint in self._joints])
+        none = np.zeros(count)  # see the data sheet
+        turned = roll_pitch_yaw(placement.quaternion)
+        return rounded(np.column_stack((none, turned, none, angles, placement.position)), 1)
+
+    def act(self, actions: NDArray[np.int64]) -> None:
+        """One joint goes by a step from where it is; the others hold."""
+        joint, back = np.divmod(actions, 2)
+        for number, handle in enumerate(self._joints):
+            angle = handle.positions()[:, 0]
+            wanted = angle + np.where(joint == number, STEP * (1.0 - 2.0 * back), 0.0)
+            wanted = np.clip(wanted, LOWER[number], UPPER[number])
+            handle.drive((wanted - angle) / CONTROL_PERIOD)
+
+    def outcome(self, observation: Floats32) -> StepOutcome:
+        """Less than 100 by joints, turns, force and way from where the base should be."""
+        seen = rounded(observation, 1)
+        turned, angles, place = seen[:, 1:4], seen[:, 5:8], seen[:, 8:11]
+        away = np.linalg.norm(place - DESIRED, axis=1)
+        reward = ALIVE - np.abs(angles).sum(axis=1) - np.abs(seen[:, 4] - FORCE)
+        reward -= np.abs(turned).sum(axis=1) + away
+        upright = (np.abs(self._exactly_turned()) < STEEPEST).all(axis=1)
+        fallen = ~(upright & (place[:, 2] >= LOWEST) & (place[:, 2] < HIGHEST))
+        info = {"is_success": self.lasting & ~fallen, "distance": away}
+        return StepOutcome(reward, fallen, info)
+
+    def _exactly_turned(self) -> Floats:
+        """Roll and pitch [rad], which the end is not judged by as rounded, shape (nworld, 2)."""
+        return roll_pitch_yaw(self.robot.placement().quaternion)[:, :2]

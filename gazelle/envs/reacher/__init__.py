@@ -1,0 +1,1 @@
+"""Arms of frobs_rl that reach for places."""
