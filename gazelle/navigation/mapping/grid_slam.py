@@ -15,6 +15,7 @@ from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
 
@@ -90,10 +91,9 @@ class GridSlam:
         side = s.delta * SIDE
         columns = math.ceil((s.xmax - s.xmin) / side)
         rows = math.ceil((s.ymax - s.ymin) / side)
+        self._maps = TiledMaps(s.particles, rows, columns, (s.xmin, s.ymin), s.delta)
         # As in the original, sigma divides squares of distances.
-        self._maps = TiledMaps(
-            s.particles, rows, columns, (s.xmin, s.ymin), s.delta, s.sigma, s.lsigma, s.kernelSize
-        )
+        self._matcher = ScanMatcher(self._maps, s.sigma, s.lsigma, s.kernelSize)
         self.poses: Floats = np.zeros((s.particles, 3))
         self._scores: Floats = np.zeros(s.particles)
         self._sums: Floats = np.zeros(s.particles)
@@ -137,6 +137,9 @@ class GridSlam:
         """
         s = self.settings
         first = self._odom is None
+        if first:
+            # As in the original, the map begins where odometry does.
+            self.poses[:] = odom
         before = odom if self._odom is None else self._odom
         self._move(before, odom)
         self._odom = odom
@@ -145,7 +148,6 @@ class GridSlam:
         self._turn += abs(step[2])
         late = s.temporalUpdate >= 0.0 and time - self._time > s.temporalUpdate
         if not (first or late or self._way >= s.linearUpdate or self._turn >= s.angularUpdate):
-            self._place(odom)
             return False
         self._way = self._turn = 0.0
         self._time = time
@@ -193,16 +195,13 @@ class GridSlam:
             x, y, heading = pose.tolist()
             seen = np.array(composed((x, y, heading), laser))
             found = seen.copy()
-            score, likelihood = self._maps.match(
-                particle, found, used, s.lstep, s.astep, s.iterations
-            )
+            score = self._matcher.match(particle, found, used, s.lstep, s.astep, s.iterations)
             if score <= s.minimumScore:
+                # It stays where odometry says.
                 found = seen
-                # It stays where odometry says, with the likelihood that it has there.
-                _, likelihood = self._maps.match(particle, seen.copy(), used, 0.0, 0.0, 0)
+            logs[particle] = self._matcher.likelihood(particle, found, used)
             x, y, heading = found.tolist()
             self.poses[particle] = composed((x, y, heading), back)
-            logs[particle] = likelihood
         self._scores, self._sums = self._scores + logs, self._sums + logs
 
     def _weigh(self) -> None:

@@ -11,6 +11,7 @@ from gazelle.errors import Error
 from gazelle.navigation.costmap.distances import squared_distances
 from gazelle.navigation.localization.scan_likelihood import BeamModel
 from gazelle.navigation.mapping import GmappingSettings, GridSlam
+from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import TiledMaps
 from gazelle.navigation.planners.planar import composed
 
@@ -73,8 +74,19 @@ def test_a_map_agrees_with_the_truth_and_the_place_with_it():
     assert np.mean(error <= 1.0) >= 0.95
 
 
+def test_a_map_begins_where_odometry_does_and_keeps_its_frame_between_scans():
+    slam = GridSlam(GmappingSettings.read(TB3), seed=1)
+    ranges = np.full(len(ANGLES), 2.0)
+    assert slam.update(0.0, (1.5, -0.5, 0.7), ranges, ANGLES, 3.5, LASER)
+    assert slam.map_to_odom == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
+    before = slam.map_to_odom
+    # Too little motion for a scan to be used: noise of particles that no scan has checked is kept inside.
+    assert not slam.update(0.1, (1.6, -0.4, 0.8), ranges, ANGLES, 3.5, LASER)
+    assert slam.map_to_odom == before
+
+
 def maps(count=2):
-    return TiledMaps(count, 4, 4, (-3.2, -3.2), 0.05, 0.05, 0.075, 1)
+    return TiledMaps(count, 4, 4, (-3.2, -3.2), 0.05)
 
 
 def test_beams_free_what_they_pass_and_fill_where_they_end():
@@ -125,7 +137,7 @@ def test_a_scan_is_moved_to_where_it_fits():
     beams = np.stack((far * np.cos(angles), far * np.sin(angles)), 1)
     tiles.register(0, true, beams, 4.0)
     pose = true + np.array([0.07, -0.06, 0.05])
-    score, _ = tiles.match(0, pose, beams, 0.05, 0.05, 5)
+    score = ScanMatcher(tiles, 0.05, 0.075, 1).match(0, pose, beams, 0.05, 0.05, 5)
     assert pose == pytest.approx(true, abs=0.02)
     assert score > 0.95 * len(beams)
 

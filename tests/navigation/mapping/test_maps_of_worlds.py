@@ -1,0 +1,125 @@
+"""Maps made while driving through simulated worlds agree with the true ones to a cell."""
+
+import math
+
+import numpy as np
+import pytest
+
+import gazelle
+from gazelle.navigation.costmap.distances import squared_distances
+from gazelle.navigation.mapping import GmappingSettings, GridSlam
+from gazelle.navigation.planners.planar import between, composed
+from gazelle.navigation.true_map import true_map
+from gazelle.rotations import yaw_of
+
+# As in turtlebot3_slam's file, but for fewer particles.
+SETTINGS = {
+    "maxUrange": 3.0, "sigma": 0.05, "lsigma": 0.075, "minimumScore": 50, "linearUpdate": 1.0,
+    "angularUpdate": 0.2, "temporalUpdate": 0.5, "particles": 4, "xmin": -10, "ymin": -10, "xmax": 10, "ymax": 10,
+}  # fmt: skip
+WORLD = [(-1.5, -0.5), (-0.55, -1.75), (0.55, -1.75), (1.7, -0.5), (0.55, 0.55), (1.7, 0.5), (0.5, 1.75),
+         (-0.5, 1.75), (-0.55, 0.55), (-1.7, 0.5)]  # fmt: skip
+ROOM = [(-4.0, 0.0), (-4.0, -3.5), (0.4, -3.5), (4.0, -3.5), (3.4, 0.0), (4.0, 3.5), (0.4, 3.5), (-4.0, 3.5)]  # fmt: skip
+
+
+def drive(world, start, goals, take):
+    """Go to goals one after another; `take` gets each scan with odometry and the truth."""
+    with gazelle.Simulation(world, engine="planar", seed=0) as sim:
+        robot = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(*start))
+        sensor, stamp = robot.sensors["lds_lfcd_sensor"], -1
+        for goal in goals:
+            task, end = robot.navigation.go_to(*goal), sim.time + 90.0
+            while not task.done and sim.time < end:
+                sim.run(seconds=0.1)
+                scan = sensor.read()
+                if scan.stamp != stamp:
+                    stamp, odom = scan.stamp, robot.outputs["odom"].last
+                    x, y = odom.position[0, :2].tolist()
+                    place = x, y, float(yaw_of(odom.quaternion)[0])
+                    take(scan, place, (robot.pose.x, robot.pose.y, robot.pose.yaw))
+        return true_map(sim.world, 0.18, margin=2.0)
+
+
+class Mapper:
+    """A `GridSlam` whose odometry slips by a share."""
+
+    def __init__(self, slip, laser=(-0.032, 0.0, 0.0)):
+        self.slam = GridSlam(GmappingSettings.read(SETTINGS), seed=3)
+        self._slip, self._laser = slip, laser
+        self._random = np.random.default_rng(5)
+        self._last = self._odom = None
+        self.errors = []
+
+    def take(self, scan, odom, true):
+        if self._last is None:
+            self._odom = odom
+        else:
+            x, y, turn = between(self._last, odom)
+            share = 1.0 + self._slip * self._random.normal(1.0, 1.0)
+            turned = turn * (1.0 + self._slip * self._random.normal(1.0, 1.0))
+            self._odom = composed(self._odom, (x * share, y * share, turned))
+        self._last = odom
+        ranges = np.array(scan.ranges, np.float64).reshape(-1)
+        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        if self.slam.update(
+            scan.stamp / 1e9, self._odom, ranges, angles, scan.range_max, self._laser
+        ):
+            at = composed(self.slam.map_to_odom, self._odom)
+            off = math.remainder(at[2] - true[2], 2 * math.pi)
+            self.errors.append((math.dist(at[:2], true[:2]), abs(off)))
+
+
+def distances(walls, grid):
+    """From walls [m], shape (n, 2), to what is occupied in a grid [cells]."""
+    near = np.sqrt(squared_distances((grid.data == 100).view(np.uint8)))
+    cells = np.floor((walls - [grid.origin.x, grid.origin.y]) / 0.05 + 1e-9).astype(int)
+    inside = ((cells >= 0) & (cells < grid.data.shape[::-1])).all(axis=1)
+    return near[cells[inside, 1], cells[inside, 0]]
+
+
+def seen_walls(true, found):
+    """Middles of wall cells beside free ground that the map has as free, shape (n, 2) [m]."""
+    faces = (true.data == 100) & (squared_distances((true.data == 0).view(np.uint8)) <= 1)
+    rows, columns = np.nonzero(faces)
+    walls = np.stack((columns, rows), 1) * 0.05 + 0.025 + [true.origin.x, true.origin.y]
+    free = distances_to_free(walls, found)
+    return walls[free <= 2.0]
+
+
+def distances_to_free(walls, grid):
+    near = np.sqrt(squared_distances((grid.data == 0).view(np.uint8)))
+    cells = np.floor((walls - [grid.origin.x, grid.origin.y]) / 0.05 + 1e-9).astype(int)
+    return near[cells[:, 1], cells[:, 0]]
+
+
+def check(world, start, goals, slip, least):
+    mapper = Mapper(slip)
+    true = drive(world, start, goals, mapper.take)
+    found = mapper.slam.map()
+    if least:
+        walls = seen_walls(true, found)
+        assert len(walls) > least
+        # In the cell itself or in one of the eight around it.
+        assert np.mean(distances(walls, found) < 1.5) >= 0.95
+    rows, columns = np.nonzero(found.data == 100)
+    drawn = np.stack((columns, rows), 1) * 0.05 + 0.025 + [found.origin.x, found.origin.y]
+    assert np.mean(distances(drawn, true) < 1.5) >= 0.95
+    place, heading = np.array(mapper.errors).T
+    assert place.mean() < 0.02
+    assert heading.mean() < 0.005
+
+
+def test_a_part_of_turtlebot3_world():
+    check("turtlebot3_world", (-2.0, -0.5), WORLD[:3], 0.05, 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("slip", [0.0, 0.05])
+def test_turtlebot3_world_with_wheels_that_slip(slip):
+    check("turtlebot3_world", (-2.0, -0.5), WORLD, slip, 400)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("slip", [0.0, 0.05])
+def test_a_furnished_room(slip):
+    check("furnished_room", (-0.5, 0.0), ROOM, slip, 500)
