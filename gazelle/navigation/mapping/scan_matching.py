@@ -38,11 +38,13 @@ class ScanMatcher:
     _normal_y: cython.double
     _off: cython.double
     _weight: cython.double
+    _sums: cython.double[::1]
 
     def __init__(self, maps: TiledMaps, sigma: float, spread: float, kernel: int) -> None:
         self._maps = maps
         self._sigma, self._spread, self._kernel = sigma, spread, kernel
         self._likelihood = self._normal_x = self._normal_y = self._off = self._weight = 0.0
+        self._sums = np.zeros(9)
 
     def likelihood(self, particle: int, pose: Floats, beams: Floats) -> float:
         """The logarithm of the likelihood of a scan at a pose; arguments as of `match`."""
@@ -208,62 +210,66 @@ class ScanMatcher:
         beams: cython.double[:, ::1],
     ) -> cython.void:
         """Least squares by Gauss and Newton, in eight rounds at most."""
-        maps: TiledMaps = self._maps
-        x: cython.double = pose[0]
-        y: cython.double = pose[1]
-        heading: cython.double = pose[2]
-        n: cython.Py_ssize_t
-        count: cython.Py_ssize_t = beams.shape[0]
-        # An end half a cell off counts half.
-        square: cython.double = 0.25 * maps.cell * maps.cell
+        sums: cython.double[::1] = self._sums
         for _ in range(8):
-            c: cython.double = cos(heading)
-            s: cython.double = sin(heading)
             # Odometry counts as two beams: where walls say nothing, as along a corridor, it decides.
-            hxx: cython.double = 2.0
-            hxy: cython.double = 0.0
-            hyy: cython.double = 2.0
-            hxt: cython.double = 0.0
-            hyt: cython.double = 0.0
-            htt: cython.double = 0.1
-            gx: cython.double = 2.0 * (x - guess[0])
-            gy: cython.double = 2.0 * (y - guess[1])
-            gt: cython.double = 0.1 * (heading - guess[2])
-            for n in range(count):
-                bx: cython.double = c * beams[n, 0] - s * beams[n, 1]
-                by: cython.double = s * beams[n, 0] + c * beams[n, 1]
-                if not self._find_line(particle, x + bx, y + by, bx, by):
-                    continue
-                nx: cython.double = self._normal_x
-                ny: cython.double = self._normal_y
-                off: cython.double = self._off
-                weight: cython.double = self._weight / (1.0 + off * off / square)
-                turn: cython.double = ny * bx - nx * by
-                hxx += weight * nx * nx
-                hxy += weight * nx * ny
-                hyy += weight * ny * ny
-                hxt += weight * nx * turn
-                hyt += weight * ny * turn
-                htt += weight * turn * turn
-                gx += weight * nx * off
-                gy += weight * ny * off
-                gt += weight * turn * off
+            sums[0] = sums[2] = 2.0
+            sums[1] = sums[3] = sums[4] = 0.0
+            sums[5] = 0.1
+            sums[6] = 2.0 * (pose[0] - guess[0])
+            sums[7] = 2.0 * (pose[1] - guess[1])
+            sums[8] = 0.1 * (pose[2] - guess[2])
+            self._add_beams(particle, pose, beams)
             # By Cholesky's factors.
-            l00: cython.double = hxx**0.5
-            l10: cython.double = hxy / l00
-            l20: cython.double = hxt / l00
-            l11: cython.double = (hyy - l10 * l10) ** 0.5
-            l21: cython.double = (hyt - l20 * l10) / l11
-            l22: cython.double = (htt - l20 * l20 - l21 * l21) ** 0.5
-            z0: cython.double = gx / l00
-            z1: cython.double = (gy - l10 * z0) / l11
-            dt: cython.double = (gt - l20 * z0 - l21 * z1) / (l22 * l22)
+            l00: cython.double = sums[0] ** 0.5
+            l10: cython.double = sums[1] / l00
+            l20: cython.double = sums[3] / l00
+            l11: cython.double = (sums[2] - l10 * l10) ** 0.5
+            l21: cython.double = (sums[4] - l20 * l10) / l11
+            square: cython.double = sums[5] - l20 * l20 - l21 * l21
+            z0: cython.double = sums[6] / l00
+            z1: cython.double = (sums[7] - l10 * z0) / l11
+            dt: cython.double = (sums[8] - l20 * z0 - l21 * z1) / square
             dy: cython.double = (z1 - l21 * dt) / l11
             dx: cython.double = (z0 - l10 * dy - l20 * dt) / l00
-            x, y, heading = x - dx, y - dy, heading - dt
+            pose[0] -= dx
+            pose[1] -= dy
+            pose[2] -= dt
             if dx * dx + dy * dy < 1e-8 and dt * dt < 1e-8:
                 break
-        pose[0], pose[1], pose[2] = x, y, heading
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _add_beams(
+        self, particle: cython.int, pose: cython.double[::1], beams: cython.double[:, ::1]
+    ) -> cython.void:
+        """Add what beams say to the normal equations: xx, xy, yy, xt, yt, tt, and the right side."""
+        sums: cython.double[::1] = self._sums
+        c: cython.double = cos(pose[2])
+        s: cython.double = sin(pose[2])
+        # An end half a cell off counts half.
+        square: cython.double = 0.25 * self._maps.cell * self._maps.cell
+        n: cython.Py_ssize_t
+        count: cython.Py_ssize_t = beams.shape[0]
+        for n in range(count):
+            bx: cython.double = c * beams[n, 0] - s * beams[n, 1]
+            by: cython.double = s * beams[n, 0] + c * beams[n, 1]
+            if not self._find_line(particle, pose[0] + bx, pose[1] + by, bx, by):
+                continue
+            nx: cython.double = self._normal_x
+            ny: cython.double = self._normal_y
+            off: cython.double = self._off
+            weight: cython.double = self._weight / (1.0 + off * off / square)
+            turn: cython.double = ny * bx - nx * by
+            sums[0] += weight * nx * nx
+            sums[1] += weight * nx * ny
+            sums[2] += weight * ny * ny
+            sums[3] += weight * nx * turn
+            sums[4] += weight * ny * turn
+            sums[5] += weight * turn * turn
+            sums[6] += weight * nx * off
+            sums[7] += weight * ny * off
+            sums[8] += weight * turn * off
 
     @cython.cfunc
     @cython.exceptval(check=False)
