@@ -34,6 +34,10 @@ class PoseEstimate:
     weight: float
 
 
+_CONVERGED = 0.5
+"""As in the original [m]."""
+
+
 class ParticleFilter:
     """Particles in the plane.
 
@@ -49,6 +53,7 @@ class ParticleFilter:
     Attributes:
         poses: x, y [m] and heading [rad], shape (n, 3).
         weights: They sum up to 1, shape (n,).
+        converged: Whether all were within half a metre of their mean after the last resampling.
     """
 
     def __init__(
@@ -68,6 +73,7 @@ class ParticleFilter:
         self.poses: Floats = np.zeros((self.most, 3))
         self.weights: Floats = np.full(self.most, 1.0 / self.most)
         self._long = self._short = 0.0
+        self.converged = False
 
     def spread(self, mean: Floats, covariance: Floats) -> None:
         """Begin with a normal distribution: mean shape (3,), covariance (3, 3)."""
@@ -80,6 +86,7 @@ class ParticleFilter:
         self.poses = np.ascontiguousarray(poses)
         self.weights = np.full(len(poses), 1.0 / len(poses))
         self._long = self._short = 0.0
+        self.converged = False
 
     def weigh(self, scores: Floats) -> None:
         """Multiply weights, shape (n,), and learn how well scans fit on average."""
@@ -127,6 +134,8 @@ class ParticleFilter:
         count = int(enough[0]) + 1 if len(enough) else self.most
         self.poses = np.ascontiguousarray(poses[:count])
         self.weights = np.full(count, 1.0 / count)
+        off = np.abs(self.poses[:, :2] - self.poses[:, :2].mean(axis=0))
+        self.converged = bool(off.max() <= _CONVERGED)
 
     def needed(self, bins: Indices) -> Floats:
         """How many particles so many occupied bins need, between least and most."""

@@ -51,6 +51,41 @@ class LikelihoodField:
         self._score(poses, points, first, result)
         return result
 
+    def count_above(self, poses: Floats, points: Floats, least: float) -> Floats:
+        """At how many poses each beam's end adds more than `least`, shape (m,)."""
+        result = np.zeros(len(points))
+        self._count(poses, points, least, result)
+        return result
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def _count(
+        self,
+        poses: cython.double[:, ::1],
+        points: cython.double[:, ::1],
+        least: cython.double,
+        result: cython.double[::1],
+    ) -> cython.void:
+        n: cython.Py_ssize_t
+        i: cython.Py_ssize_t
+        count: cython.Py_ssize_t = poses.shape[0]
+        beams: cython.Py_ssize_t = points.shape[0]
+        rows: cython.int = self._terms.shape[0]
+        columns: cython.int = self._terms.shape[1]
+        scale: cython.double = 1.0 / self._cell
+        for n in range(count):
+            c: cython.double = cos(poses[n, 2]) * scale
+            s: cython.double = sin(poses[n, 2]) * scale
+            x0: cython.double = (poses[n, 0] - self._x0) * scale + 1.0
+            y0: cython.double = (poses[n, 1] - self._y0) * scale + 1.0
+            for i in range(beams):
+                column: cython.int = cython.cast(
+                    cython.int, x0 + c * points[i, 0] - s * points[i, 1]
+                )
+                row: cython.int = cython.cast(cython.int, y0 + s * points[i, 0] + c * points[i, 1])
+                if 0 <= column < columns and 0 <= row < rows and self._terms[row, column] > least:
+                    result[i] += 1.0
+
     @cython.cfunc
     @cython.exceptval(check=False)
     def _score(

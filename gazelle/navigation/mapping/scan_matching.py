@@ -49,7 +49,7 @@ class ScanMatcher:
     def likelihood(self, particle: int, pose: Floats, beams: Floats) -> float:
         """The logarithm of the likelihood of a scan at a pose; arguments as of `match`."""
         self._score(particle, pose[0], pose[1], pose[2], beams)
-        return self._likelihood
+        return float(self._likelihood)
 
     def match(
         self,
@@ -76,7 +76,7 @@ class ScanMatcher:
         guess = np.array(pose)
         score = self._climb(particle, pose, beams, step, turn, rounds)
         self._slide(particle, pose, guess, beams)
-        return score
+        return float(score)
 
     @cython.cfunc
     @cython.exceptval(check=False)

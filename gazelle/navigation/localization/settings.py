@@ -1,0 +1,65 @@
+"""Parameters of ``amcl``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gazelle.errors import Error, did_you_mean
+from gazelle.navigation.costmap.parameters import Values, fields_of
+from gazelle.navigation.localization.odometry_models import check_model
+
+LASER_MODELS = ("likelihood_field", "beam", "likelihood_field_prob")
+
+
+@dataclass(frozen=True, slots=True)
+class AmclSettings:
+    """Parameters; names and defaults are those of ``amcl``."""
+
+    min_particles: int = 100
+    max_particles: int = 5000
+    kld_err: float = 0.01
+    kld_z: float = 0.99
+    update_min_d: float = 0.2
+    update_min_a: float = math.pi / 6.0
+    resample_interval: int = 2
+    recovery_alpha_slow: float = 0.001
+    recovery_alpha_fast: float = 0.1
+    selective_resampling: bool = False
+    laser_min_range: float = -1.0
+    laser_max_range: float = -1.0
+    laser_max_beams: int = 30
+    laser_z_hit: float = 0.95
+    laser_z_short: float = 0.1
+    laser_z_max: float = 0.05
+    laser_z_rand: float = 0.05
+    laser_sigma_hit: float = 0.2
+    laser_lambda_short: float = 0.1
+    laser_likelihood_max_dist: float = 2.0
+    laser_model_type: str = "likelihood_field"
+    do_beamskip: bool = False
+    beam_skip_distance: float = 0.5
+    beam_skip_threshold: float = 0.3
+    beam_skip_error_threshold: float = 0.9
+    odom_model_type: str = "diff"
+    odom_alpha1: float = 0.2
+    odom_alpha2: float = 0.2
+    odom_alpha3: float = 0.2
+    odom_alpha4: float = 0.2
+    odom_alpha5: float = 0.2
+
+    @classmethod
+    def read(cls, values: Values) -> AmclSettings:
+        """From parameters.
+
+        Raises:
+            Error: One is of the wrong kind, or a model is unknown.
+        """
+        found = fields_of(cls, values)
+        check_model(found["odom_model_type"])
+        laser = found["laser_model_type"]
+        if laser not in LASER_MODELS:
+            raise Error(
+                f"the laser model '{laser}' is unknown", hint=did_you_mean(laser, LASER_MODELS)
+            )
+        return cls(**found)
