@@ -22,8 +22,8 @@ from gazelle.errors import Error
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
-from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.localization.odometry_models import MODELS
+from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.map_server import grid_of_message

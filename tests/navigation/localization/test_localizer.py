@@ -158,6 +158,7 @@ def test_beams_that_end_on_what_no_map_has_are_skipped():
         skipping.scores(poses, scan),
         ScanModel(AmclSettings.read(values), grid).scores(poses, scan),
     )
+
     def likeness(found):
         return np.corrcoef(np.log(found), np.log(clean))[0, 1]
 
