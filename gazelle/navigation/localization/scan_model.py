@@ -74,7 +74,8 @@ class ScanModel:
             points = points[self._expected(field, poses, points, most)]
         logs = field.scores(poses, points, 0.0)
         # A common factor changes no weights, and keeps them from vanishing.
-        return np.exp(logs - logs.max())
+        weights: Floats = np.exp(logs - logs.max())
+        return weights
 
     def _step(self, count: int) -> int:
         """Every how many beams are used."""

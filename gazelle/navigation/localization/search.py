@@ -62,4 +62,6 @@ def _drawn(poses: Floats, scores: Floats, count: int, random: np.random.Generato
             many = power
     sums = np.cumsum(np.exp(few * logs))
     even = (np.arange(count) + random.random()) * (sums[-1] / count)
-    return poses[np.minimum(np.searchsorted(sums, even, side="right"), len(poses) - 1)]
+    places = np.minimum(np.searchsorted(sums, even, side="right"), len(poses) - 1)
+    drawn: Floats = poses[places]
+    return drawn
