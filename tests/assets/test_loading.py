@@ -13,7 +13,7 @@ from gazelle.formats import load_model
 BUILT = {"office", "fleet"}
 OF_TASKS = {
     *("turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"),
-    *("rosbot_playground", "summit_xl_room"),
+    *("rosbot_playground", "summit_xl_room", "turtlebot3_camera"),
 }
 LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range", "pick_and_place"}
 LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT - OF_TASKS
