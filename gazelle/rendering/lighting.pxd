@@ -5,7 +5,10 @@ cimport cython
 cdef class Lighting:
     cdef readonly double[:, ::1] lamps
     cdef readonly double[::1] ambient, top, horizon
-    cdef readonly bint sky, local
+    cdef readonly bint sky
+    cdef public bint local
+    cdef public Py_ssize_t caster
+    cdef double share
     cdef readonly unsigned char[::1] tones
     cdef double[:, ::1] seen
     cdef double[::1] up

@@ -44,6 +44,10 @@ class Lighting:
         self.up = np.zeros(3)
         self.sky = any(top[k] != horizon[k] for k in range(3))
         self.local = bool((lamps[:, KIND] != DIRECTIONAL).any())
+        self.caster, self.share = (
+            -1,
+            1.0,
+        )  # the lamp that has shadows, and what of it falls somewhere
 
     def look(self, cameras: Floats, n: int) -> None:
         """Turn all lamps into the frame of camera n."""
@@ -73,6 +77,8 @@ class Lighting:
             out[k] = self.ambient[k] * (0.75 + 0.25 * height)
         for i in range(self.lamps.shape[0]):
             shine = self.reaching(i, x, y, z, normal)
+            if i == self.caster:
+                shine *= self.share
             if shine > 0.0:
                 for k in range(3):
                     out[k] += shine * self.lamps[i, COLOR + k]

@@ -17,6 +17,9 @@ class LiveScene:
     Args:
         engine: Knows where the links are.
         gamma: See ``Renderer``.
+
+    Attributes:
+        shadows: Whether things throw shadows, in the pictures of cameras too; off at first.
     """
 
     def __init__(self, engine: Engine, *, gamma: float = 1.0) -> None:
@@ -24,6 +27,7 @@ class LiveScene:
         self._models: tuple[Model, ...] = ()
         self._links: tuple[str, ...] = ()
         self._renderer: Renderer | None = None
+        self.shadows = False
 
     @property
     def renderer(self) -> Renderer:
@@ -34,6 +38,7 @@ class LiveScene:
             self._renderer = Renderer(world, nworld=self._engine.nworld, gamma=self._gamma)
             known = set(self._engine.link_names)
             self._links = tuple(link for link in self._renderer.links if link in known)
+        self._renderer.shadows = self.shadows
         return self._renderer
 
     def render(

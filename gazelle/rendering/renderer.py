@@ -11,10 +11,17 @@ from gazelle.description import World
 from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
 from gazelle.rendering import columns as c
-from gazelle.rendering.lamps import lighting_of
+from gazelle.rendering.lamps import SUN, lighting_of, table_of
 from gazelle.rendering.lens import PinholeLens
 from gazelle.rendering.rasterizer import Rasterizer
 from gazelle.rendering.shading import Shader
+from gazelle.rendering.shadow_maps import (
+    ShadowMaps,
+    casting_lamp,
+    extent_of_shapes,
+    shadow_maps,
+    side_of,
+)
 from gazelle.rendering.visible import VisiblePart, rows_of, visible_world
 
 
@@ -43,8 +50,10 @@ class Renderer:
         nworld: How many copies.
         threads: That draw at once; all processors if None.
         gamma: Brightness b becomes b to the power 1 / gamma.
+        shadows: Whether things throw shadows in the first directional light that has them.
 
     Attributes:
+        shadows: Likewise; it can be set.
         links: Scoped names of the links that have visuals.
         parts: What labels count.
 
@@ -59,7 +68,9 @@ class Renderer:
         nworld: int = 1,
         threads: int | None = None,
         gamma: float = 1.0,
+        shadows: bool = False,
     ) -> None:
+        self.shadows = shadows
         seen = visible_world(world)
         self.links: tuple[str, ...] = seen.links
         self.parts: tuple[VisiblePart, ...] = seen.parts
@@ -67,6 +78,8 @@ class Renderer:
         self._world, self._gamma = world, gamma
         self._shapes = seen.shapes
         self._placed = np.repeat(seen.rest[None], nworld, axis=0)
+        self._lights = world.lights or (SUN,)
+        self._extent = extent_of_shapes(seen.shapes, seen.rest)
         self._pool = WorkerPool(threads)
 
     def place(
@@ -139,15 +152,26 @@ class Renderer:
             np.empty((len(cameras) if "labels" in want else 0, *shape), np.int32),
         )
 
+        maps = self._maps(cameras, lens) if "color" in want else None
+
         def work(first: int, last: int, _part: int) -> None:
             size = (lens.width, lens.height)
             rasterizer = Rasterizer(self._shapes, self._placed, cameras, lens.row, size)
             lighting = lighting_of(self._world, gamma=self._gamma)
-            shader = Shader(rasterizer, lighting, frames.color, frames.depth, frames.labels)
+            pictures = frames.color, frames.depth, frames.labels
+            shader = Shader(rasterizer, lighting, *pictures, maps)
             shader.draw(first, last)
 
         self._pool.share(work, len(cameras), 1)
         return frames
+
+    def _maps(self, cameras: Floats, lens: PinholeLens) -> ShadowMaps | None:
+        """The pictures that shadows are looked up in, if there are any."""
+        lamp = casting_lamp(self._lights) if self.shadows else None
+        if lamp is None:
+            return None
+        along = table_of(self._lights)[lamp, c.ALONG : c.ALONG + 3]
+        return shadow_maps(cameras, lamp, along, self._extent, side_of(lens))
 
     def _cameras(self, positions: Floats, quaternions: Floats, worlds: Worlds | None) -> Floats:
         count = len(positions)

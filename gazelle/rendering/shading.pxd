@@ -16,6 +16,10 @@ cdef class Shader:
     cdef unsigned char[:, ::1] flat
     cdef double[:, ::1] corners, bends, shares
     cdef double[::1] light, normal, base, behind
+    cdef Rasterizer shadow
+    cdef double[:, ::1] turns
+    cdef double pixel
+    cdef bint shadowed
     cdef Py_ssize_t slots
 
     cdef void draw_one(self, Py_ssize_t n) noexcept nogil
@@ -43,6 +47,9 @@ cdef class Shader:
     @cython.locals(x=double, y=double, z=double, size=double, p=Py_ssize_t, b=double)
     cdef void shade_exactly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t t) noexcept nogil
+    @cython.locals(u=double, v=double, w=double, a=double, b=double, c=double, lit=double,
+                   lift=double, i=Py_ssize_t, j=Py_ssize_t)
+    cdef double sunlit(self, Py_ssize_t n, double x, double y, double z) noexcept nogil
     @cython.locals(x=double, y=double, up=double)
     cdef void put_backdrop(self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c) noexcept nogil
     @cython.locals(s=Py_ssize_t, k=int, j=int)

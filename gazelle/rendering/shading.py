@@ -19,6 +19,7 @@ from cython.cimports.libc.math import floor, sqrt
 from gazelle.array_types import Bytes, Floats32, Ints32
 from gazelle.rendering.lighting import Lighting
 from gazelle.rendering.rasterizer import Rasterizer
+from gazelle.rendering.shadow_maps import ShadowMaps
 
 NOTHING = cython.declare(cython.float, float("inf"))
 
@@ -36,6 +37,8 @@ class Shader:
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width);
             with n = 0 none.
         labels: Numbers of what is seen, -1 where nothing is, likewise.
+        maps: Where a lamp sees the world from, for shadows; None for no shadows. Every pixel is
+            lit by itself then.
     """
 
     def __init__(
@@ -45,6 +48,7 @@ class Shader:
         color: Bytes,
         depth: Floats32,
         labels: Ints32,
+        maps: ShadowMaps | None = None,
     ) -> None:
         self.seen, self.lighting = seen, lighting
         self.color, self.depth, self.labels = color, depth, labels
@@ -63,6 +67,13 @@ class Shader:
         self.shares = np.empty((3, 3))
         self.light, self.normal, self.base = np.empty(3), np.empty(3), np.empty(3)
         self.behind = np.empty(3)
+        self.shadowed = maps is not None and self.colored
+        self.turns, self.pixel = np.empty((0, 12)), 0.0
+        if maps is not None:
+            square = maps.side, maps.side
+            self.shadow = Rasterizer(seen.shapes, seen.links, maps.cameras, maps.lens, square)
+            self.turns, self.pixel = maps.turns, maps.pixel
+            self.lighting.caster, self.lighting.local = maps.lamp, True
 
     def draw(self, first: int, last: int) -> None:
         """Draw the pictures of cameras first to last, without the interpreter's lock."""
@@ -77,6 +88,8 @@ class Shader:
     def draw_one(self, n: int) -> None:
         """Draw the picture of camera n."""
         self.seen.draw(n)
+        if self.shadowed:
+            self.shadow.draw(n)
         if self.colored:
             self.lighting.look(self.seen.cameras, n)
             self.put_color(n)
@@ -216,12 +229,45 @@ class Shader:
             self.normal[k] /= max(size, 1e-12)
         x = (c + 0.5 - self.seen.cx) / self.seen.fx * z
         y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
+        if self.shadowed:
+            self.lighting.share = self.sunlit(n, x, y, z)
         self.lighting.light_up(x, y, z, self.normal, self.light)
         p = self.seen.part_of[t]
         self.find_base(s, p, r, c, z)
         for k in range(3):
             b = self.seen.shapes.glow[p, k]
             self.color[n, r, c, k] = self.lighting.tone(self.base[k] * self.light[k] + b)
+
+    def sunlit(self, n: int, x: float, y: float, z: float) -> float:
+        """The share of the lamp that falls on a place in the frame of camera n: 0 in shadow.
+
+        The place is lifted off its surface by one and a half pixels of the lamp's picture, so that it
+        is not in the shadow of itself.
+        """
+        lift = 1.5 * self.pixel
+        a, b, c = x + lift * self.normal[0], y + lift * self.normal[1], z + lift * self.normal[2]
+        u = self.turns[n, 0] * a + self.turns[n, 1] * b + self.turns[n, 2] * c + self.turns[n, 9]
+        v = self.turns[n, 3] * a + self.turns[n, 4] * b + self.turns[n, 5] * c + self.turns[n, 10]
+        w = self.turns[n, 6] * a + self.turns[n, 7] * b + self.turns[n, 8] * c + self.turns[n, 11]
+        if w < self.shadow.near:
+            return 1.0
+        u = self.shadow.cx + self.shadow.fx * u / w - 0.5
+        v = self.shadow.cy + self.shadow.fy * v / w - 0.5
+        if u < 0.0 or v < 0.0 or u >= self.shadow.width - 1 or v >= self.shadow.height - 1:
+            return 1.0  # beyond what has shadows
+        i, j = cython.cast(cython.Py_ssize_t, floor(u)), cython.cast(cython.Py_ssize_t, floor(v))
+        u, v = u - i, v - j
+        a, b = 1.0 - u, 1.0 - v
+        c, lit = 1.0 / (w - 0.5 * self.pixel), 0.0
+        if self.shadow.inverse[j, i] <= c:
+            lit += a * b
+        if self.shadow.inverse[j, i + 1] <= c:
+            lit += u * b
+        if self.shadow.inverse[j + 1, i] <= c:
+            lit += a * v
+        if self.shadow.inverse[j + 1, i + 1] <= c:
+            lit += u * v
+        return lit
 
     def put_backdrop(self, n: int, r: int, c: int) -> None:
         """Colour a pixel that shows nothing."""
