@@ -24,6 +24,7 @@ from gazelle.rotations import rotate, yaw_of
 from gazelle.sensors import LaserScan
 from gazelle.simulation import ModelPlugin, Robot, SensorUnit
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.navigation_control import NavigationPlan
 
 _SOURCES = ("truth", "amcl")
 _LOST_SEED = 7
@@ -134,6 +135,15 @@ class RobotNavigation(ModelPlugin):
             if pilot is not None and pilot.busy:
                 pilot.cancel()
                 self._robot.inputs["cmd_vel"].send(0.0, 0.0, np.array([world]))
+
+    def plans(self) -> dict[int, NavigationPlan]:
+        """The goal of each world that has one, and the way there."""
+        goals = {world: pilot.goal for world, pilot in self._pilots.items()}
+        return {
+            world: NavigationPlan(goal, self._pilots[world].path)
+            for world, goal in goals.items()
+            if goal is not None
+        }
 
     def on_update(self, time: float) -> None:
         """Take a cycle in each world with a goal."""

@@ -29,6 +29,7 @@ class WorldPilot:
     Attributes:
         outcome: How the last goal ended.
         text: What was said of it.
+        path: The last global plan to the goal, shape (n, 3): x, y and heading [m, rad].
     """
 
     def __init__(
@@ -43,10 +44,16 @@ class WorldPilot:
         self._seen = -1
         self.outcome: GoalOutcome | None = None
         self.text = ""
+        self.path: Floats = np.zeros((0, 3))
         for setup in (stack.whole, stack.local):
             for layer in setup.costmap.layers:
                 if isinstance(layer, StaticLayer):
                     layer.set_map(grid, setup.costmap)
+
+    @property
+    def goal(self) -> Pose2 | None:
+        """Where it goes: x, y and heading [m, rad]."""
+        return self._stack.move_base.goal
 
     @property
     def busy(self) -> bool:
@@ -55,7 +62,7 @@ class WorldPilot:
 
     def go(self, goal: Pose2, time: float) -> None:
         """Go there."""
-        self.outcome, self.text = None, ""
+        self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
         self._stack.move_base.set_goal(goal, time)
 
     def cancel(self) -> None:
@@ -93,6 +100,8 @@ class WorldPilot:
             stack.whole.costmap.update(whole_pose)
         stack.local.costmap.update(local_pose)
         step = stack.move_base.update(time, RobotState(whole_pose, local_pose, speed))
+        if step.plan is not None:
+            self.path = step.plan
         if step.outcome is not None:
             self.outcome, self.text = step.outcome, step.text
         return step.velocity

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, Protocol
 
-from gazelle.array_types import Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.description.occupancy import OccupancyMap
 
 
@@ -24,6 +25,19 @@ class NavigationTask(Protocol):
 
     def wait(self, seconds: float = ...) -> bool:
         """Run the simulation until it is done, or for so long [simulated s]; whether it succeeded."""
+
+
+@dataclass(frozen=True, slots=True)
+class NavigationPlan:
+    """What a robot is about to do.
+
+    Attributes:
+        goal: x, y and heading, in the map's frame [m, rad].
+        path: The global plan, shape (n, 3) likewise; empty while there is none.
+    """
+
+    goal: tuple[float, float, float]
+    path: Floats
 
 
 class NavigationControl(Protocol):
@@ -45,3 +59,6 @@ class NavigationControl(Protocol):
 
     def cancel(self, worlds: Worlds | None = ...) -> None:
         """Have no goal, and stand."""
+
+    def plans(self) -> dict[int, NavigationPlan]:
+        """The goal of each world that has one, and the way there."""

@@ -20,6 +20,7 @@ from gazelle.viewer.page.driving import DriveControls
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.model_tools import ModelTools
 from gazelle.viewer.page.overlays import ContactLayer, FrameLayer, NameLayer, RayLayer
+from gazelle.viewer.page.plan_layer import PlanLayer
 from gazelle.viewer.page.plots import PlotLayer
 from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.server import PageServer
@@ -117,6 +118,7 @@ class LiveView(Closeable):
                 "Frames and joints": FrameLayer(context),
                 "Contacts": ContactLayer(context),
                 "Lidar rays": RayLayer(context),
+                "Plans and goals": PlanLayer(context),
                 "Camera pictures": CameraInsets(context),
             }
             self._plots = PlotLayer(context)

@@ -162,7 +162,7 @@ def test_images_are_on_the_panel(node, view):
     assert drawn.part("image").image.shape == (30, 40, 3)
 
 
-@pytest.mark.parametrize("kind", range(10))
+@pytest.mark.parametrize("kind", [*range(10), 11])
 def test_markers_of_every_type_come_and_go(node, view, kind):
     marker = on_frame("visualization_msgs/Marker", "map", ns="n", id=3, type=kind, text="hello")
     marker.scale.x = marker.scale.y = marker.scale.z = 0.5
@@ -176,6 +176,49 @@ def test_markers_of_every_type_come_and_go(node, view, kind):
     view._came("/markers", message("visualization_msgs/MarkerArray", markers=[gone]))
     view._picture()
     assert drawn.part("n_3") is None
+
+
+@pytest.mark.parametrize("embedded", [False, True])
+def test_markers_show_mesh_files(node, view, tmp_path, monkeypatch, embedded):
+    import trimesh
+
+    box = trimesh.creation.box((1.0, 2.0, 3.0))
+    box.visual.vertex_colors = np.tile([10, 200, 30, 255], (len(box.vertices), 1))
+    folder = tmp_path / "things"
+    folder.mkdir()
+    (folder / "package.xml").write_text("<package><name>things</name></package>")
+    (folder / "box.ply").write_bytes(box.export(file_type="ply"))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    marker = on_frame("visualization_msgs/Marker", "map", ns="m", id=1, type=10)
+    marker.mesh_resource = "package://things/box.ply"
+    marker.mesh_use_embedded_materials = embedded
+    marker.scale.x, marker.scale.y, marker.scale.z = 2.0, 1.0, 1.0
+    marker.color.r = marker.color.a = marker.pose.orientation.w = 1.0
+    put = []
+    scene = view._server.viser.scene
+    add = scene.add_mesh_trimesh
+    monkeypatch.setattr(
+        type(scene), "add_mesh_trimesh",
+        lambda self, name, mesh, **place: (put.append(mesh), add(name, mesh, **place))[1],
+    )  # fmt: skip
+    say(node, view, "/mesh_marker", marker)
+    (mesh,) = put
+    assert np.ptp(mesh.vertices, axis=0).tolist() == [2.0, 2.0, 3.0]
+    wanted = [10, 200, 30] if embedded else [255, 0, 0]
+    assert np.abs(mesh.visual.face_colors[:, :3].astype(int) - wanted).max() <= 1
+
+
+def test_triangles_have_their_colours():
+    from gazelle.viewer.graph.markers import _triangles
+
+    points = np.arange(21, dtype=float).reshape(7, 3)
+    tones = np.arange(21, dtype=np.uint8).reshape(7, 3)
+    color = message("std_msgs/ColorRGBA", r=1.0, a=1.0)
+    mesh = _triangles(points, tones, color)
+    assert len(mesh.faces) == 4  # two triangles, from both sides
+    assert mesh.visual.vertex_colors[:, :3].tolist() == tones[:6].tolist()
+    plain = _triangles(points, np.array([255, 0, 0], np.uint8), color)
+    assert (plain.visual.vertex_colors == [255, 0, 0, 255]).all()
 
 
 def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):

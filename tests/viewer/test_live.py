@@ -13,6 +13,7 @@ pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 import gazelle
 from gazelle import assets
+from gazelle.description import Pose
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.viewer import LiveView
@@ -400,3 +401,31 @@ def test_copies_that_learn_are_watched(capsys):
                 progress=watched(display, argparse.Namespace(view=0)),
             )
         assert [text.partition(":")[0] for text in display.said] == ["view http"]
+
+
+def test_goals_and_the_ways_there_are_shown():
+    """Of every world that is shown, where it stands."""
+    with Simulation("turtlebot3_world", "planar", nworld=2, time_step=0.02) as simulation:
+        robot = simulation.spawn("turtlebot3_burger", name="burger", pose=Pose(-2.0, -0.5))
+        with LiveView(simulation) as view:
+            layer = view._optional["Plans and goals"]
+            assert layer.shown
+            lines, arrows = layer.read()
+            assert len(lines) == len(arrows) == 0
+            robot.navigation.go_to(0.55, 0.55, 0.0, worlds=np.array([1]))
+            simulation.run(1.5)
+            lines, arrows = layer.read()
+            spot = view._context.spots[1]
+            start, end = robot.planar_pose()[1, :2] + spot[:2], np.array([0.55, 0.55]) + spot[:2]
+            assert np.hypot(*(lines[0, 0, :2] - start)) < 0.5
+            assert np.hypot(*(lines[-1, 1, :2] - end)) < 0.1
+            np.testing.assert_allclose(lines[1:, 0], lines[:-1, 1])  # one way, without gaps
+            np.testing.assert_allclose(arrows[0, 0, :2], end)
+            assert arrows[0, 1, 0] > arrows[0, 0, 0]
+            layer.show((lines, arrows))
+            layer.show((lines, arrows))
+            robot.navigation.cancel()
+            lines, arrows = layer.read()
+            assert len(lines) == len(arrows) == 0
+            layer.show((lines, arrows))
+            layer.shown = False

@@ -8,12 +8,17 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Bytes, Floats
+from gazelle.description import Link, Mesh, Model, Visual, World
 from gazelle.errors import GazelleWarning
+from gazelle.formats.resolve import Resolver
+from gazelle.rendering import columns as c
+from gazelle.rendering.visible import visible_world
 from gazelle.viewer.graph.drawing import Drawing, pose_of
 
 # Types of visualization_msgs/Marker.
 _ARROW, _CUBE, _SPHERE, _CYLINDER, _STRIP, _LIST = 0, 1, 2, 3, 4, 5
 _CUBES, _SPHERES, _POINTS, _TEXT = 6, 7, 8, 9
+_MESH, _TRIANGLES = 10, 11
 _DELETE, _DELETE_ALL = 2, 3
 
 
@@ -63,7 +68,12 @@ def _add(drawing: Drawing, key: str, message: Any) -> None:
             name, points, colors, point_size=float(size[0]) or 0.02, point_shape=shape,
             precision="float32", **place,
         ))  # fmt: skip
-    elif kind > _TEXT:
+    elif kind == _MESH:
+        _put_mesh(drawing, key, message, place)
+    elif kind == _TRIANGLES and len(points) > 2:
+        mesh = _triangles(points * np.where(size > 0.0, size, 1.0), colors, message.color)
+        drawing.put(key, lambda name: scene.add_mesh_trimesh(name, mesh, **place))
+    elif kind > _TRIANGLES:
         text = f"markers of type {kind} are not drawn"
         warnings.warn(GazelleWarning(text), stacklevel=2)
 
@@ -72,6 +82,50 @@ def draw_markers(drawing: Drawing, message: Any) -> None:
     """A MarkerArray."""
     for marker in message.markers:
         draw_marker(drawing, marker)
+
+
+def _put_mesh(drawing: Drawing, key: str, message: Any, place: dict[str, Any]) -> None:
+    """A mesh file: in its own colours where the marker asks for them, else in the marker's."""
+    import trimesh
+
+    uri = message.mesh_resource
+    path = Resolver().find(uri)
+    if path is None:
+        drawing.drop(key)
+        text = f"the mesh '{uri}' of a marker was not found"
+        warnings.warn(GazelleWarning(text), stacklevel=2)
+        return
+    scale = (message.scale.x, message.scale.y, message.scale.z)
+    link = Link("mesh", visuals=(Visual("mesh", geometry=Mesh(uri, path=path, scale=scale)),))
+    seen = visible_world(World(models=(Model("marker", links=(link,)),)))
+    shapes = seen.shapes
+    vertices, faces = np.asarray(shapes.vertices), np.asarray(shapes.faces)
+    meshes, parts = np.asarray(shapes.meshes), np.asarray(shapes.parts)
+    pieces = []
+    for number, part in enumerate(parts):
+        row = meshes[part[c.MESH_OF_PART]]
+        own = vertices[row[c.FIRST_VERTEX] : row[c.LAST_VERTEX]]
+        piece = trimesh.Trimesh(own, faces[row[c.FIRST_FACE] : row[c.LAST_FACE]], process=False)
+        color = np.asarray(shapes.color)[number] * 255.0
+        if not message.mesh_use_embedded_materials:
+            color = np.array(_color(message.color), np.float64)
+        piece.visual.face_colors = [*np.rint(color).astype(int).tolist(), 255]
+        pieces.append(piece)
+    whole = trimesh.util.concatenate(pieces)
+    scene: Any = drawing.page.scene
+    drawing.put(key, lambda name: scene.add_mesh_trimesh(name, whole, **place))
+
+
+def _triangles(points: Floats, colors: Bytes, color: Any) -> Any:
+    """Every three points a triangle, seen from both sides, with a colour a point or one for all."""
+    import trimesh
+
+    count = len(points) // 3 * 3
+    faces = np.arange(count).reshape(-1, 3)
+    mesh = trimesh.Trimesh(points[:count], np.vstack((faces, faces[:, ::-1])), process=False)
+    tones = colors[:count] if colors.ndim > 1 else np.tile(_color(color), (count, 1))
+    mesh.visual.vertex_colors = np.column_stack((tones, np.full(count, 255))).astype(np.uint8)
+    return mesh
 
 
 def _solid(kind: int, size: Floats, color: Any) -> Any:
