@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import argparse
 import time
-from pathlib import Path
 
 import numpy as np
 
+from gazelle import assets
 from gazelle.array_types import Floats
 from gazelle.description import Box, Cylinder, Pose
 from gazelle.formats import load_model, load_srdf
@@ -33,8 +33,11 @@ from gazelle.planning.state_validity import StateValidity
 
 def kitchen() -> tuple[PlanningScene, JointModelGroup]:
     """The scene, and the arm."""
-    data = Path(__file__).parent.parent / "tests" / "data"
-    robot = RobotModel(load_model(data / "fetch_arm.urdf"), load_srdf(data / "fetch_arm.srdf"))
+    root = assets.root()
+    robot = RobotModel(
+        load_model(root / "fetch_description" / "robots" / "fetch.urdf"),
+        load_srdf(root / "fetch_moveit_config" / "config" / "fetch.srdf"),
+    )
     scene = PlanningScene(robot)
     scene.add("table", Box((0.6, 1.4, 0.05)), Pose(0.85, 0.0, 0.55))
     scene.add("box", Box((0.15, 0.15, 0.35)), Pose(0.75, 0.1, 0.75))

@@ -161,7 +161,15 @@ class GoalStates:
 
     def _of_joints(self, goal: ConstraintSet) -> Floats:
         """A goal of joints alone: the middle of each, within its limits."""
-        own = {each.joint: each.position for each in goal.joints if each.joint in self._group.names}
+        own: dict[str, float] = {}
+        for each in goal.joints:
+            source, factor, offset = self._robot.leader(self._robot.column(each.joint))
+            name = self._robot.names[source]
+            if name in self._group.names and factor != 0.0:  # what mimics it says where it shall be
+                own[name] = (each.position - offset) / factor
+        own |= {
+            each.joint: each.position for each in goal.joints if each.joint in self._group.names
+        }
         wanted = np.clip(
             self._start
             + self._group.difference(self._start, self._group.positions(own, self._start)),

@@ -242,6 +242,10 @@ class RobotModel:
         upper = np.array([variable.bounds.upper for variable in self.variables])
         return lower, upper
 
+    def leader(self, column: int) -> tuple[int, float, float]:
+        """What a variable follows: a column, a factor and an offset; itself, 1 and 0 if nothing."""
+        return self._sources[column]
+
     def complete(self, state: ArrayLike) -> Floats:
         """States with the columns of joints that mimic others filled in.
 

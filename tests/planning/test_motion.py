@@ -333,3 +333,29 @@ def test_planners_of_ompl(planner):
     scene.remove("box")
     plan = MotionPlanner(scene, group, PlanOptions(planner, time=60.0)).plan("ready")
     assert_sound(scene, plan)
+
+
+@pytest.mark.parametrize("position", [0.25, -0.1, 0.7])
+def test_a_joint_that_mimics_another_may_be_the_goal(position):
+    """``follow`` is -0.5 ``turn`` + 0.25, and no variable of the group."""
+    robot = arms.odd()
+    group = robot.chain("base", "tool", "arm")
+    assert "follow" not in group.names
+    planner = MotionPlanner(PlanningScene(robot), group)
+    plan = planner.plan(ConstraintSet(joints=(JointConstraint("follow", position, 1e-3, 1e-3),)))
+    turn = plan.end[robot.column("turn")]
+    assert -0.5 * turn + 0.25 == pytest.approx(position, abs=1e-3)
+    assert robot.complete(plan.end)[robot.column("follow")] == pytest.approx(position, abs=1e-3)
+
+
+def test_a_joint_that_mimics_another_is_held_where_it_shall_be():
+    robot = arms.odd()
+    group = robot.chain("base", "tool", "arm")
+    planner = MotionPlanner(PlanningScene(robot), group)
+    held = ConstraintSet(joints=(JointConstraint("follow", 0.25, 0.05, 0.05),))
+    plan = planner.plan({"slide": 0.3, "turn": 0.05}, constraints=held)
+    states = np.tile(plan.start, (len(plan.trajectory.times), 1))
+    states[:, group.columns] = plan.trajectory.positions
+    assert np.abs(robot.complete(states)[:, robot.column("follow")] - 0.25).max() <= 0.05 + 1e-6
+    with pytest.raises(NoPlanError, match="'follow' at"):
+        planner.plan({"turn": 0.5}, constraints=held)
