@@ -7,6 +7,7 @@ worlds').
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
   gazelle run fleet --view
+  gazelle run pick_and_place --spawn fetch --ros --moveit
   gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
@@ -25,6 +26,7 @@ import time
 from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_float
+from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
 from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
@@ -63,6 +65,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
     add_view(parser)
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
+    add_moveit(parser)
     parser.add_argument(
         "--spawn",
         metavar="ROBOT[@X,Y[,YAW]]",
@@ -93,6 +96,8 @@ def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     if args.paused and args.seconds is not None:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
+    if args.moveit and not args.ros:
+        args.parser.error("--moveit is for a ROS graph; add --ros")
     from gazelle import formats
 
     _listen_to_signals()
@@ -109,6 +114,7 @@ def run(args: argparse.Namespace) -> int:
         for plugin in args.system:
             sim.load_plugin(plugin)
         said = [spawn(sim, robot) for robot in args.spawn]
+        start_wanted_controllers(sim, args)
         sys.stdout.write(f"world '{sim.world.name}': {_listed(sim)}\n")
         sys.stdout.writelines(f"{line}\n" for line in said if line)
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
@@ -215,7 +221,7 @@ def _serve(sim: Simulation, args: argparse.Namespace) -> int:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
             return _attend(sim, server, args)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
-    with serve_ros(sim) as door:
+    with serve_ros(sim) as door, moveit_beside(sim, door, args):
         return _attend(sim, door, args)
 
 
