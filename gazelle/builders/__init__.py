@@ -4,6 +4,7 @@ Small functions give descriptions (models, lights, sensors, physics); ``WorldBui
 them together; ``office`` and ``outdoor`` are whole worlds. All run as they are.
 """
 
+from gazelle.builders.controllers import ControlFiles, control_files
 from gazelle.builders.errors import BuildError
 from gazelle.builders.floors import floor, ground, lamp, sun
 from gazelle.builders.furniture import (
@@ -62,6 +63,7 @@ __all__ = [
     "PLANETS",
     "PRESETS",
     "BuildError",
+    "ControlFiles",
     "Disc",
     "Opening",
     "Paint",
@@ -87,6 +89,7 @@ __all__ = [
     "camera",
     "chair",
     "contact_sensor",
+    "control_files",
     "cylinder",
     "depth_camera",
     "desk",

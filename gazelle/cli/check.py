@@ -2,7 +2,7 @@
 A file that can be read is also built with the engine and its plugins.
 
   gazelle check my.world my_robot.urdf.xacro
-  gazelle check --urdf my_robot.urdf my_robot.srdf
+  gazelle check --urdf my_robot.urdf my_robot.srdf my_controllers.yaml
   gazelle check --json my.world > findings.json
 
 The exit code is 1 if there is any error; warnings alone leave it 0.
@@ -20,7 +20,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.errors import Error, FormatWarning, GazelleWarning, PluginWarning, describe
+from gazelle.errors import (
+    ControlError,
+    Error,
+    FormatWarning,
+    GazelleWarning,
+    PluginWarning,
+    describe,
+)
 
 if TYPE_CHECKING:
     from gazelle.formats import Problem
@@ -32,7 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "files", nargs="+", metavar="FILE", help="a file, a model's folder, or a bundled name"
     )
     parser.add_argument("--json", action="store_true", help="for tools: one JSON list")
-    parser.add_argument("--urdf", metavar="FILE", help="the robot that an SRDF is judged against")
+    parser.add_argument("--urdf", metavar="FILE", help="the robot of an SRDF, or of controllers")
     parser.add_argument("--engine", metavar="NAME", default="mujoco", help="default mujoco")
     parser.add_argument(
         "--files-only", action="store_true", help="do not build them with the engine"
@@ -53,9 +60,14 @@ def run(args: argparse.Namespace) -> int:
 
 def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
     """The findings about one file."""
+    from gazelle.control.checking import check_controllers, is_controllers
     from gazelle.formats import check
     from gazelle.formats.check import TOLERATED, is_semantic
 
+    if is_controllers(Path(file)):
+        if args.urdf is None:
+            raise ControlError(f"{file} holds controllers", hint="name their robot: --urdf FILE")
+        return check_controllers(file, args.urdf)
     found = check(file, urdf=args.urdf)
     if is_semantic(Path(file)):
         return found

@@ -50,7 +50,7 @@ COMMANDS = {
         Command("film", "film them: GIF, MP4", "look", "film"),
         Command("train", "train a policy for a task, or go on with a run", "learn", "train"),
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
-        Command("new", "a task of your own: robot, rewards, test", "learn", "new"),
+        Command("new", "a task of your own; controllers for a robot", "learn", "new"),
         Command("study", "many parameters and seeds, in one table", "learn", "study"),
         Command("export", "a run's policy as ONNX or numpy arrays", "learn", "export"),
         Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "deploy"),

@@ -2,6 +2,11 @@
 robot, a test, and a pole that a cart learns to keep up in a minute.
 
   gazelle new task Balance
+
+Or what a robot needs to be controlled: its URDF with transmissions, controllers
+and a launch file.
+
+  gazelle new control my_arm.urdf
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
@@ -20,15 +25,25 @@ _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("kind", choices=["task"], metavar="task", help="what: a task")
-    parser.add_argument("name", metavar="NAME", help="what it is called, such as Balance")
+    parser.add_argument("kind", choices=["task", "control"], metavar="task|control", help="what")
+    parser.add_argument("name", metavar="NAME", help="of the task, or the robot's URDF or xacro")
     parser.add_argument(
         "--out", metavar="DIR", type=Path, default=Path(), help="folder (default: this one)"
     )
+    parser.add_argument(
+        "--interface", choices=["effort", "position", "velocity"], default="effort",
+        help="how controllers command joints (default effort)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--controller", choices=["trajectory", "group", "joint"], default="trajectory",
+        help="for trajectories, for all joints, or one for each",
+    )  # fmt: skip
 
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
+    if args.kind == "control":
+        return _control(args)
     files = write_task(args.name, args.out)
     sys.stdout.write("".join(f"wrote {file}\n" for file in files))
     program, task = showing.program(), f"{files[0]}:my/{args.name}-v0"
@@ -36,6 +51,30 @@ def run(args: argparse.Namespace) -> int:
         f"train it:   {program} train {task}\n"
         f"test it:    python -m pytest {files[-1]}\n"
         "change it:  what is seen, done and rewarded is in the first file\n"
+    )
+    return 0
+
+
+def _control(args: argparse.Namespace) -> int:
+    """Write what a robot needs to be controlled."""
+    from gazelle import builders
+    from gazelle.formats import Resolver, loader, xacro, xml
+    from gazelle.formats.reading import Reading
+    from gazelle.formats.write.xml import fragment
+
+    reading = Reading(Resolver(()))
+    path = loader.find_file(args.name, reading)
+    text = path.read_text(encoding="utf-8")
+    if xacro.is_xacro(xml.read_file(path)):
+        text = fragment(xacro.expand(path, reading), "")
+    files = builders.control_files(text, interface=args.interface, kind=args.controller)
+    written = files.write(args.out)
+    sys.stdout.write("".join(f"wrote {file}\n" for file in written))
+    program = showing.program()
+    sys.stdout.write(
+        f"check it:   {program} check --urdf {written[0]} {written[1]}\n"
+        f"start it:   {program} launch {written[2]}\n"
+        "tune it:    gains are a first guess from inertias\n"
     )
     return 0
 

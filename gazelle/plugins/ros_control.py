@@ -54,7 +54,7 @@ class RosControl(ControlLoop):
             self.set_period(parameters.require("controlPeriod", float))
         self._open(robot, parameters)
         self.hardware.read(robot.simulation.time, 0.0)
-        robot.managers[_free(namespace, robot.managers)] = self.manager
+        robot.add_manager(_free(namespace, robot.managers), self.manager)
 
     def _open(self, robot: Robot, parameters: Parameters) -> None:
         """Ports: the emergency stop, and what stands on a parameter server."""

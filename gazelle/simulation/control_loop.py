@@ -215,6 +215,6 @@ def add_controllers(robot: Robot) -> ControllerManager:
     loop = ControlLoop()
     loop.begin(robot, JointHardware(robot, setup), robot.description, namespace)
     loop.hardware.read(robot.simulation.time, 0.0)
-    robot.managers[namespace] = loop.manager
     robot.simulation.plugins.append(make_scheduled(loop, "controllers", robot.name))
+    robot.add_manager(namespace, loop.manager)
     return loop.manager

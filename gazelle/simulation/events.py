@@ -36,6 +36,8 @@ class Events:
         deleted: A model is gone: called with its ``Robot``.
         reset: Worlds are back in their initial state: called with their indices, or None for
             all, and whether time went back too.
+        managed: A model has one more controller manager: called with its ``Robot``, which may not
+            be spawned yet.
         rested: A run of steps is over; others may follow at once.
     """
 
@@ -43,4 +45,5 @@ class Events:
         self.spawned = Event()
         self.deleted = Event()
         self.reset = Event()
+        self.managed = Event()
         self.rested = Event()

@@ -119,6 +119,11 @@ class Robot(Ports):
             return add_controllers(self)
         return next(iter(self.managers.values()))
 
+    def add_manager(self, namespace: str, manager: ControllerManager) -> None:
+        """Let it have one more controller manager, of which doors are told."""
+        self.managers[namespace] = manager
+        self.simulation.events.managed.tell(self)
+
     @property
     @between_steps
     def navigation(self) -> NavigationControl:

@@ -19,6 +19,7 @@ from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockPublisher, PerformancePublisher, StatesPublisher
 from gazelle.bridges.gazebo.world import WorldServices
 from gazelle.closing import Closeable
+from gazelle.control import ControllerManager
 from gazelle.errors import ControlWarning, RosError
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
@@ -61,7 +62,7 @@ class GazeboDoor(Closeable):
         self._simulation, self._node = simulation, node
         self._closing: list[Callable[[], None]] = []
         self._bindings: dict[str, Binding] = {}
-        self._managers: dict[str, list[ManagerBinding]] = {}
+        self._managers: dict[str, dict[ControllerManager, ManagerBinding]] = {}
         self._make_time()
         node.on_new_master.append(self._make_time)
         self._closing.append(lambda: node.on_new_master.remove(self._make_time))
@@ -103,6 +104,7 @@ class GazeboDoor(Closeable):
             self._bind(name, robot)
         self._closing += [
             events.spawned.subscribe(lambda robot: self._bind(robot.name, robot)),
+            events.managed.subscribe(self._bind_more),
             events.deleted.subscribe(lambda robot: self._unbind(robot.name)),
             events.reset.subscribe(self._after_reset),
         ]
@@ -129,10 +131,12 @@ class GazeboDoor(Closeable):
 
     def _bind_controllers(self, robot: Robot) -> None:
         """Controllers come onto the graph when the robot is known that they control."""
-        bound = self._managers[robot.name] = []
+        bound = self._managers.setdefault(robot.name, {})
         for manager in robot.managers.values():
+            if manager in bound:
+                continue
             try:
-                bound.append(ManagerBinding(self.context, manager))
+                bound[manager] = ManagerBinding(self.context, manager)
             except RosError as error:
                 text = (
                     f"the controllers of '{robot.name}' stay off the graph: {error}; give its "
@@ -140,8 +144,14 @@ class GazeboDoor(Closeable):
                 )
                 warnings.warn(ControlWarning(text), stacklevel=2)
 
+    def _bind_more(self, robot: Robot) -> None:
+        """Controllers of a robot that is on the graph already, which came later."""
+        bound = self._bindings.get(robot.name)
+        if bound is not None:
+            bound.when_known(lambda: self._bind_controllers(robot))
+
     def _unbind(self, name: str) -> None:
-        for manager in self._managers.pop(name, ()):
+        for manager in self._managers.pop(name, {}).values():
             manager.close()
         bound = self._bindings.pop(name, None)
         if bound is not None:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from gazelle.description import World
-from gazelle.formats.lint import inertias, joints, plugins, sensors, worlds
+from gazelle.formats.lint import inertias, joints, plugins, sensors, transmissions, worlds
 from gazelle.formats.lint.diagnostic import Diagnostic
 
 _RULES: tuple[Callable[[World], Iterable[Diagnostic]], ...] = (
     inertias.lint,
     joints.lint,
+    transmissions.lint,
     sensors.lint,
     plugins.lint,
     worlds.lint,

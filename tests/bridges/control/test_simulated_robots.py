@@ -8,8 +8,9 @@ from bridges.control.robot_graph import RobotGraph, robot_graph
 from control.arms import JOINTS, arm_text
 from ros.graph import until
 
+from gazelle.builders import add_transmissions
 from gazelle.errors import ControlWarning
-from gazelle.formats import load_string
+from gazelle.formats import load_model_string, load_string
 from gazelle.ros import load_message, load_service
 
 STATES = ("joints", "joint_state_controller/JointStateController")
@@ -20,6 +21,17 @@ SERVICE = "/arm/controller_manager/list_controllers"
 
 def services(graph):
     return graph.node.master.system_state()[2]
+
+
+def topics(graph):
+    published, subscribed, _ = graph.node.master.system_state()
+    return {*published, *subscribed}
+
+
+def controlled():
+    """A free joint with a transmission and the plugin."""
+    plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>'
+    return add_transmissions(FREE).replace("</robot>", f"{plugin}</robot>")
 
 
 def test_controllers_of_a_spawned_robot_are_in_its_namespace():
@@ -136,3 +148,26 @@ def test_controllers_go_on_after_a_reset_of_the_world():
         assert graph.states == {"hold": "running"}
         publisher.publish(load_message("std_msgs/Float64MultiArray")(data=[0.25, 0.25]))
         until(lambda: elbow.position == pytest.approx(0.25, abs=1e-2), 60)
+
+
+FREE = """<robot name="free"><link name="base"><inertial><mass value="5"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="arm"><inertial>
+<mass value="1"/><inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("when", ["asked for", "spawned"])
+def test_a_manager_that_comes_after_the_graph_has_its_services(when):
+    with robot_graph(world=bare_world(), parameters={"/robot_description": ""}) as graph:
+        service = "/free/controller_manager/list_controllers"
+        robot = graph.sim.spawn(load_model_string(FREE if when == "asked for" else controlled()))
+        if when == "asked for":
+            assert service not in services(graph)
+            manager = robot.controllers
+            manager.load("hinge_controller", {"type": EFFORT, "joint": "hinge"})
+        until(lambda: service in services(graph), 30)
+        assert sum(name == service for name in services(graph)) == 1
+        if when == "asked for":
+            assert "/free/hinge_controller/command" in topics(graph)
+        graph.sim.delete("free")
+        until(lambda: service not in services(graph), 30)

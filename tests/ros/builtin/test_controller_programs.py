@@ -259,3 +259,14 @@ def test_groups_are_listed_spawned_and_switched(said, manager, robot):
         "Error when starting ['effort'] and stopping ['wrist']\n"
     )
     assert "There is no controller defined in group none" in said(group, "switch", "none")
+
+
+def test_a_spawner_whose_manager_went_first_ends_without_a_warning(start, manager, robot):
+    process = start("spawner", "effort", "wrist")
+    until(lambda: manager.states == {"effort": "running", "wrist": "running"}, 30)
+    robot.close()
+    ends(process)
+    said = process.stdout.read()
+    assert "error" not in said
+    assert "[WARN]" not in said
+    assert "The controller manager is gone" in said

@@ -18,6 +18,7 @@ from gazelle.ros.messages import load_message, load_service
 
 _STRICT = 2
 _LOOK_S = 0.05
+_ANSWERED = "responded with an error"
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -127,6 +128,10 @@ class Spawner:
                 if self._call("unload_controller", "UnloadController", name=name):
                     rospy.loginfo(f"Succeeded in unloading {name}")
         except (rospy.ServiceException, rospy.ROSException) as error:
+            if _ANSWERED not in str(error):
+                # As at the end of a launch, where all are asked to end at once.
+                rospy.loginfo("The controller manager is gone, and its controllers with it.")
+                return
             rospy.logwarn(f"Controller Spawner error while taking down controllers: {error}")
 
     def _switch(self, **lists: Sequence[str]) -> bool:

@@ -1,0 +1,51 @@
+"""Joints that controllers of ros_control cannot command."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gazelle.description import Model, World
+from gazelle.errors import did_you_mean
+from gazelle.formats.lint.diagnostic import Diagnostic
+
+_PLUGIN = "gazebo_ros_control"
+
+
+def lint(world: World) -> Iterator[Diagnostic]:
+    """Findings on every model with the plugin of ros_control."""
+    for model in world.models:
+        yield from _strangers(model)
+        if any(_PLUGIN in plugin.filename for plugin in model.plugins):
+            yield from _left_out(model)
+
+
+def _strangers(model: Model) -> Iterator[Diagnostic]:
+    """Transmissions of joints that are not there."""
+    known = {joint.name for joint in model.joints}
+    for each in model.transmissions:
+        for name, _ in each.joints:
+            if name not in known:
+                yield Diagnostic(
+                    "transmission-joint",
+                    f"transmission '{each.name}' is of the joint '{name}', which does not move or is not there",
+                    "the plugin of ros_control does not come up",
+                    did_you_mean(name, known),
+                    each.source,
+                )
+
+
+def _left_out(model: Model) -> Iterator[Diagnostic]:
+    """Joints that move and have no transmission."""
+    driven = {name for each in model.transmissions for name, _ in each.joints}
+    if not driven:  # those of the parameter robot_description count, which no file shows
+        return
+    for joint in model.joints:
+        led = any(axis.mimic for axis in joint.axes)
+        if joint.axes and joint.name not in driven and not led:
+            yield Diagnostic(
+                "joint-transmission",
+                f"joint '{joint.name}' has no transmission",
+                "controllers can neither read nor command it",
+                "give it a <transmission>, unless it is to turn freely",
+                joint.source,
+            )
