@@ -27,6 +27,7 @@ from gazelle.compat.frobs_rl.common import (
 from gazelle.compat.frobs_rl.envs.robot_BasicEnv import RobotBasicEnv
 from gazelle.compat.frobs_rl.models.ppo import PPO
 from gazelle.compat.frobs_rl.models.utils import get_action_noise, get_policy_kwargs
+from gazelle.compat.frobs_rl.wrappers.modern import modern
 from gazelle.compat.frobs_rl.wrappers.NormalizeActionWrapper import NormalizeActionWrapper
 from gazelle.compat.frobs_rl.wrappers.NormalizeObservWrapper import NormalizeObservWrapper
 from gazelle.compat.frobs_rl.wrappers.TimeLimitWrapper import TimeLimitWrapper
@@ -359,7 +360,7 @@ class OldNumbers(gym.Env):
 
 @pytest.mark.parametrize("kind", [Numbers, OldNumbers])
 def test_actions_and_observations_are_scaled(kind):
-    env = NormalizeObservWrapper(NormalizeActionWrapper(kind()))
+    env = modern(NormalizeObservWrapper(NormalizeActionWrapper(kind())))
     assert env.reset()[0].tolist() == [0.0, 0.0]
     for action in ([-1.0, 1.0], [0.0, 0.5], [1.0, -1.0]):
         observation, reward, terminated, truncated, _ = env.step(np.array(action, np.float32))
@@ -372,7 +373,7 @@ def test_actions_and_observations_are_scaled(kind):
 
 @pytest.mark.parametrize("kind", [Numbers, OldNumbers])
 def test_episodes_are_cut(kind):
-    env = TimeLimitWrapper(kind(), max_steps=2)
+    env = modern(TimeLimitWrapper(kind(), max_steps=2))
     env.reset()
     assert env.step(np.zeros(2))[2:4] == (False, False)
     *_, terminated, truncated, info = env.step(np.zeros(2))
@@ -380,6 +381,19 @@ def test_episodes_are_cut(kind):
     assert info == {"is_success": 0.0, "time_limit_reached": True}
     env.reset()
     assert env.current_step == 0
+
+
+def test_wrappers_of_an_old_environment_have_the_old_interface():
+    env = TimeLimitWrapper(
+        NormalizeObservWrapper(NormalizeActionWrapper(OldNumbers())), max_steps=1
+    )
+    assert isinstance(env, gym.Env)
+    assert env.reset().tolist() == [0.0, 0.0]
+    observation, reward, done, info = env.step(np.array([1.0, -1.0]))
+    assert (observation.tolist(), reward, done) == ([1.0, -1.0], 1.0, True)
+    assert info["time_limit_reached"]
+    assert isinstance(env.unwrapped, gym.Env)
+    assert env.max_steps == 1
 
 
 def test_what_is_no_box_is_said():

@@ -174,6 +174,8 @@ def test_a_monitor_writes_what_episodes_came_to(tmp_path):
         env.reset()
         env.step(action)
         env.step(action)
+    env._flush(force=True)
+    assert list((tmp_path / "out").iterdir())
     env.reset()
     env.step(1)  # an episode that is left before its end
     env.close()

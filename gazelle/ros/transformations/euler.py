@@ -59,13 +59,14 @@ def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """The quaternion of three turns."""
+    """The quaternion of three turns; arrays of one number are numbers, as NumPy had it of old."""
     order, _, _, reverse = _kind(axes)
     angles = (ak, aj, ai) if reverse else (ai, aj, ak)
     result = np.array([0.0, 0.0, 0.0, 1.0])
     for axis, angle in zip(order, angles, strict=True):
         turn = np.zeros(4)
-        turn[axis], turn[3] = math.sin(angle / 2.0), math.cos(angle / 2.0)
+        half = np.asarray(angle, np.float64).item() / 2.0
+        turn[axis], turn[3] = math.sin(half), math.cos(half)
         result = quaternion_multiply(turn, result)
     return result
 

@@ -41,6 +41,11 @@ def test_euler_angles_of_every_kind_agree_with_scipy(scipy_rotation, axes, angle
     assert again == pytest.approx(matrix, abs=1e-9)
 
 
+def test_arrays_of_one_number_are_angles():
+    turned = tr.quaternion_from_euler(0, np.array([0.0]), np.array([0.5], np.float32))
+    assert turned == pytest.approx(tr.quaternion_from_euler(0.0, 0.0, 0.5))
+
+
 @quick
 @given(rotation, rotation)
 def test_products_of_quaternions_are_products_of_matrices(a, b):

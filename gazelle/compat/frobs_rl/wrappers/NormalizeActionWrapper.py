@@ -9,11 +9,11 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from gazelle.compat.frobs_rl.wrappers.modern import modern
+from gazelle.compat.frobs_rl.wrappers.modern import EitherInterface
 from gazelle.errors import TaskError
 
 
-class NormalizeActionWrapper(gymnasium.ActionWrapper[Any, Any, Any]):
+class NormalizeActionWrapper(EitherInterface, gymnasium.ActionWrapper[Any, Any, Any]):
     """Actions between -1 and 1 stand for those of the whole box.
 
     Args:
@@ -24,7 +24,7 @@ class NormalizeActionWrapper(gymnasium.ActionWrapper[Any, Any, Any]):
     """
 
     def __init__(self, env: Any) -> None:
-        super().__init__(modern(env))
+        super().__init__(env)
         space = self.env.action_space
         if not isinstance(space, Box):
             raise TaskError(f"this wants a box of actions, not {space}")

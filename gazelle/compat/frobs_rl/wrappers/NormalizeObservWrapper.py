@@ -9,11 +9,11 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from gazelle.compat.frobs_rl.wrappers.modern import modern
+from gazelle.compat.frobs_rl.wrappers.modern import EitherInterface
 from gazelle.errors import TaskError
 
 
-class NormalizeObservWrapper(gymnasium.ObservationWrapper[Any, Any, Any]):
+class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, Any, Any]):
     """Observations of a box, scaled so that its bounds become -1 and 1; outside they go beyond.
 
     Args:
@@ -24,7 +24,7 @@ class NormalizeObservWrapper(gymnasium.ObservationWrapper[Any, Any, Any]):
     """
 
     def __init__(self, env: Any) -> None:
-        super().__init__(modern(env))
+        super().__init__(env)
         space = self.env.observation_space
         if not isinstance(space, Box):
             raise TaskError(f"this wants a box of observations, not {space}")

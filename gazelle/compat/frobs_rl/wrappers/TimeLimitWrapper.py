@@ -7,10 +7,10 @@ from typing import Any
 import gymnasium
 
 from gazelle.compat.frobs_rl.envs.robot_BasicEnv import Result
-from gazelle.compat.frobs_rl.wrappers.modern import modern
+from gazelle.compat.frobs_rl.wrappers.modern import EitherInterface
 
 
-class TimeLimitWrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
+class TimeLimitWrapper(EitherInterface, gymnasium.Wrapper[Any, Any, Any, Any]):
     """Ends an episode after some steps, as no success; it is terminated and truncated then.
 
     Args:
@@ -19,7 +19,7 @@ class TimeLimitWrapper(gymnasium.Wrapper[Any, Any, Any, Any]):
     """
 
     def __init__(self, env: Any, max_steps: int = 100) -> None:
-        super().__init__(modern(env))
+        super().__init__(env)
         self.max_steps = max_steps
         self.current_step = 0
 

@@ -1,4 +1,4 @@
-"""Environments around environments; they have Gymnasium's interface, whatever they are around."""
+"""Environments around environments, with the old gym's or Gymnasium's interface as these have it."""
 
 from __future__ import annotations
 

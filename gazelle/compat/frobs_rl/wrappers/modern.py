@@ -11,6 +11,17 @@ from gazelle.compat.gym.core import Env
 from gazelle.compat.shimmy import GymV21CompatibilityV0
 
 
+class EitherInterface:
+    """A wrapper that has the interface of what it is around: the old gym's, or Gymnasium's."""
+
+    def __new__(cls, env: Any, *arguments: Any, **options: Any) -> Any:
+        """The wrapper; around an old environment, one with the old interface around that."""
+        if isinstance(env, Env):
+            kind: Any = cls
+            return OldInterface(kind(modern(env), *arguments, **options))
+        return super().__new__(cls)
+
+
 def modern(env: Any) -> gymnasium.Env[Any, Any]:
     """An environment with Gymnasium's interface, whichever it has.
 

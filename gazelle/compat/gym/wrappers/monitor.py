@@ -102,6 +102,11 @@ class Monitor(Wrapper):
         """Steps of each episode."""
         return self._lengths
 
+    def _flush(self, force: bool = False) -> None:  # noqa: FBT001, FBT002  # gym's interface
+        """Write now; scripts call it though gym does not offer it."""
+        del force
+        self._write()
+
     def _end_episode(self) -> None:
         if self._steps:
             self._lengths.append(self._steps)
