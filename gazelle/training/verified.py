@@ -30,6 +30,13 @@ VERIFIED: dict[str, Verified] = {
         seeds=2,
         seconds=70,
     ),
+    "Husarion": Verified(success={"planar": SuccessRate(180, 200)}, seeds=1, seconds=18),
+    "KobukiDynamic1": Verified(success={"planar": SuccessRate(199, 200)}, seeds=1, seconds=16),
+    "KobukiDynamic2": Verified(success={"planar": SuccessRate(199, 200)}, seeds=1, seconds=15),
+    "KobukiDynamic3": Verified(success={"planar": SuccessRate(200, 200)}, seeds=1, seconds=17),
+    "KobukiEmpty": Verified(success={"planar": SuccessRate(200, 200)}, seeds=1, seconds=11),
+    "TurtleBot2Maze": Verified(success={"planar": SuccessRate(166, 200)}, seeds=1, seconds=17),
+    "TurtleBot3World": Verified(success={"planar": SuccessRate(187, 200)}, seeds=1, seconds=21),
     "TurtleBot3Stage1": Verified(
         success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
         seeds=2,
