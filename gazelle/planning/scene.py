@@ -252,6 +252,19 @@ class PlanningScene:
         made._models = dict(self._models)  # of what has not changed
         return made
 
+    def follow(self, other: PlanningScene) -> None:
+        """Become the same as another scene of the robot; what is compiled stays if all is as before.
+
+        Unlike copies, scenes that follow share nothing that moves: each may be used by a thread.
+        """
+        self.state = other.state.copy()
+        if _contents(self) == _contents(other):
+            return
+        self.objects, self.attached = dict(other.objects), dict(other.attached)
+        self._padding, self._scale = dict(other._padding), dict(other._scale)
+        self._allowed = other._allowed.copy()
+        self._changed()
+
     # -- poses ---------------------------------------------------------------------------
 
     def pose_of(self, name: str, state: ArrayLike | None = None) -> Pose:
@@ -369,6 +382,12 @@ class PlanningScene:
                 f"the robot holds no '{name}'", hint=did_you_mean(name, self.attached)
             )
         return self.attached[name]
+
+
+def _contents(scene: PlanningScene) -> tuple[object, ...]:
+    """What is in a scene; things do not change, others take their place."""
+    things = {name: id(each) for name, each in (*scene.objects.items(), *scene.attached.items())}
+    return things, scene.padding, scene.scale, scene.allowed
 
 
 def _obstacle(name: str, found: SceneObject) -> CollisionBody:

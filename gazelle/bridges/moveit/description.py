@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.errors import PlanningError
+from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.formats import load_model_string, load_srdf_string
 from gazelle.planning import JointBounds, RobotModel
 from gazelle.ros.node import Node
@@ -31,6 +32,39 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
     given = find_parameter(node, f"{description}_planning", {})
     entries = given.get("joint_limits") if isinstance(given, Mapping) else None
     return RobotModel(model, semantics, _limits(plain, entries or {}))
+
+
+def margins_of_parameters(
+    node: Node, robot: RobotModel, description: str = DESCRIPTION
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Padding [m] and scale of links, as ``..._planning/default_robot_padding`` and its kin say them.
+
+    Raises:
+        PlanningError: One is no number.
+    """
+    given = find_parameter(node, f"{description}_planning", {})
+    given = given if isinstance(given, Mapping) else {}
+    made: list[dict[str, float]] = []
+    for kind in ("padding", "scale"):
+        found: dict[str, float] = {}
+        if f"default_robot_{kind}" in given:
+            value = _number(given[f"default_robot_{kind}"], f"default_robot_{kind}")
+            found = dict.fromkeys(robot.links, value)
+        own = given.get(f"default_robot_link_{kind}s")
+        for link, value in own.items() if isinstance(own, Mapping) else ():
+            found[str(link)] = _number(value, f"default_robot_link_{kind}s/{link}")
+        made.append(found)
+    for name in ("default_object_padding", "default_attached_padding"):
+        if given.get(name):
+            text = f"{description}_planning/{name} is not known; paddings are of the robot's links"
+            warnings.warn(PlanningWarning(text), stacklevel=2)
+    return made[0], made[1]
+
+
+def _number(value: Any, name: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise PlanningError(f"the parameter '{name}' is a number, not {value!r}")
+    return float(value)
 
 
 def find_parameter(node: Node, name: str, default: Any) -> Any:

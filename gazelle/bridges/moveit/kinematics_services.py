@@ -39,9 +39,9 @@ class KinematicsServices:
             ("compute_ik", "GetPositionIK", self._inverse),
             ("compute_fk", "GetPositionFK", self._forward),
         ):
-            context.node.serve(name, load_service(f"moveit_msgs/{kind}"), self._coded(kind, act))
+            context.serve(name, load_service(f"moveit_msgs/{kind}"), self._coded(kind, act))
         validity = load_service("moveit_msgs/GetStateValidity")
-        context.node.serve("check_state_validity", validity, self._validity)
+        context.serve("check_state_validity", validity, self._validity)
 
     def _coded(self, kind: str, act: Callable[[Any, Any], None]) -> Callable[[Any], Any]:
         made = load_service(f"moveit_msgs/{kind}")._response_class

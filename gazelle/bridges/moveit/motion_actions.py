@@ -70,12 +70,7 @@ class MoveGroupAction:
                 "move_group: a plan that is executed begins where the robot is, not at the "
                 "request's start_state"
             )
-        context.refresh()
-        with context.lock:
-            here = context.current()
-            start = here if from_here else None
-            with self._scene.changed(change):
-                plan = self._planning.plan(request, start=start)
+        plan = self._planning.plan(request, from_here=from_here, scene=self._scene.changed(change))
         result.trajectory_start = state_message(context.robot, plan.start)
         result.planned_trajectory = trajectory_message(plan, context.robot.frame)
         result.planning_time = plan.seconds

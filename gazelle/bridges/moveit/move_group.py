@@ -42,7 +42,11 @@ class MoveGroupNode:
         self.planning = PlanningServices(self.context)
         self.scene = SceneServices(self.context)
         self.executor = TrajectoryExecutor(self.context)
-        self.moving = MoveGroupAction(self.context, self.planning, self.scene, self.executor)
-        self.following = ExecuteTrajectoryAction(self.context, self.executor)
         shared = (self.context, self.planning, self.scene, self.executor)
-        self.picking, self.placing = PickupAction(*shared), PlaceAction(*shared)
+        offered = self.context.capabilities
+        if "move_group" in offered:
+            self.moving = MoveGroupAction(*shared)
+        if "execute_trajectory" in offered:
+            self.following = ExecuteTrajectoryAction(self.context, self.executor)
+        if "pickup" in offered:
+            self.picking, self.placing = PickupAction(*shared), PlaceAction(*shared)

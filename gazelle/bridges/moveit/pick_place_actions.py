@@ -101,6 +101,7 @@ class ManipulationAction:
     def _plan(self, goal: Any, result: Any) -> ManipulationPlan:
         context = self.context
         group, effector = self.group_of(goal)
+        context.refresh()
         with context.lock:
             state = context.current()
             rules = ContactRules(

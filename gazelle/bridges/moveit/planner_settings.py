@@ -25,6 +25,7 @@ class PlannerSettings:
         own: Any = node.get_param(node.name, {}) or {}
         pipelines = own.get("planning_pipelines")
         inner = pipelines.get(PIPELINE) if isinstance(pipelines, Mapping) else None
+        self._said: dict[str, dict[str, str]] = {}
         self._given: Mapping[str, Any] = own if not isinstance(inner, Mapping) else {**own, **inner}
 
     def names(self, groups: list[str]) -> list[str]:
@@ -43,8 +44,7 @@ class PlannerSettings:
         for each in (plain, default):
             if not each:
                 continue
-            config = self._configs().get(each)
-            kind = config.get("type", each) if isinstance(config, Mapping) else each
+            kind = self.parameters(each, group).get("type", each)
             try:
                 return planner_of(str(kind))
             except PlanningError as error:
@@ -56,6 +56,23 @@ class PlannerSettings:
         """Distance of checked states, as a fraction of the extent."""
         value = self._group(group).get("longest_valid_segment_fraction", LONGEST_SEGMENT)
         return float(value) if isinstance(value, int | float) and value > 0.0 else LONGEST_SEGMENT
+
+    def parameters(self, config: str, group: str) -> dict[str, str]:
+        """What a planner's configuration says, and a group of it besides; empty if it says nothing."""
+        found: dict[str, str] = {}
+        for name in (config, f"{group}[{config}]") if group else (config,):
+            given = self._configs().get(name)
+            if isinstance(given, Mapping):
+                found |= {str(key): str(value) for key, value in given.items()}
+            found |= self._said.get(name, {})
+        return found
+
+    def set_parameters(
+        self, config: str, group: str, given: Mapping[str, str], *, replace: bool
+    ) -> None:
+        """Change what a planner's configuration says; of a group alone if one is named."""
+        name = f"{group}[{config}]" if group else config
+        self._said[name] = ({} if replace else self._said.get(name, {})) | dict(given)
 
     def _configs(self) -> Mapping[str, Any]:
         found = self._given.get("planner_configs")

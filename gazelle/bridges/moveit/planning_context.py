@@ -8,8 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.array_types import Floats
+from gazelle.bridges.moveit.capabilities import Capabilities
 from gazelle.bridges.moveit.constraint_messages import constraints_of_message
-from gazelle.bridges.moveit.description import robot_of_parameters
+from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
 from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
 from gazelle.errors import Error, PlanningError
@@ -34,9 +35,13 @@ class PlanningContext:
 
     Attributes:
         scene: What must not be touched; use it only while holding ``lock``.
-        lock: Plans and changes come one at a time.
+        lock: Questions and changes come one at a time, and are short.
+        planned: The scene that plans are made in, so that nothing waits for a plan; use it only while
+            holding ``planning``, and let it follow ``scene`` before.
+        planning: Plans come one at a time; take it before ``lock``.
         monitor: Where the joints are.
         frames: Frames of messages.
+        capabilities: Which services and actions there are.
 
     Raises:
         Error: There is no description of a robot, or it cannot be read.
@@ -44,11 +49,20 @@ class PlanningContext:
 
     def __init__(self, node: Node) -> None:
         self.node = node
+        self.capabilities = Capabilities(node)
         self.robot: RobotModel = robot_of_parameters(node)
-        self.scene = PlanningScene(self.robot)
+        padding, scale = margins_of_parameters(node, self.robot)
+        self.scene = PlanningScene(self.robot, padding=padding, scale=scale)
         self.lock = threading.RLock()
+        self.planned = self.scene.copy()
+        self.planning = threading.Lock()
         self.monitor = JointStateMonitor(node, self.robot)
         self.frames = PlanningFrames(node, self.scene)
+
+    def serve(self, name: str, kind: Any, act: Callable[[Any], Any]) -> None:
+        """Offer a service, if it is one of the capabilities."""
+        if name in self.capabilities:
+            self.node.serve(name, kind, act)
 
     def now(self) -> int:
         """The graph's time [ns]."""
@@ -101,17 +115,26 @@ class PlanningContext:
         return made
 
     def answer(self, response: Any, act: Callable[[Any], None], what: str) -> Any:
+        """Fill a response that has an error code, holding ``lock``; see ``coded``."""
+
+        def hold(found: Any) -> None:
+            with self.lock:
+                act(found)
+
+        return self.coded(response, hold, what)
+
+    @staticmethod
+    def coded(response: Any, act: Callable[[Any], None], what: str) -> Any:
         """Fill a response that has an error code; what goes wrong becomes that code.
 
         Args:
             response: Of a service, or a result of an action.
-            act: Fills it, holding ``lock``.
+            act: Fills it.
             what: For the log.
         """
         try:
-            with self.lock:
-                response.error_code.val = int(PlanOutcome.SUCCESS)
-                act(response)
+            response.error_code.val = int(PlanOutcome.SUCCESS)
+            act(response)
         except NoPlanError as error:
             LOG.error("%s: %s", what, error)  # noqa: TRY400  what users ask for needs no traceback
             response.error_code.val = int(error.outcome)

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.moveit.plan_choice import shortest_plan, slowed
 from gazelle.bridges.moveit.planner_settings import PIPELINE, PlannerSettings
 from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
+from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning import (
+    ConstraintSet,
+    JointModelGroup,
     JumpLimits,
     MotionPlan,
     MotionPlanner,
@@ -39,39 +44,81 @@ class PlanningServices:
         plan = load_service("moveit_msgs/GetMotionPlan")
         query = load_service("moveit_msgs/QueryPlannerInterfaces")
         straight = load_service("moveit_msgs/GetCartesianPath")
-        context.node.serve("plan_kinematic_path", plan, self._plan)
-        context.node.serve("query_planner_interface", query, self._query)
-        context.node.serve("compute_cartesian_path", straight, self._cartesian)
+        context.serve("plan_kinematic_path", plan, self._plan)
+        context.serve("query_planner_interface", query, self._query)
+        context.serve("compute_cartesian_path", straight, self._cartesian)
+        for name, kind, act in (
+            ("get_planner_params", "GetPlannerParams", self._get_parameters),
+            ("set_planner_params", "SetPlannerParams", self._set_parameters),
+        ):
+            context.serve(name, load_service(f"moveit_msgs/{kind}"), act)
 
     # -- plans ---------------------------------------------------------------------------
 
-    def plan(self, request: Any, *, start: Floats | None = None) -> MotionPlan:
-        """A plan for a ``moveit_msgs/MotionPlanRequest``; hold the context's lock.
+    def plan(
+        self,
+        request: Any,
+        *,
+        from_here: bool = False,
+        scene: AbstractContextManager[None] | None = None,
+    ) -> MotionPlan:
+        """A plan for a ``moveit_msgs/MotionPlanRequest``; do not hold the context's lock.
 
         Args:
             request: The request; any of its goals will do.
-            start: Where it begins, shape (variables,); what the request says if None.
+            from_here: Whether it begins where the robot is, whatever the request says.
+            scene: Entered, holding the lock, while the scene is looked at.
 
         Raises:
             NoPlanError: There is none, and why.
         """
         context = self._context
-        group = context.group(request.group_name)
-        state = context.state(request.start_state) if start is None else start
-        if not request.goal_constraints:
-            raise NoPlanError("there is no goal", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
-        held = context.constraints(request.path_constraints, state)
-        planner = MotionPlanner(context.scene, group, self._options(request, group.name))
+        context.refresh()
+        with context.planning:
+            with context.lock, scene or nullcontext():
+                group = context.group(request.group_name)
+                state = context.current() if from_here else context.state(request.start_state)
+                goals, failure = self._goals(request, state)
+                held = context.constraints(request.path_constraints, state)
+                context.planned.follow(context.scene)
+            return self._search(request, group, state, goals, held, failure)
+
+    def _goals(self, request: Any, state: Floats) -> tuple[list[ConstraintSet], NoPlanError | None]:
+        """Goals that can be read, and what is wrong with the first that cannot."""
+        goals: list[ConstraintSet] = []
         failure: NoPlanError | None = None
         for each in request.goal_constraints:
             try:
-                goal = context.constraints(each, state)
-                return planner.plan(goal, start=state, constraints=held or None)
+                goals.append(self._context.constraints(each, state))
+            except NoPlanError as error:
+                failure = failure or error
+        return goals, failure
+
+    def _search(
+        self,
+        request: Any,
+        group: JointModelGroup,
+        state: Floats,
+        goals: list[ConstraintSet],
+        held: ConstraintSet,
+        failure: NoPlanError | None,
+    ) -> MotionPlan:
+        """The shortest plan of all attempts to the first goal that can be reached."""
+        options = self._options(request, group.name)
+        for goal in goals:
+            try:
+                plan = shortest_plan(
+                    self._context.planned, group, goal, state, held or None, options,
+                    attempts=request.num_planning_attempts,
+                )  # fmt: skip
             except NoPlanError as error:
                 failure = failure or error
             except PlanningError as error:
                 outcome = PlanOutcome.INVALID_GOAL_CONSTRAINTS
                 failure = failure or NoPlanError(error.message, outcome, error.hint)
+            else:
+                link = request.cartesian_speed_limited_link or group.tips[-1]
+                return slowed(plan, self._context.robot, link, request.max_cartesian_speed)
         raise failure or NoPlanError("there is no goal", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
 
     def _options(self, request: Any, group: str) -> PlanOptions:
@@ -90,12 +137,12 @@ class PlanningServices:
 
         def act(answer: Any) -> None:
             plan = self.plan(request.motion_plan_request)
+            answer.group_name = request.motion_plan_request.group_name
             answer.trajectory_start = state_message(context.robot, plan.start)
             answer.trajectory = trajectory_message(plan, context.robot.frame)
             answer.planning_time = plan.seconds
 
-        context.refresh()
-        context.answer(response, act, "plan_kinematic_path")
+        context.coded(response, act, "plan_kinematic_path")
         return made
 
     def _query(self, _request: Any) -> Any:
@@ -104,27 +151,57 @@ class PlanningServices:
         own = made(name="OMPL", pipeline_id=PIPELINE, planner_ids=self.settings.names(groups))
         return {"planner_interfaces": [own]}
 
+    def _get_parameters(self, request: Any) -> dict[str, Any]:
+        found = self.settings.parameters(request.planner_config, request.group)
+        made = load_message("moveit_msgs/PlannerParams")(
+            keys=[*found], values=[*found.values()], descriptions=[""] * len(found)
+        )
+        return {"params": made}
+
+    def _set_parameters(self, request: Any) -> dict[str, Any]:
+        given = dict(zip(request.params.keys, request.params.values, strict=False))
+        self.settings.set_parameters(
+            request.planner_config, request.group, given, replace=request.replace
+        )
+        return {}
+
     # -- straight ways -------------------------------------------------------------------
 
     def _cartesian(self, request: Any) -> Any:
         made: Any = load_service("moveit_msgs/GetCartesianPath")._response_class()
-        self._context.refresh()
-        return self._context.answer(
+        return self._context.coded(
             made, lambda answer: self._follow(request, answer), "compute_cartesian_path"
         )
 
     def _follow(self, request: Any, response: Any) -> None:
         context = self._context
-        group = context.group(request.group_name)
-        state = context.state(request.start_state)
-        base = context.frames.find(request.header.frame_id, state)
+        context.refresh()
+        with context.planning:
+            with context.lock:
+                group = context.group(request.group_name)
+                state = context.state(request.start_state)
+                base = context.frames.find(request.header.frame_id, state)
+                held = context.constraints(request.path_constraints, state)
+                context.planned.follow(context.scene)
+            self._straight(request, response, group, state, base, held)
+
+    def _straight(
+        self,
+        request: Any,
+        response: Any,
+        group: JointModelGroup,
+        state: Floats,
+        base: Pose,
+        held: ConstraintSet,
+    ) -> None:
+        """Follow straight ways, holding the plans' scene."""
+        context = self._context
         if request.waypoints and not request.max_step > 0.0:
             raise NoPlanError("max_step must be above zero", PlanOutcome.FAILURE)
         link = request.link_name or group.tip
         if link not in context.robot.links:
             raise NoPlanError(f"there is no link '{link}'", PlanOutcome.INVALID_LINK_NAME)
-        held = context.constraints(request.path_constraints, state)
-        plan, path = MotionPlanner(context.scene, group).follow(
+        plan, path = MotionPlanner(context.planned, group).follow(
             [base * pose_of_message(each) for each in request.waypoints],
             max_step=request.max_step if request.max_step > 0.0 else 1.0,
             start=state,
@@ -136,6 +213,8 @@ class PlanningServices:
             avoid_collisions=request.avoid_collisions,
             constraints=held or None,
         )
+        speed = request.max_cartesian_speed
+        plan = slowed(plan, context.robot, request.cartesian_speed_limited_link or link, speed)
         response.start_state = state_message(context.robot, state)
         response.solution = trajectory_message(plan, context.robot.frame)
         response.fraction = path.fraction

@@ -41,12 +41,14 @@ class SceneServices:
             ("attached_collision_object", held, self._hold),
         ):
             node.subscribe(topic, kind, self._listener(take))
-        node.serve("get_planning_scene", load_service("moveit_msgs/GetPlanningScene"), self._get)
-        node.serve(
+        context.serve("get_planning_scene", load_service("moveit_msgs/GetPlanningScene"), self._get)
+        context.serve(
             "apply_planning_scene",
             load_service("moveit_msgs/ApplyPlanningScene"),
             lambda request: {"success": self.change(lambda: self._take(request.scene))},
         )
+        # There are no octomaps, so that all of them are cleared.
+        context.serve("clear_octomap", load_service("std_srvs/Empty"), lambda _request: {})
         self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
