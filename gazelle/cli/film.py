@@ -42,13 +42,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
+    from gazelle.viewer.bag_top_view import BagTopView
     from gazelle.viewer.film_files import FILMS, writable, write_film
     from gazelle.viewer.sources import BagSource, RecordingSource, pictures_of
 
     file = writable(args.out, FILMS)
     with opened(args) as source:
         seconds = args.seconds
-        if seconds is None and not isinstance(source, BagSource | RecordingSource):
+        if seconds is None and not isinstance(source, BagSource | BagTopView | RecordingSource):
             seconds = _SECONDS
         period = args.speed / args.fps
         count = write_film(file, pictures_of(source, seconds, period), args.fps)

@@ -36,7 +36,9 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="where the camera is [m]")
     look.add_argument("--target", metavar="X,Y,Z", type=_triple, help="what it looks at [m]")
     look.add_argument("--follow", metavar="MODEL", default="", help="go along with a model")
-    look.add_argument("--top", action="store_true", help="a world in the plane, from above")
+    look.add_argument(
+        "--top", action="store_true", help="a world in the plane, or a bag, from above"
+    )
     look.add_argument(
         "--size", metavar="WxH", type=_size, default=(960, 600), help="pixels (default 960x600)"
     )
@@ -81,7 +83,9 @@ def opened(args: argparse.Namespace) -> Any:
             **environment_options(args),
         )
     if path.suffix == ".bag":
-        return sources.BagSource(path, args.topic)
+        from gazelle.viewer.bag_top_view import bag_source
+
+        return bag_source(path, args.topic, top=args.top, size=args.size)
     if path.suffix == ".jsonl":
         return sources.RecordingSource(path, lambda simulation: _camera(simulation, args))
     return _running(args)

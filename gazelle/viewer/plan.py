@@ -18,7 +18,7 @@ from gazelle.viewer.plan_scans import scanners_of
 
 Colour = tuple[int, int, int]
 
-_PAPER: Colour = (250, 250, 248)
+PAPER: Colour = (250, 250, 248)
 _WALL: Colour = (60, 60, 66)
 _SEEN: Colour = (222, 236, 250)
 _HIT: Colour = (206, 62, 52)
@@ -65,7 +65,7 @@ class TopView:
             raise Error(f"there is no world {world}; there are {fleet.nworld}")
         if min(size) < 1:
             raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
-        self._frame = _Frame(extent or extent_of(fleet, world), size)
+        self._frame = PlanFrame(extent or extent_of(fleet, world), size)
         self._been: list[Floats] = []
         self._scanners: tuple[Fleet | None, list[Scanner]] = (None, [])
 
@@ -77,7 +77,7 @@ class TopView:
             self._been.clear()  # models came or went
         self._been.append(poses)
         width, height = self._size
-        image = Image.new("RGB", (width * _FINER, height * _FINER), _PAPER)
+        image = Image.new("RGB", (width * _FINER, height * _FINER), PAPER)
         draw = ImageDraw.Draw(image)
         if self._scans:
             self._draw_scans(draw, fleet)
@@ -133,11 +133,19 @@ class TopView:
             corners = fleet.corners[first : first + int(piece[c.COUNT])]
             draw.polygon(self._frame.path(corners @ turn + pose[:2]), fill=colour)
         ahead = np.array([pose[:2], [kind[c.RADIUS], 0.0] @ turn + pose[:2]])
-        draw.line(self._frame.path(ahead), fill=_PAPER, width=_FINER)
+        draw.line(self._frame.path(ahead), fill=PAPER, width=_FINER)
 
 
-class _Frame:
-    """From metres to pixels of the large picture."""
+class PlanFrame:
+    """From metres to pixels of the large picture, which is made smaller in the end.
+
+    Args:
+        extent: Least x, least y, greatest x and greatest y that are shown [m].
+        size: Width and height of the small picture [pixel].
+
+    Raises:
+        Error: The extent has no size.
+    """
 
     def __init__(self, extent: tuple[float, float, float, float], size: tuple[int, int]) -> None:
         low, high = np.array(extent[:2]), np.array(extent[2:])
@@ -146,6 +154,14 @@ class _Frame:
         pixels = np.array(size) * _FINER
         self._scale = float((pixels / (high - low)).min())
         self._middle, self._centre = (low + high) / 2.0, pixels / 2.0
+        self.shape = int(pixels[1]), int(pixels[0])
+
+    def middles(self) -> Floats:
+        """Where the middles of all pixels are [m], shape (height, width, 2)."""
+        rows, columns = np.mgrid[: self.shape[0], : self.shape[1]] + 0.5
+        away = np.stack((columns, rows), axis=2) - self._centre
+        places: Floats = away / (self._scale * np.array([1.0, -1.0])) + self._middle
+        return places
 
     def path(self, points: Iterable[Any] | Floats) -> list[tuple[float, float]]:
         """Points [m] as pixels."""

@@ -17,7 +17,7 @@ from gazelle.errors import RosError, did_you_mean
 from gazelle.simulation import Simulation
 from gazelle.viewer.filming import FilmCamera
 
-_IMAGES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
+IMAGES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 _NANOSECONDS = 1e9
 
 
@@ -144,7 +144,7 @@ class BagSource(FilmSource):
 
         self._bag = Bag(str(path))
         found = self._bag.get_type_and_topic_info().topics
-        known = [name for name, about in found.items() if about.msg_type in _IMAGES]
+        known = [name for name, about in found.items() if about.msg_type in IMAGES]
         if topic is None and known:
             topic = known[0]
         if topic not in known:
