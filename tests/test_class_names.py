@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 from collections import Counter
 from pathlib import Path
 
@@ -48,6 +49,7 @@ KNOWN = {"Plugin": 2}
 """How often names outside the ROS room are still used; to be emptied, never to grow."""
 
 
+@functools.cache
 def class_names(root, *, skip=("assets",)):
     """Of all classes under a folder, with their files."""
     return [

@@ -102,9 +102,15 @@ def modules():
 
 
 @functools.cache
+def parsed(text):
+    """The syntax of a file, which several tests walk."""
+    return ast.parse(text)
+
+
+@functools.cache
 def imports_of(module, text, *, is_package=False):
     """Imports of Gazelle's own modules, those for types too."""
-    tree = ast.parse(text)
+    tree = parsed(text)
     lazy = {
         id(node)
         for function in ast.walk(tree)
@@ -318,7 +324,7 @@ def strangers_of(module, text):
     """Libraries that a module imports, and that are another package's."""
     names = {
         name.split(".")[0]
-        for node in ast.walk(ast.parse(text))
+        for node in ast.walk(parsed(text))
         if not isinstance(node, ast.ImportFrom) or not node.level
         for name in targets(node, module, is_package=False)
     }
@@ -442,7 +448,7 @@ def test_only_the_command_line_prints():
         f"{module}:{node.lineno}"
         for module, path in modules().items()
         if room(module) != "cli"
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(parsed(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
         and node.func.id == "print"
