@@ -126,10 +126,12 @@ def test_shapes_are_primitive_and_links_are_there_for_frames(tree):
 
 @pytest.fixture(scope="module")
 def published():
-    """The original's ``fetch.urdf``, of a checkout of fetch_ros that ``GAZELLE_FETCH_ROS`` names."""
-    file = Path(os.environ.get("GAZELLE_FETCH_ROS", "")) / "fetch_description/robots/fetch.urdf"
+    """The original's ``fetch.urdf``, of a checkout of fetch_ros in the folder ``GAZELLE_ROBOTS``."""
+    file = (
+        Path(os.environ.get("GAZELLE_ROBOTS", "")) / "fetch_ros/fetch_description/robots/fetch.urdf"
+    )
     if not file.is_file():
-        pytest.skip("no checkout of fetch_ros is at hand (set GAZELLE_FETCH_ROS)")
+        pytest.skip("no checkout of fetch_ros is at hand (set GAZELLE_ROBOTS)")
     return file
 
 
