@@ -240,7 +240,7 @@ def test_fingers_go_to_an_opening_alike(fetch):
 
 def test_its_topics_have_the_robots_names(fetch):
     topics = {port.topic for port in fetch.outputs.values()}
-    assert {"/odom", "/tf", "/base_scan", "/joint_states"} <= topics
+    assert {"/odom", "/tf", "/base_scan"} <= topics
     assert {"/head_camera/rgb/image_raw", "/head_camera/depth_registered/points"} <= topics
     assert fetch.inputs["cmd_vel"].topic == "/cmd_vel"
 

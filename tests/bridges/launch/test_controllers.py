@@ -227,6 +227,15 @@ BUNDLED = [
         TRAJECTORY,
         _there(axis_1=0.5, axis_2=0.3, axis_3=0.8, axis_4=0.0, axis_5=0.5, axis_6=0.0),
     ),
+    Controlled(
+        ("fetch_gazebo simple_grasp.launch gui:=false",),
+        "joint_state_controller arm_controller torso_controller head_controller gripper_controller",
+        "gripper_controller/gripper_action/goal",
+        "l_gripper_finger_joint",
+        0.03,
+        "control_msgs/GripperCommandActionGoal",
+        {"goal": {"command": {"position": 0.1, "max_effort": 60.0}}},
+    ),
     _driven("courier", "wheel_left_joint"),
     _driven("ackermann_base", "rear_wheel_joint"),
 ]
@@ -238,6 +247,15 @@ RRBOT = Controlled(
     "joint2",
     0.4,
     space="/rrbot",
+)
+TORSO = Controlled(
+    ("fetch_gazebo simulation.launch gui:=false",),
+    "torso_controller",
+    "torso_controller/command",
+    "torso_lift_joint",
+    0.1,
+    TRAJECTORY,
+    _there(torso_lift_joint=0.15),
 )
 GRIPPER = Controlled(
     ("arm6_control arm6.launch gui:=false",),
@@ -289,7 +307,7 @@ def test_those_of_a_bundled_robot_do_too(case, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [*OWN[1:], RRBOT, GRIPPER], ids=lambda case: case.joint)
+@pytest.mark.parametrize("case", [*OWN[1:], RRBOT, TORSO, GRIPPER], ids=lambda case: case.joint)
 def test_its_other_joints_are_moved(case, tmp_path):
     bring_up(case, DATA, tmp_path)
 
