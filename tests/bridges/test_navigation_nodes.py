@@ -12,6 +12,8 @@ from gazelle.bridges.navigation.amcl import AmclNode
 from gazelle.bridges.navigation.diagnosis import NavigationWarning, StartDiagnosis
 from gazelle.bridges.navigation.frames import missing_links
 from gazelle.bridges.navigation.gmapping import GmappingNode
+from gazelle.bridges.navigation.hector import HectorNode
+from gazelle.bridges.navigation.karto import KartoNode
 from gazelle.bridges.navigation.messages import wrong_quaternion
 from gazelle.bridges.navigation.move_base import MoveBaseNode
 from gazelle.description import Pose
@@ -325,11 +327,20 @@ def test_amcl_begins_where_it_is_told_and_is_tuned(room):
     assert room.node.get_param("/amcl/max_particles") == 700
 
 
-def test_gmapping_publishes_a_map_and_its_frame(room):
-    slam = room.make("/slam_gmapping", GmappingNode, {
-        "base_frame": "base_footprint", "particles": 2, "xmin": -1, "ymin": -1, "xmax": 5, "ymax": 5,
-        "map_update_interval": 0.1, "temporalUpdate": 0.1,
-    })  # fmt: skip
+AREA = {"xmin": -1, "ymin": -1, "xmax": 5, "ymax": 5, "temporalUpdate": 0.1, "particles": 2}
+
+
+@pytest.mark.parametrize(
+    ("node", "values", "walls"),
+    [
+        (GmappingNode, {**AREA, "map_update_interval": 0.1}, 40),
+        # It waits for a second beam in a cell, and so for the robot to move.
+        (KartoNode, {"map_update_interval": 0.1}, 0),
+        (HectorNode, {"map_pub_period": 0.1, "map_size": 256, "map_resolution": 0.05}, 40),
+    ],
+)
+def test_a_mapping_node_publishes_a_map_and_its_frame(room, node, values, walls):
+    slam = room.make("/slam", node, {"base_frame": "base_footprint", **values})
     room.nodes.append(slam._node)
     maps = []
     # A map_server has the name here; it only has to be another message.
@@ -337,11 +348,35 @@ def test_gmapping_publishes_a_map_and_its_frame(room):
     spin_amcl(room, slam, lambda: any(each.info.width > 100 for each in maps))
     grid = next(each for each in maps if each.info.width > 100)
     cells = np.array(grid.data, np.int8).reshape(grid.info.height, grid.info.width)
-    assert (cells == 100).sum() > 40
-    assert slam.frames.tree is not None
+    assert (cells == 100).sum() >= walls
+    assert (cells == 0).sum() > 1000
+    assert slam.place() is not None
     service = load_service("nav_msgs/GetMap")
     answer = room.node.client("/dynamic_map", service).call(service._request_class(), 30.0)
     assert answer.map.info.width == grid.info.width
+
+
+def test_hector_mapping_is_reset_paused_and_put_elsewhere(room):
+    hector = room.make(
+        "/hector_mapping", HectorNode, {"base_frame": "base_footprint", "map_size": 256}
+    )
+    room.nodes.append(hector._node)
+    poses = []
+    room.node.subscribe("/slam_out_pose", load_message("geometry_msgs/PoseStamped"), poses.append)
+    spin_amcl(room, hector, lambda: poses)
+    assert poses[0].header.frame_id == "map"
+    assert (hector.drawn().data != -1).any()
+    switch = load_service("std_srvs/SetBool")
+    room.node.client("/pause_mapping", switch).call(switch._request_class(data=True), 30.0)
+    assert hector._paused
+    reset = load_service("std_srvs/Trigger")
+    assert room.node.client("/reset_map", reset).call(reset._request_class(), 30.0).success
+    assert (hector.drawn().data == -1).all()
+    message = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+    message.header.frame_id, message.pose.pose.orientation.w = "map", 1.0
+    message.pose.pose.position.x = 1.5
+    hector._begin(message)
+    assert hector._start == pytest.approx((1.5, 0.0, 0.0))
 
 
 # What is missing -------------------------------------------------------------------------

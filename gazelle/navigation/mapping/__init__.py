@@ -1,4 +1,4 @@
-"""Maps made while driving (SLAM): the law of ROS's ``gmapping``."""
+"""Maps made while driving (SLAM): the laws of ROS's ``gmapping``, ``slam_karto`` and ``hector_mapping``."""
 
 from __future__ import annotations
 
@@ -9,5 +9,14 @@ from gazelle.native import search_path
 __path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.navigation.mapping.grid_slam import GmappingSettings, GridSlam
+from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
+from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
 
-__all__ = ["GmappingSettings", "GridSlam"]
+__all__ = [
+    "GmappingSettings",
+    "GridSlam",
+    "HectorSettings",
+    "HectorSlam",
+    "KartoSettings",
+    "KartoSlam",
+]

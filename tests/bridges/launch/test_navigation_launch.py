@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 import pytest
 from launching import Launched
+from mapping_drives import WORLD, Mapper, drive
 from ros.graph import until
 
 import gazelle
@@ -19,6 +20,7 @@ from gazelle.ros.actions import GoalStatus, SimpleActionClient
 pytestmark = pytest.mark.corpus
 
 PATIENCE = 120.0
+
 FREE = [(-0.5, 0.0), (0.5, 0.0), (-1.6, -0.5), (-1.6, 0.5), (-0.5, -1.75), (0.5, 1.75), (0.55, 0.55),
         (1.7, 0.5), (0.0, 0.55), (0.0, -0.55), (-0.55, 0.55), (1.7, -0.5)]  # fmt: skip
 
@@ -75,10 +77,9 @@ class Traveller:
 
 
 @contextmanager
-def navigating(corpus, folder, model):
+def navigating(corpus, folder, model, whole):
     for name in ("world", "stack"):
         (folder / name).mkdir()
-    whole = true_map(gazelle.load("turtlebot3_world"), 0.18, margin=2.0)
     save_map(whole, folder / "map")
     arguments = f"model:={model} open_rviz:=false map_file:={folder}/map.yaml"
     world = f"turtlebot3_gazebo turtlebot3_world.launch model:={model}"
@@ -99,7 +100,8 @@ def navigating(corpus, folder, model):
 
 
 def test_a_burger_reaches_a_goal(corpus, tmp_path):
-    with navigating(corpus, tmp_path, "burger") as traveller:
+    whole = true_map(gazelle.load("turtlebot3_world"), 0.18, margin=2.0)
+    with navigating(corpus, tmp_path, "burger", whole) as traveller:
         state, text = traveller.go(-1.5, -0.5)
         assert (state, text) == (GoalStatus.SUCCEEDED, "Goal reached.")
         assert math.dist(traveller.place, (-1.5, -0.5)) < 0.25
@@ -107,9 +109,10 @@ def test_a_burger_reaches_a_goal(corpus, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("model", ["burger", "waffle"])
-def test_fifty_goals_of_fifty_are_reached(corpus, tmp_path, model):
-    chosen = random.Random(7)
-    with navigating(corpus, tmp_path, model) as traveller:
+def test_fifty_goals_of_fifty_are_reached_on_a_map_of_our_own(corpus, tmp_path, model):
+    chosen, mapper = random.Random(7), Mapper(0.0)
+    drive("turtlebot3_world", (-2.0, -0.5), WORLD, mapper.take)
+    with navigating(corpus, tmp_path, model, mapper.slam.map()) as traveller:
         for _ in range(50):
             goal = chosen.choice([each for each in FREE if math.dist(each, traveller.place) > 0.3])
             state, text = traveller.go(*goal, chosen.uniform(-3.1, 3.1))

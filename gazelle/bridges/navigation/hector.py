@@ -1,0 +1,134 @@
+"""The node ``hector_mapping``: a map from scans alone (http://wiki.ros.org/hector_mapping)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.navigation.frames import flat
+from gazelle.bridges.navigation.mapping_node import MappingNode
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
+from gazelle.navigation.planners.planar import composed, inverse
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+from gazelle.rotations import from_yaw, yaw_of
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Map until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "hector_mapping")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        HectorNode(node).run(stop)
+    return 0
+
+
+class HectorNode(MappingNode):
+    """A `HectorSlam` on a graph.
+
+    Args:
+        node: On the graph; parameters are those of ``hector_mapping``.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self.slam = HectorSlam(HectorSettings.read(values))
+        self._start: Pose2 | None = None
+        self._place: Pose2 | None = None
+        self._paused = False
+        interval = value_of(values, "map_pub_period", 2.0)
+        scans = value_of(values, "scan_topic", "scan")
+        super().__init__(node, "base_link", scans, interval, 0.0, 0.0)
+        self._sends_odom = value_of(values, "pub_map_odom_transform", True)
+        self._sends_match = value_of(values, "pub_map_scanmatch_transform", True)
+        name = "tf_map_scanmatch_transform_frame_name"
+        self._match_frame = value_of(values, name, "scanmatcher_frame").strip("/")
+        self._from_tf = value_of(values, "use_tf_pose_start_estimate", False)
+        covariant = load_message("geometry_msgs/PoseWithCovarianceStamped")
+        topic = value_of(values, "pose_update_topic", "poseupdate")
+        self._updates = node.advertise(topic, covariant, queue_size=1)
+        self._stamped = load_message("geometry_msgs/PoseStamped")
+        self._poses = node.advertise("slam_out_pose", self._stamped, queue_size=1)
+        commands = value_of(values, "sys_msg_topic", "syscommand")
+        node.subscribe(commands, load_message("std_msgs/String"), self._command)
+        node.subscribe("initialpose", covariant, self._begin)
+        node.serve("reset_map", load_service("std_srvs/Trigger"), self._reset)
+        node.serve("pause_mapping", load_service("std_srvs/SetBool"), self._pause)
+
+    def place(self) -> Pose2 | None:
+        """Where the frame of the odometry is on the map."""
+        return self._place
+
+    def drawn(self) -> OccupancyMap:
+        """All of it."""
+        return self.slam.map()
+
+    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
+        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+        stamp = message.header.stamp.to_nsec()
+        odom = self.frames.pose(self._odom, self._base, stamp) if self._sends_odom else None
+        if self._sends_odom and odom is None:
+            return None
+        if self._paused:
+            return False
+        ranges[ranges >= message.range_max] = np.inf
+        start, self._start = self._start, None
+        if start is None and self._from_tf:
+            start = self.frames.pose(self._whole, self._base, stamp)
+        changed = self.slam.update(ranges, angles, laser, start)
+        self._place = self.slam.pose if odom is None else composed(self.slam.pose, inverse(odom))
+        self._say(message.header.stamp, stamp, odom)
+        return changed
+
+    def _say(self, stamp: Any, at: int, odom: Pose2 | None) -> None:
+        """Publish the pose, and the transforms that were asked for."""
+        pose: Any = self._stamped()
+        pose.header.frame_id, pose.header.stamp = self._whole, stamp
+        x, y, heading = self.slam.pose
+        pose.pose.position.x, pose.pose.position.y = x, y
+        turn = pose.pose.orientation
+        turn.x, turn.y, turn.z, turn.w = from_yaw(np.array(heading)).tolist()
+        self._poses.publish(pose)
+        update: Any = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+        update.header, update.pose.pose = pose.header, pose.pose
+        self._updates.publish(update)
+        if odom is not None and self._place is not None:
+            self.frames.send(self._whole, self._odom, at, self._place)
+        if self._sends_match:
+            self.frames.send(self._whole, self._match_frame, at, self.slam.pose)
+
+    def _missing(self) -> list[str]:
+        found = super()._missing()
+        return found if self._sends_odom else [each for each in found if "drive" not in each]
+
+    def _command(self, message: Any) -> None:
+        if message.data == "reset":
+            self.slam.reset()
+
+    def _begin(self, message: Any) -> None:
+        """Go on from another pose on the map."""
+        found = self.frames.find(self._whole, message.header.frame_id.strip("/") or self._whole)
+        frame = (0.0, 0.0, 0.0) if found is None else flat(found)
+        place, turn = message.pose.pose.position, message.pose.pose.orientation
+        heading = float(yaw_of(np.array([turn.x, turn.y, turn.z, turn.w])))
+        self._start = composed(frame, (place.x, place.y, heading))
+
+    def _reset(self, request: Any) -> list[Any]:
+        del request
+        self.slam.reset()
+        return [True, ""]
+
+    def _pause(self, request: Any) -> list[Any]:
+        self._paused = bool(request.data)
+        return [True, ""]

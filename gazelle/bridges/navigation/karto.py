@@ -1,0 +1,62 @@
+"""The node ``slam_karto``: a map of scans whose poses fit (http://wiki.ros.org/slam_karto)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.navigation.mapping_node import MappingNode
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Map until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "slam_karto")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        KartoNode(node).run(stop)
+    return 0
+
+
+class KartoNode(MappingNode):
+    """A `KartoSlam` on a graph.
+
+    Args:
+        node: On the graph; parameters are those of ``slam_karto``.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self.slam = KartoSlam(KartoSettings.read(values))
+        period = value_of(values, "transform_publish_period", 0.05)
+        interval = value_of(values, "map_update_interval", 5.0)
+        ahead = value_of(values, "transform_tolerance", 0.0)
+        super().__init__(node, "base_link", "scan", interval, period, ahead)
+
+    def place(self) -> Pose2 | None:
+        """Where the frame of the odometry is on the map."""
+        return self.slam.map_to_odom
+
+    def drawn(self) -> OccupancyMap:
+        """Of all scans."""
+        return self.slam.map()
+
+    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
+        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+        odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
+        if odom is None:
+            return None
+        ranges[ranges < message.range_min] = np.inf
+        return self.slam.update(odom, ranges, angles, float(message.range_max), laser)

@@ -1,0 +1,131 @@
+"""What nodes that make maps have in common: topics of the map, frames, and scans."""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.navigation.diagnosis import StartDiagnosis
+from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
+from gazelle.bridges.navigation.messages import beam_angles, is_upside_down
+from gazelle.bridges.navigation.scan_queue import ScanQueue
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.following import Pose2
+from gazelle.ros.builtin.map_server import grid_message
+from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.node import Node
+
+SECOND = 1_000_000_000
+
+
+class MappingNode(ABC):
+    """Publishes ``map`` and ``map_metadata``, serves ``dynamic_map``, and sends map to odometry.
+
+    Args:
+        node: On the graph.
+        base: Default of ``base_frame``.
+        scans: Topic of the scans.
+        interval: Between two maps [s].
+        period: Between two transforms [s]; none if it is 0.
+        ahead: How far transforms are dated ahead [s].
+    """
+
+    def __init__(
+        self, node: Node, base: str, scans: str, interval: float, period: float, ahead: float
+    ) -> None:
+        self._node = node
+        self._values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self._odom = value_of(self._values, "odom_frame", "odom").strip("/")
+        self._base = value_of(self._values, "base_frame", base).strip("/")
+        self._whole = value_of(self._values, "map_frame", "map").strip("/")
+        self._every = max(value_of(self._values, "throttle_scans", 1), 1)
+        self._interval_ns = round(interval * SECOND)
+        self._period_ns, self._ahead_ns = round(period * SECOND), round(ahead * SECOND)
+        self._sent_ns = self._mapped_ns = -(1 << 62)
+        self._count = 0
+        self._lock = threading.Lock()
+        self._message: Any = None
+        self.frames = GraphFrames(node)
+        self._scans = ScanQueue(node, scans, load_message("sensor_msgs/LaserScan"))
+        self.frames.tree.on_change(self._scans.wake)
+        grid, info = load_message("nav_msgs/OccupancyGrid"), load_message("nav_msgs/MapMetaData")
+        self._maps = node.advertise("map", grid, queue_size=1, latch=True)
+        self._infos = node.advertise("map_metadata", info, queue_size=1, latch=True)
+        node.serve("dynamic_map", load_service("nav_msgs/GetMap"), self._dynamic_map)
+        self._topic = scans
+        self._diagnosis = StartDiagnosis(node, self._missing)
+
+    @abstractmethod
+    def place(self) -> Pose2 | None:
+        """Where the frame of the odometry is on the map; None if it is not known."""
+
+    @abstractmethod
+    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
+        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+
+    @abstractmethod
+    def drawn(self) -> OccupancyMap:
+        """The map."""
+
+    def run(self, stop: threading.Event) -> None:
+        """Take scans until told to end."""
+        while not stop.is_set() and not self._node.closed:
+            self._scans.work(self._use)
+            self._send()
+            self._diagnosis.look(waiting=self.place() is None)
+
+    def _missing(self) -> list[str]:
+        found = missing_links(self.frames.tree, "", self._odom, self._base, self._scans.frame)
+        if not self._scans.seen:
+            found.append(f"scans on {self._node.resolve(self._topic)} (a laser sends them)")
+        return found
+
+    def _use(self, message: Any) -> bool:
+        """Take a scan; False if its transforms are not there yet."""
+        mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
+        if mounted is None:
+            return False
+        if (self._count + 1) % self._every:
+            self._count += 1
+            return True
+        sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
+        ranges = np.array(message.ranges, np.float64)
+        changed = self.take(message, ranges, sign * beam_angles(message), flat(mounted))
+        if changed is None:
+            return False
+        self._count += 1
+        stamp = message.header.stamp.to_nsec()
+        late = self._message is None or abs(stamp - self._mapped_ns) >= self._interval_ns
+        if changed and late:
+            self._mapped_ns = stamp
+            self._publish(stamp)
+        self._send()
+        return True
+
+    def _publish(self, stamp: int) -> None:
+        message = grid_message(self.drawn(), self._whole, stamp)
+        with self._lock:
+            self._message = message
+        self._maps.publish(message)
+        self._infos.publish(message.info)
+
+    def _send(self) -> None:
+        """Say where the odometry is on the map, dated ahead."""
+        now, place = self._node.clock.now(), self.place()
+        if place is None or self._period_ns <= 0:
+            return
+        if now < self._sent_ns or now - self._sent_ns >= self._period_ns:
+            self._sent_ns = now
+            self.frames.send(self._whole, self._odom, now + self._ahead_ns, place)
+
+    def _dynamic_map(self, request: Any) -> list[Any]:
+        del request
+        with self._lock:
+            found = self._message
+        return [load_message("nav_msgs/OccupancyGrid")() if found is None else found]
