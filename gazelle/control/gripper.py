@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats, Ints64, Worlds
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
 from gazelle.control.goals import ActionPort, Goal, GoalState
+from gazelle.control.gripper_law import GripperLaw
 from gazelle.control.interfaces import EFFORT
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
@@ -31,6 +34,7 @@ class GripperActionController(Controller):
     action_name = "gripper_cmd"
     tolerance = 0.01
     stall_ends = GoalState.ABORTED
+    _law: GripperLaw | None = None
 
     def init(self, parameters: ControllerParameters) -> None:
         """Read ``joint``, tolerances, ``max_effort`` and, to command efforts, ``gains``."""
@@ -42,6 +46,9 @@ class GripperActionController(Controller):
             tell = pid_values
             self.add_tuning(f"gains/{name}", PID_TUNABLES, lambda: tell(pid), pid_changer(pid))
         self._take_goals(parameters, 0.0)
+        self._law = GripperLaw(self._joint, self._position, self._max_effort, self._output)
+        if self._pid is not None:
+            self._law.push_by(self._pid.law)
 
     def _take_goals(self, parameters: ControllerParameters, strength: float) -> None:
         """Open the action; ``strength`` is the default of ``max_effort``."""
@@ -142,26 +149,28 @@ class GripperActionController(Controller):
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
         """Move, and see whether it is there or stalls."""
         error = self._position - self._opening()
-        self._judge(error, self._speed())
-        self._push(error, period)
+        self._check_goals(error, self._speed())
+        if self._law is not None:
+            self._law.act(self.now_ns, period)
+        else:
+            self._push(error, period)
         if self._goals and self._feedback_due.is_due(self.now_ns):
             for goal in self._goals:
                 if goal.heard:
                     goal.tell(self._result(int(goal.worlds[0])))
 
-    def _push(self, error: Floats, period: float) -> None:
-        """Command the joint, for what is missing of the position, shape (nworld,)."""
-        if self._pid is None:
-            self._joint.set_command(self._position[:, None])
-            self._output = self._max_effort.copy()
-            return
-        rate = -self._speed()[:, None]
-        pushed = self._pid.compute(error[:, None], period, rate)[:, 0]
-        most = np.abs(self._max_effort)
-        self._output = np.clip(pushed, -most, most)
-        self._joint.set_command(self._output[:, None])
+    def law(self) -> ControlLaw | None:
+        """What holds the joint; None where a subclass has its own way of pushing."""
+        return self._law
 
-    def _judge(self, error: Floats, velocity: Floats) -> None:
+    def wake_ns(self) -> float:
+        """Always, while a goal may end."""
+        return 0.0 if self._goals else math.inf
+
+    def _push(self, error: Floats, period: float) -> None:
+        """Command the joint, for what is missing of the position, shape (nworld,), without a law."""
+
+    def _check_goals(self, error: Floats, velocity: Floats) -> None:
         there = self._active & (np.abs(error) < self._tolerance)
         if there.any():
             self._end(np.flatnonzero(there), GoalState.SUCCEEDED, reached=True)

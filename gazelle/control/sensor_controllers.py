@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.publishing import PublishingSchedule
@@ -39,6 +41,20 @@ class SensorController(Controller):
         if self._schedule.is_due(self.now_ns):
             for port in self._ports:
                 port.publish()
+
+    def law(self) -> ControlLaw:
+        """It does nothing to joints."""
+        return ControlLaw(self.nworld)
+
+    def wake_ns(self) -> float:
+        """When it publishes."""
+        fresh = self._schedule.next_ns == 0.0
+        heard = fresh or any(port.wanted for port in self._ports)
+        return self._schedule.next_ns if heard else math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows
+        """Nobody listened."""
+        self._schedule.skip(self.now_ns, updates)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Publish at once if time began anew."""

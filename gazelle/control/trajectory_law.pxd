@@ -29,7 +29,7 @@ cdef class TrajectoryLaw(ControlLaw):
     @cython.locals(i=Py_ssize_t, c=Py_ssize_t, time=double, lack=double, slow=double, missed=bint, all_there=bint)
     cdef void control(self, Py_ssize_t world, long long now, double period) noexcept nogil
     @cython.locals(end=double, there=bint)
-    cdef void judge(self, Py_ssize_t world, Py_ssize_t i, Py_ssize_t c, double time, double lack, double slow) noexcept nogil
+    cdef void check_tolerances(self, Py_ssize_t world, Py_ssize_t i, Py_ssize_t c, double time, double lack, double slow) noexcept nogil
     cdef void command(self, Py_ssize_t world, Py_ssize_t i, double lack, double slow, double period) noexcept nogil
     cdef void tell(self, Py_ssize_t world, long long code, Py_ssize_t joint, double error) noexcept nogil
 

@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""Trajectories of joints followed and judged, in native code."""
+"""Trajectories of joints followed and checked, in native code."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ class TrajectoryLaw(ControlLaw):
         )
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
-        """Follow, judge, command."""
+        """Follow, check, command."""
         self.uptime[world] += period
         self.period[world] = period
         time, all_there = self.uptime[world], True
@@ -178,7 +178,7 @@ class TrajectoryLaw(ControlLaw):
             lack = shortest(self.position[world, self.joints[i]], self.wanted[world, i])
             slow = self.wanted_rate[world, i] - self.velocity[world, self.joints[i]]
             if missed:
-                self.judge(world, i, c, time, lack, slow)
+                self.check_tolerances(world, i, c, time, lack, slow)
                 all_there = all_there and self.reached[world, i]
             self.command(world, i, lack, slow, period)
         if missed and self.event[world] == NOTHING and all_there:
@@ -187,7 +187,9 @@ class TrajectoryLaw(ControlLaw):
             self.event_goal[world] = self.goal[world]
             self.goal[world] = 0
 
-    def judge(self, world: int, i: int, c: int, time: float, lack: float, slow: float) -> None:
+    def check_tolerances(
+        self, world: int, i: int, c: int, time: float, lack: float, slow: float
+    ) -> None:
         """See whether a joint is where the goal wants it."""
         if self.goals[world, i, c] != self.goal[world]:
             return

@@ -28,6 +28,12 @@ STOP = {
 }
 
 
+WITH_IMU = {
+    "</robot>": '<gazebo reference="lower"><sensor name="imu" type="imu"><always_on>true</always_on>'
+    "</sensor></gazebo></robot>"
+}
+
+
 @pytest.fixture
 def carried(monkeypatch):
     """Counts the physics steps that were made with controllers in them."""
@@ -174,6 +180,41 @@ def test_a_listener_that_comes_late_is_not_told_what_it_missed(carried):
     sim.run(0.1)
     assert 4 <= len(stamps) <= 6
     assert np.diff(stamps).min() >= 19_000_000
+
+
+@pytest.mark.parametrize(("kind", "gains"), [("effort", None), ("position", GAINS)])
+def test_grippers_and_sensors_need_no_python_unless_somebody_asks(carried, kind, gains):
+    from gazelle.control.values import GripperGoal
+
+    ends, told = [], []
+    for native in (True, False):
+        sim, robot = arm(kind.title(), nworld=2, replace=WITH_IMU)
+        sim.carrier = sim.carrier if native else None
+        if gains:
+            robot.settings["pid_gains"].send(dict.fromkeys(JOINTS, gains))
+        given = {"joint": "elbow", "max_effort": 30.0, "gains": {"elbow": GAINS}}
+        robot.controllers.load(
+            "hand", {"type": f"{kind}_controllers/GripperActionController", **given}
+        )
+        imu = {"type": "imu_sensor_controller/ImuSensorController", "publish_rate": 50.0}
+        robot.controllers.load("imus", imu)
+        robot.controllers.start("hand", "imus")
+        before = sum(carried)
+        sim.step(300)
+        assert (sum(carried) - before > 290) == native
+        goal = robot.controllers["hand"].actions["gripper_cmd"].send(GripperGoal(0.3, 40.0))
+        sim.step(1500)
+        assert goal.states.tolist() == [GoalState.SUCCEEDED] * 2
+        stamps = []
+        robot.controllers["imus"].outputs["imu"].subscribe(lambda s, to=stamps: to.append(s.stamp))
+        before = sum(carried)
+        sim.step(200)
+        assert (sum(carried) - before > 150) == native
+        ends.append((sim.engine.snapshot(), robot.controllers.hardware.state()["effort"]))
+        told.append(stamps)
+    assert all(np.array_equal(*pair) for pair in zip(*ends, strict=True))
+    assert told[0] == told[1]
+    assert 9 <= len(told[0]) <= 11
 
 
 def test_a_goal_ends_in_each_world_by_itself_within_steps(carried):
