@@ -5,16 +5,9 @@ from __future__ import annotations
 from gazelle.description import World
 from gazelle.engines.carrying import CarryingEngine
 from gazelle.engines.changes import changes_of
-from gazelle.engines.engine import (
-    CHANGES,
-    PARAMETERS,
-    Call,
-    DivergenceError,
-    Engine,
-    Hits,
-    Motion,
-    Placement,
-)
+from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
+from gazelle.engines.history import CHANGES, Call
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.engines.registry import EngineFactory, find

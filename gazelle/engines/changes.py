@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.engines.engine import CHANGES, Engine
+from gazelle.engines.engine import Engine
+from gazelle.engines.history import CHANGES
 
 
 def changes_of(engine: Engine) -> tuple[str, ...]:

@@ -8,56 +8,17 @@ metres, velocities in m/s and rad/s, both in the world frame; quaternions are (x
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
+from gazelle.engines.history import Call
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
-
-
-@dataclass(frozen=True, slots=True)
-class Placement:
-    """Where something is in each world.
-
-    Attributes:
-        position: [m], shape (n, 3).
-        quaternion: Unit quaternions (x, y, z, w), shape (n, 4).
-    """
-
-    position: Floats
-    quaternion: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """How something moves in each world, seen from the world frame.
-
-    Attributes:
-        linear: Velocity of its origin [m/s], shape (n, 3).
-        angular: Angular velocity [rad/s], shape (n, 3).
-    """
-
-    linear: Floats
-    angular: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class Hits:
-    """What rays met in each world.
-
-    Attributes:
-        distance: To the nearest collision shape [m], shape (n, rays); infinite for none.
-        from_inside: Whether the ray started inside that shape, shape (n, rays).
-    """
-
-    distance: Floats
-    from_inside: NDArray[np.bool_]
 
 
 class DivergenceError(EngineError):
@@ -76,19 +37,6 @@ class DivergenceError(EngineError):
         self.worlds = worlds
         self.before = before
         self.steps = steps
-
-
-@dataclass(frozen=True, slots=True)
-class Call:
-    """A call of one of an engine's methods that change something.
-
-    Attributes:
-        method: Its name.
-        arguments: In order.
-    """
-
-    method: str
-    arguments: tuple[Any, ...]
 
 
 # Kinds of physical parameters that each world can have of its own: what they belong to, the
@@ -111,31 +59,6 @@ PARAMETERS: dict[str, tuple[str, int, str]] = {
     "motor_effort": ("motor", 1, "N or N m"),
     "wheel_slip": ("link", 2, "m/s/N and rad/s/(N m)"),
 }
-
-# Every method of ``Engine`` that changes what it computes. All else only reads.
-CHANGES = (
-    "add_motor",
-    "adopt",
-    "attach",
-    "delete",
-    "detach",
-    "make_kinematic",
-    "reset",
-    "restore",
-    "set_joint_effort",
-    "set_joint_position",
-    "set_joint_velocity",
-    "set_link_motion",
-    "set_link_placement",
-    "set_link_wrench",
-    "set_model_motion",
-    "set_model_placement",
-    "set_motor_velocity",
-    "set_parameter",
-    "spawn",
-    "step",
-    "update_world",
-)
 
 
 class Engine(Protocol):

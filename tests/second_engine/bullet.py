@@ -26,7 +26,7 @@ import numpy as np
 from second_engine.bullet_urdf import WORLD, Tree, UntranslatableError, trees_of
 
 from gazelle.description import Joint, Link, Model, Pose, World
-from gazelle.engines.engine import Motion, Placement
+from gazelle.engines.motion import Motion, Placement
 
 _ITERATIONS = 200
 _ERP = 0.2

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
-from gazelle.engines.engine import Hits, Motion, Placement
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.mujoco.layout import LinkSlot, ModelSlot, MujocoLayout
 from gazelle.engines.mujoco.link_table import MujocoLinkTable
 from gazelle.engines.mujoco.order import (

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.engine import Placement
+from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.access import StateAccess, rows_of, unit
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout

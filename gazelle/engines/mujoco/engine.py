@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
-from gazelle.engines.engine import Call, DivergenceError
+from gazelle.engines.engine import DivergenceError
+from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.mujoco.access import VELOCITY_STAGE, rows_of

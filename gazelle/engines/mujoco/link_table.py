@@ -8,7 +8,7 @@ import numpy as np
 from mujoco.batch import Batch
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.engine import Placement
+from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.layout import MujocoLayout
 from gazelle.engines.mujoco.order import xyzw_from_wxyz
 

@@ -9,7 +9,7 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.engine import Hits
+from gazelle.engines.motion import Hits
 from gazelle.engines.mujoco.compiler import COLLISION_GROUP
 from gazelle.engines.mujoco.shapes import CLOSED_GROUP, OPEN_GROUP
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
-from gazelle.engines.engine import Hits, Motion, Placement
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import PlanarLayout

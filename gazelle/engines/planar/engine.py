@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
-from gazelle.engines.engine import Call
+from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c

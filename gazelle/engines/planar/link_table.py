@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats, Indices, Worlds
-from gazelle.engines.engine import Placement
+from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.fleet import Fleet

@@ -1,0 +1,49 @@
+"""Where things are in each world, how they move, and what rays meet; see ``engine`` for frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where something is in each world.
+
+    Attributes:
+        position: [m], shape (n, 3).
+        quaternion: Unit quaternions (x, y, z, w), shape (n, 4).
+    """
+
+    position: Floats
+    quaternion: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How something moves in each world, seen from the world frame.
+
+    Attributes:
+        linear: Velocity of its origin [m/s], shape (n, 3).
+        angular: Angular velocity [rad/s], shape (n, 3).
+    """
+
+    linear: Floats
+    angular: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Hits:
+    """What rays met in each world.
+
+    Attributes:
+        distance: To the nearest collision shape [m], shape (n, rays); infinite for none.
+        from_inside: Whether the ray started inside that shape, shape (n, rays).
+    """
+
+    distance: Floats
+    from_inside: NDArray[np.bool_]
