@@ -62,6 +62,21 @@ def _cartpole() -> RegisteredTask:
     )
 
 
+def _fetch() -> list[RegisteredTask]:
+    home = "gazelle.envs.fetch.envs"
+    return [
+        RegisteredTask(
+            id=f"gazelle/Fetch{task}{'Dense' if reward == 'dense' else ''}-v0",
+            env=f"{home}:FetchEnv",
+            vector_env=f"{home}:FetchVectorEnv",
+            max_episode_steps=50,
+            kwargs={"task": task, "reward_type": reward},
+        )
+        for task in ("Reach", "Push", "Slide", "PickAndPlace")
+        for reward in ("sparse", "dense")
+    ]
+
+
 def _moving_cube() -> RegisteredTask:
     home = "gazelle.envs.moving_cube.envs"
     return RegisteredTask(
@@ -150,6 +165,7 @@ ENTRIES = (
     *_kobuki(),
     _hopper(),
     *_reachers(),
+    *_fetch(),
 )
 
 

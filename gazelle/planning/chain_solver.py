@@ -55,6 +55,7 @@ class ChainSolver:
     _matrix: cython.double[:, ::1]
     _right: cython.double[::1]
     _change: cython.double[::1]
+    _nearest: cython.double[::1]
     _held: cython.uchar[::1]
     _turn: cython.double[::1]
     _motion: cython.double[::1]
@@ -89,7 +90,7 @@ class ChainSolver:
         self._variables = np.zeros(len(slots))
         self._jacobian, self._matrix = np.zeros((6, max(1, len(columns)))), np.zeros((6, 6))
         self._error, self._right, self._weights = np.zeros(6), np.zeros(6), np.ones(6)
-        self._change = np.zeros(len(columns))
+        self._change, self._nearest = np.zeros(len(columns)), np.zeros(len(columns))
         self._held = np.zeros(len(columns), np.uint8)
         self._turn, self._motion = np.zeros(9), np.zeros(6)
         self._moved = self._turned = 0.0
@@ -138,6 +139,42 @@ class ChainSolver:
                 return int(attempt)
         return -1
 
+    def follow(
+        self,
+        targets: Floats,
+        variables: Floats,
+        weights: Floats,
+        tolerance: tuple[float, float],
+    ) -> None:
+        """Go from many states as near to as many poses as one descent from each gets.
+
+        Args:
+            targets: The poses, shape (n, 12).
+            variables: Positions of all in each state; those found are written into it, shape
+                (n, variables).
+            weights: As `solve` takes them, shape (6,).
+            tolerance: Of distance [m] and angle [rad], where a descent ends.
+        """
+        wanted: cython.double[:, ::1] = np.ascontiguousarray(targets, np.float64)
+        out: cython.double[:, ::1] = variables
+        given: cython.double[::1] = np.ascontiguousarray(weights, np.float64)
+        near: cython.double = tolerance[0]
+        straight: cython.double = tolerance[1]
+        row: cython.Py_ssize_t
+        k: cython.int
+        for k in range(6):
+            self._weights[k] = given[k]
+        for row in range(out.shape[0]):
+            for k in range(self._variables.shape[0]):
+                self._variables[k] = out[row, k]
+            for k in range(self._size):
+                self._variables[self._columns[k]] = min(
+                    max(out[row, self._columns[k]], self._lower[k]), self._upper[k]
+                )
+            self._approach(wanted[row], near, straight)
+            for k in range(self._size):
+                out[row, self._columns[k]] = self._nearest[k]
+
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
@@ -160,6 +197,32 @@ class ChainSolver:
                 return False
             self._step(square)
         return False
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _approach(
+        self, wanted: cython.double[::1], near: cython.double, straight: cython.double
+    ) -> cython.void:
+        """Go towards the pose, and keep in ``_nearest`` where the error was least."""
+        best: cython.double = -1.0
+        since: cython.int = 0
+        left: cython.int = self._steps
+        k: cython.int
+        while left >= 0:
+            left -= 1
+            square: cython.double = self._look(wanted)
+            since += 1
+            if best < 0.0 or square < best:
+                if best < 0.0 or square < _BETTER * best:
+                    since = 0
+                best = square
+                for k in range(self._size):
+                    self._nearest[k] = self._variables[self._columns[k]]
+            done: cython.bint = self._moved <= near and self._turned <= straight
+            if done or since > _PATIENCE:
+                return
+            self._step(square)
 
     @cython.cfunc
     @cython.nogil

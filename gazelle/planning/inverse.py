@@ -122,13 +122,8 @@ class InverseKinematics:
         Raises:
             PlanningError: A shape is wrong.
         """
-        wanted = np.asarray(poses, np.float64)
-        if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
-            raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
-        count = len(wanted)
-        given = self.robot.zero() if states is None else np.asarray(states, np.float64)
-        given = np.broadcast_to(given, (count, len(self.robot.variables)))
-        targets = np.concatenate((wanted[:, :3, :3].reshape(count, 9), wanted[:, :3, 3]), axis=1)
+        targets, given = self._asked(poses, states)
+        count = len(targets)
         positions = np.full((count, len(self.group.variables)), np.nan)
         attempts = np.zeros(count, np.int64)
         for number in range(count):
@@ -136,6 +131,42 @@ class InverseKinematics:
             if made is not None:
                 positions[number] = made
         return IkSolutions(positions, np.isfinite(positions).all(axis=1), attempts)
+
+    def follow(self, poses: ArrayLike, states: ArrayLike) -> Floats:
+        """Positions as near to poses as one descent from each state leads, compiled for all.
+
+        For poses a little way off, time after time. Where a pose is out of reach, or the arm is
+        caught, the nearest of that descent is taken, never farther than the state that it began
+        from; nothing is begun anew.
+
+        Args:
+            poses: Homogeneous transforms in the robot's frame, shape (n, 4, 4).
+            states: Of all variables, shape (variables,) or (n, variables).
+
+        Returns:
+            Of the group's joints, shape (n, joints).
+
+        Raises:
+            PlanningError: A shape is wrong.
+        """
+        targets, given = self._asked(poses, states)
+        found = np.array(given, order="C")
+        self._solver.follow(targets, found, self._weights, self._tolerance)
+        columns = self.group.columns
+        return given[:, columns] + self.group.difference(given[:, columns], found[:, columns])
+
+    def _asked(self, poses: ArrayLike, states: ArrayLike | None) -> tuple[Floats, Floats]:
+        """Poses as rows of shape (n, 12) and states of shape (n, variables)."""
+        wanted = np.asarray(poses, np.float64)
+        if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
+            raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
+        count = len(wanted)
+        given = self.robot.zero() if states is None else np.asarray(states, np.float64)
+        shape = (count, len(self.robot.variables))
+        if given.shape not in {shape, shape[1:]}:
+            raise PlanningError(f"states have the shape {shape}, not {given.shape}")
+        targets = np.concatenate((wanted[:, :3, :3].reshape(count, 9), wanted[:, :3, 3]), axis=1)
+        return targets, np.broadcast_to(given, shape)
 
     def _solve_one(
         self, target: Floats, state: Floats, valid: Callable[[Floats], bool] | None

@@ -10,10 +10,11 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 27
+    assert len(task_ids()) == 35
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
+            "Fetch": 50,
             "TurtleBot3World": 500,
             "TurtleBot3Camera": 120,
             "TurtleBot3": 501,

@@ -148,3 +148,50 @@ def test_poses_have_a_shape():
     robot, group = arms.arm_group("fetch")
     with pytest.raises(PlanningError, match="the shape"):
         InverseKinematics(robot, group).solve_many(np.eye(4))
+
+
+@pytest.mark.parametrize("name", arms.ARMS)
+def test_poses_a_little_way_off_are_followed_from_many_states(name):
+    """As near as a descent leads from each state, without a jump to another branch."""
+    robot, group = arms.arm_group(name)
+    rng = np.random.default_rng(5)
+    states = np.tile(robot.zero(), (200, 1))
+    middle = np.clip(group.sample(rng, 200) * 0.5, group.lower + 0.2, group.upper - 0.2)
+    states[:, group.columns] = middle
+    near = states.copy()
+    near[:, group.columns] += rng.uniform(-0.05, 0.05, middle.shape)
+    wanted = robot.forward(near, group.tip)
+    ik = InverseKinematics(robot, group)
+    found = ik.follow(wanted, states)
+    moved, turned = errors(robot, group, found, wanted)
+    assert (moved < 1e-4).mean() > 0.97
+    assert (turned < 1e-4).mean() > 0.97
+    assert np.median(np.abs(found - middle).max(axis=1)) < 0.15
+    np.testing.assert_array_equal(ik.follow(wanted[7:8], states[7:8])[0], found[7])
+    np.testing.assert_array_equal(ik.follow(wanted[:3], states[0])[0], found[0])
+    assert not [text for row in found for text in group.beyond(row)]
+
+
+@pytest.mark.parametrize("ahead", [0.05, 0.3, 1.0, 3.0])
+def test_what_is_out_of_reach_is_never_farther_away_than_before(ahead):
+    robot, group = arms.arm_group("fetch")
+    state = robot.zero()
+    state[group.columns] = (0.0, 0.3, 0.0, 0.5, 0.0, 0.3, 0.0)
+    far = robot.forward(state[None], group.tip)
+    far[:, 0, 3] += ahead
+    found = InverseKinematics(robot, group, aim="position").follow(far, state)
+    after = errors(robot, group, found, far)[0]
+    assert np.isfinite(found).all()
+    assert after[0] <= ahead + 1e-12
+    assert not group.beyond(found[0])
+
+
+@pytest.mark.parametrize(
+    ("poses", "states", "words"),
+    [((3, 4), None, "poses have the shape"), ((3, 4, 4), (2, 5), "states have the shape")],
+)
+def test_shapes_to_follow_are_checked(poses, states, words):
+    robot, group = arms.arm_group("fetch")
+    given = robot.zero() if states is None else np.zeros(states)
+    with pytest.raises(PlanningError, match=words):
+        InverseKinematics(robot, group).follow(np.zeros(poses), given)

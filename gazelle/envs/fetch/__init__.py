@@ -1,0 +1,1 @@
+"""Fetch at its table: Gymnasium-Robotics' four tasks, on the batch engine."""

@@ -1,0 +1,120 @@
+"""Fetch's arm, by whose joints the gripper goes where it is told."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Collection
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import Joint, Model, Pose
+from gazelle.envs.fetch.gripper import DOWN, FINGERS, GRIP, TIP, CarriedGripper, driven, fetch_model
+from gazelle.errors import TaskError
+from gazelle.planning import InverseKinematics, RobotModel
+from gazelle.simulation import Simulation
+
+ARM = (
+    "shoulder_pan_joint",
+    "shoulder_lift_joint",
+    "upperarm_roll_joint",
+    "elbow_flex_joint",
+    "forearm_roll_joint",
+    "wrist_flex_joint",
+    "wrist_roll_joint",
+)
+
+_BENT = (0.01, -0.7, 0.0, 1.45, 0.0, 0.8, 0.0)  # elbow up, near all starts [rad]
+_FASTEST = 4.0  # of a joint, where the arm is stretched and could be asked for anything [rad/s]
+_EFFORT = 1000.0  # of the arm's motors, so that they hold what they are told [N m]
+_TOLERANCE = (1e-4, 1e-4)  # [m], [rad]
+
+
+def held_model(model: Model, moving: Collection[str]) -> Model:
+    """A robot that stands fast, of which only some joints move.
+
+    Args:
+        model: As its file says.
+        moving: Names of the joints that go on moving; the others stay at zero.
+    """
+    child = {joint.child for joint in model.joints}
+    roots = [link.name for link in model.links if link.name not in child]
+    joints = [
+        driven(joint)
+        if joint.name in moving
+        else dataclasses.replace(joint, type="fixed", axes=(), sensors=())
+        for joint in model.joints
+    ]
+    held = [Joint(name=f"{root}_held", type="fixed", parent="world", child=root) for root in roots]
+    return dataclasses.replace(model, joints=(*joints, *held), plugins=())
+
+
+class ReachingArm(CarriedGripper):
+    """The gripper on the arm of a robot that stands fast.
+
+    Inverse kinematics leads from where the joints are to where they shall be, and motors hold the
+    velocities that lead there in a period.
+
+    Args:
+        simulation: Where it is put.
+        start: Where the point between its fingers begins [m], in the world frame.
+        base: Where the robot stands (x, y) [m].
+        fingers_move: See `CarriedGripper`.
+
+    Raises:
+        TaskError: The arm cannot be there.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        start: tuple[float, float, float],
+        base: tuple[float, float],
+        *,
+        fingers_move: bool,
+    ) -> None:
+        model = held_model(fetch_model(), (*ARM, *(FINGERS if fingers_move else ())))
+        self._base = np.array([*base, 0.0])
+        robot = RobotModel(model)
+        group = robot.group_of(ARM, "arm")
+        self._kinematics = InverseKinematics(robot, group, TIP, tolerance=_TOLERANCE)
+        self._columns = robot.columns(group.names)
+        self._zero = robot.zero()
+        # With cones the solver throws an arm about that presses on a table with stiff motors.
+        simulation.physics.contacts = "fast"
+        spawned = simulation.spawn(model, name="fetch", pose=Pose(*base, 0.0))
+        super().__init__(spawned, group.names, fingers_move=fingers_move)
+        self._names = group.names
+        for joint in self._joints:
+            joint.add_motor(_EFFORT)
+        seed = self._zero.copy()
+        seed[robot.columns(ARM)] = _BENT
+        found = self._kinematics.solve_many(self._poses(np.array([start])), seed)
+        if not found.found.all():
+            raise TaskError(f"Fetch's gripper cannot be at {start}")
+        self._start = found.positions[0]
+
+    def begin(self, worlds: Worlds) -> None:
+        """Bend the arm."""
+        self._robot.set_configuration(self._names, self._start, worlds)
+        self._stop(worlds)
+
+    def move(self, way: Floats, period: float) -> None:
+        """Drive each joint at the rate that leads there."""
+        now = np.hstack([joint.positions() for joint in self._joints])
+        states = np.tile(self._zero, (len(now), 1))
+        states[:, self._columns] = now
+        wanted = self._kinematics.follow(self._poses(self.position(None) + way), states)
+        rates = (wanted - now) / period
+        # All of them slower where one would be too fast, so that the way stays straight.
+        rates /= np.maximum(np.abs(rates).max(axis=1, keepdims=True) / _FASTEST, 1.0)
+        for joint, rate in zip(self._joints, rates.T, strict=True):
+            joint.drive(rate)
+
+    def _poses(self, points: Floats) -> Floats:
+        """Of the gripper's frame in the robot's, with its point there, shape (n, 4, 4)."""
+        poses = np.zeros((len(points), 4, 4))
+        poses[:, :3, :3] = DOWN
+        poses[:, :3, 3] = points - self._base - DOWN @ GRIP
+        poses[:, 3, 3] = 1.0
+        return poses

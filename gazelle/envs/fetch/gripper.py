@@ -1,0 +1,215 @@
+"""Fetch's gripper in all worlds of a simulation, and how it goes where it is told."""
+
+from __future__ import annotations
+
+import dataclasses
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+
+import numpy as np
+
+from gazelle import assets, formats, rotations
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import (
+    Inertial,
+    Joint,
+    JointAxis,
+    Link,
+    Mimic,
+    Model,
+    Pose,
+)
+from gazelle.simulation import Robot, Simulation
+
+FINGERS = ("r_gripper_finger_joint", "l_gripper_finger_joint")
+TIP = "gripper_link"
+GRIP = np.array([0.02, 0.0, 0.0])
+"""The point between the fingers, in the gripper's frame [m]."""
+
+DOWN = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+"""How the gripper's frame is turned: its x axis down."""
+
+_OPEN = 0.05  # that a finger opens at most [m]
+_GRASP = 120.0  # of the motor that closes both fingers: as much as two of 60 N [N]
+_WRIST = "wrist_roll_link"
+_SLIDES = {"slide_x": (1.0, 0.0, 0.0), "slide_y": (0.0, 1.0, 0.0), "slide_z": (0.0, 0.0, 1.0)}
+_PULL = 45.0  # of a slide's motor, for each kilogram of what it carries [N/kg]
+_FINGER = 4.0  # that a finger of the flying gripper weighs, as there [kg]
+_CARRIER = 1.0  # [kg]
+
+
+def fetch_model() -> Model:
+    """Fetch as its file describes it."""
+    return formats.load(assets.root() / "fetch_description" / "robots" / "fetch.urdf").models[0]
+
+
+def driven(joint: Joint) -> Joint:
+    """A joint for a motor that holds velocities; the left finger follows the right.
+
+    Such a motor wants no viscosity: with it the solver looks for forces that nothing determines where something stiff presses on a
+    table, and throws it about.
+    """
+    follows = Mimic(FINGERS[0]) if joint.name == FINGERS[1] else None
+    axes = tuple(dataclasses.replace(axis, damping=0.0, mimic=follows) for axis in joint.axes)
+    return dataclasses.replace(joint, axes=axes)
+
+
+class CarriedGripper(ABC):
+    """Fetch's gripper, pointing down, in all worlds.
+
+    Args:
+        robot: That it is part of.
+        carrying: Names of the joints that carry it, which have motors.
+        fingers_move: Whether there are motors on the fingers; else they stay closed.
+    """
+
+    def __init__(self, robot: Robot, carrying: Sequence[str], *, fingers_move: bool) -> None:
+        self._robot = robot
+        self._joints = [robot.joints[name] for name in carrying]
+        self._fingers = [robot.joints[name] for name in FINGERS if fingers_move]
+        if self._fingers:
+            self._fingers[0].add_motor(_GRASP)
+        self._link, offset = robot.frame(TIP)
+        self._point = offset.matrix()[:3] @ np.array([*GRIP, 1.0])
+
+    @abstractmethod
+    def begin(self, worlds: Worlds) -> None:
+        """Put it at its start, at rest, where worlds were reset."""
+
+    @abstractmethod
+    def move(self, way: Floats, period: float) -> None:
+        """Let it go a way in a period, pointing down, in all worlds.
+
+        Args:
+            way: [m], shape (nworld, 3).
+            period: [s].
+        """
+
+    def move_fingers(self, speed: Floats, period: float) -> None:
+        """Open the fingers, if they move, as far as they go.
+
+        Args:
+            speed: Below 0 to close them [m/s], shape (nworld,).
+            period: After which they may be told something else [s].
+        """
+        if self._fingers:
+            now = self._fingers[0].positions()[:, 0]
+            self._fingers[0].drive(np.clip(speed, -now / period, (_OPEN - now) / period))
+
+    def position(self, worlds: Worlds | None) -> Floats:
+        """Of the point between the fingers in the world frame [m], shape (n, 3)."""
+        place = self._link.placement(worlds)
+        position: Floats = place.position + rotations.rotate(place.quaternion, self._point)
+        return position
+
+    def velocity(self, worlds: Worlds | None) -> Floats:
+        """Of that point [m/s], shape (n, 3)."""
+        motion = self._link.motion(worlds)
+        arm = rotations.rotate(self._link.placement(worlds).quaternion, self._point)
+        return motion.linear + rotations.cross(motion.angular, arm)
+
+    def opening(self, worlds: Worlds | None) -> tuple[Floats, Floats]:
+        """How far the right and the left finger are open [m] and how fast, shapes (n, 2)."""
+        if not self._fingers:
+            count = self._robot.simulation.nworld if worlds is None else len(worlds)
+            return np.zeros((count, 2)), np.zeros((count, 2))
+        positions = [finger.positions(worlds) for finger in self._fingers]
+        velocities = [finger.velocities(worlds) for finger in self._fingers]
+        return np.hstack(positions), np.hstack(velocities)
+
+    def _stop(self, worlds: Worlds) -> None:
+        """Hold all motors still."""
+        for joint in (*self._joints, *self._fingers[:1]):
+            joint.drive(0.0, worlds)
+
+
+class FlyingGripper(CarriedGripper):
+    """The gripper alone, on three slides that go wherever they are told.
+
+    Args:
+        simulation: Where it is put.
+        start: Where the point between its fingers begins [m], in the world frame.
+        fingers_move: See `CarriedGripper`.
+    """
+
+    def __init__(
+        self, simulation: Simulation, start: tuple[float, float, float], *, fingers_move: bool
+    ) -> None:
+        model = flying_model(fetch_model(), start, fingers_move=fingers_move)
+        robot = simulation.spawn(model, name="fetch")
+        super().__init__(robot, tuple(_SLIDES), fingers_move=fingers_move)
+        carried = sum(link.inertial.mass for link in model.links if link.inertial is not None)
+        for joint in self._joints:
+            joint.add_motor(_PULL * carried)
+
+    def begin(self, worlds: Worlds) -> None:
+        """Its start is where its slides are at zero."""
+        self._stop(worlds)
+
+    def move(self, way: Floats, period: float) -> None:
+        """Drive each slide at its part of the way."""
+        for joint, speed in zip(self._joints, way.T / period, strict=True):
+            joint.drive(speed)
+
+
+def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_move: bool) -> Model:
+    """Of a robot its gripper alone, pointing down on three slides.
+
+    Args:
+        robot: Fetch.
+        start: Where the point between its fingers is with all slides at zero [m].
+        fingers_move: Whether the fingers can move; else they stay closed.
+    """
+    kept = {_WRIST, *(joint.child for joint in robot.joints if joint.name in FINGERS)}
+    tip = next(frame for frame in robot.frames if frame.name == TIP)
+    wrist = next(link for link in robot.links if link.name == _WRIST)
+    wanted = Pose.from_matrix(_homogeneous(DOWN, np.array(start) - DOWN @ GRIP))
+    moved = wanted * (wrist.pose * tip.pose).inverse()
+    links = [
+        dataclasses.replace(
+            each,
+            pose=moved * each.pose,
+            gravity=False,
+            inertial=_heavy(each.inertial)
+            if fingers_move and each.name != _WRIST
+            else each.inertial,
+        )
+        for each in robot.links
+        if each.name in kept
+    ]
+    place = Pose(*start)
+    carriers = [
+        Link(name=f"{slide}_carrier", pose=place, gravity=False, inertial=Inertial(mass=_CARRIER))
+        for slide in _SLIDES
+    ]
+    parents = ["world", *(link.name for link in carriers)]
+    slides = [
+        Joint(
+            name=name, type="prismatic", parent=parent, child=link.name, axes=(JointAxis(xyz=axis),)
+        )
+        for (name, axis), parent, link in zip(_SLIDES.items(), parents, carriers, strict=False)
+    ]
+    fingers = [
+        driven(joint) if fingers_move else dataclasses.replace(joint, type="fixed", axes=())
+        for joint in robot.joints
+        if joint.name in FINGERS
+    ]
+    held = Joint(name="wrist_held", type="fixed", parent=parents[-1], child=_WRIST)
+    return dataclasses.replace(
+        robot,
+        links=(*carriers, *links),
+        joints=(*slides, held, *fingers),
+        frames=tuple(frame for frame in robot.frames if frame.attached_to in kept),
+        plugins=(),
+    )
+
+
+def _heavy(inertial: Inertial | None) -> Inertial:
+    """Of a finger that weighs more; how it would turn matters to nothing."""
+    return dataclasses.replace(inertial or Inertial(), mass=_FINGER)
+
+
+def _homogeneous(turned: Floats, position: Floats) -> Floats:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turned, position
+    return matrix

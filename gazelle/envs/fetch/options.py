@@ -1,0 +1,39 @@
+"""Options of the Fetch tasks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gazelle.envs.options import TaskOptions, TaskSettings, check_name
+
+REWARDS = ("sparse", "dense")
+CONTROLS = ("gripper", "joint")
+
+
+class FetchOptions(TaskOptions, total=False):
+    """What the Fetch tasks take as well; see `FetchSettings`."""
+
+    reward_type: str
+    control: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FetchSettings(TaskSettings):
+    """Options of a Fetch task, checked.
+
+    Attributes:
+        reward_type: ``sparse`` (0 at the goal, else -1) or ``dense`` (minus the distance).
+        control: ``gripper`` (it flies by itself) or ``joint`` (the joints of the arm carry it).
+
+    Raises:
+        TaskError: There is no such reward or control.
+    """
+
+    reward_type: str = "sparse"
+    control: str = "gripper"
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_name("reward_type", str(self.reward_type), REWARDS)
+        check_name("control", str(self.control), CONTROLS)

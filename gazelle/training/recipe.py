@@ -1,0 +1,184 @@
+"""What a recipe holds: everything that shapes a training, and how it is kept as JSON."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.goal_reward import GoalReward
+
+Activation = Literal["tanh", "relu"]
+
+ALGORITHM_NAMES = ("ppo", "dqn", "sac", "td3", "ddpg")
+"""The names of the algorithms; `gazelle.training.ALGORITHMS` says how they are built."""
+
+LIBRARY_ALGORITHMS = {
+    "a2c": ("stable_baselines3", "A2C"),
+    "qrdqn": ("sb3_contrib", "QRDQN"),
+    "recurrent_ppo": ("sb3_contrib", "RecurrentPPO"),
+    "tqc": ("sb3_contrib", "TQC"),
+    "trpo": ("sb3_contrib", "TRPO"),
+}
+"""More of them, of which the libraries' own settings are used: package and class."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PPOSettings:
+    """What only PPO knows (Schulman et al. 2017, arXiv 1707.06347)."""
+
+    n_steps: int = 64
+    """Control steps of each copy between two updates."""
+    batch_size: int = 1024
+    """Transitions in a minibatch."""
+    n_epochs: int = 4
+    """Passes over the collected transitions in an update."""
+    gae_lambda: float = 0.95
+    """Trade of bias for variance (Schulman et al. 2015, arXiv 1506.02438)."""
+    clip_range: float = 0.2
+    """How far the new policy's probability ratio may move from 1."""
+    ent_coef: float = 0.005
+    """Weight of the entropy bonus."""
+    vf_coef: float = 0.5
+    """Weight of the value loss."""
+    max_grad_norm: float = 0.5
+    """Gradients longer than this are shortened to it."""
+    bfloat16: bool = False
+    """Whether updates multiply in bfloat16 where the processor can, which is faster."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OffPolicySettings:
+    """What DQN, DDPG, TD3 and SAC share."""
+
+    buffer_size: int = 300_000
+    """Transitions remembered."""
+    batch_size: int = 256
+    """Transitions in a minibatch."""
+    learning_starts: int = 5_000
+    """Random transitions before the first update."""
+    train_freq: int = 1
+    """Control steps of all copies between two updates."""
+    gradient_steps: int = 1
+    """Minibatches in an update."""
+    tau: float = 0.005
+    """Share of the new weights that goes into the target network at each update."""
+    action_noise: float = 0.1
+    """Standard deviation of DDPG's and TD3's exploration noise, actions scaled to [-1, 1]."""
+    exploration_fraction: float = 0.2
+    """Share of the training in which DQN's random actions become rare."""
+    exploration_final: float = 0.05
+    """Share of random actions that stays (DQN)."""
+    target_update_interval: int = 2_000
+    """Transitions between two copies to DQN's target network (with tau 1)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LibrarySettings:
+    """For the algorithms of `LIBRARY_ALGORITHMS`: what their class takes."""
+
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of the class, such as ``{"n_steps": 128}``."""
+
+
+Settings = PPOSettings | OffPolicySettings | LibrarySettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """How one task is trained with one algorithm."""
+
+    algo: str = "ppo"
+    """One of the names in `gazelle.training.ALGORITHMS`."""
+    steps: int = 500_000
+    """Control steps in total, all copies together."""
+    num_envs: int = 64
+    """Copies of the world that run at once."""
+    net_arch: tuple[int, ...] = (64, 64)
+    """Sizes of the hidden layers."""
+    activation: Activation = "tanh"
+    """What follows each hidden layer."""
+    learning_rate: float = 3e-4
+    """Step size of Adam at the start."""
+    learning_rate_decay: bool = True
+    """Whether the step size falls in a straight line to 0 at the end."""
+    gamma: float = 0.98
+    """Discount of one control step."""
+    reward_scale: float = 1.0
+    """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
+    goal_reward: GoalReward | None = None
+    """What the learner is given in place of the task's rewards (reports show those)."""
+    scale_observations: bool = True
+    """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
+    features: bool = False
+    """Whether the network is also given sines and cosines of angles and logarithms of ranges."""
+    hindsight: float = 0.8
+    """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
+    by algorithms with a replay memory."""
+    training_options: Mapping[str, Any] = field(default_factory=dict)
+    """Options of the environment that a training sets, unless the user does."""
+    evaluation_options: Mapping[str, Any] = field(default_factory=dict)
+    """Options of the environment that evaluations set differently from the training, beside
+    those that the task itself asks for."""
+    settings: Settings = PPOSettings()
+    """What only this algorithm knows."""
+
+    def __post_init__(self) -> None:
+        """Check that the numbers can work.
+
+        Raises:
+            TaskError: One of them cannot.
+        """
+        known = (*ALGORITHM_NAMES, *LIBRARY_ALGORITHMS)
+        if self.algo not in known:
+            hint = did_you_mean(self.algo, known)
+            raise TaskError(f"there is no algorithm '{self.algo}'", hint=hint)
+        for name in ("steps", "num_envs", "learning_rate", "reward_scale"):
+            if not getattr(self, name) > 0:
+                raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
+        if not 0 <= self.gamma <= 1:
+            raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
+        if not 0 <= self.hindsight <= 1:
+            raise TaskError(f"hindsight must be between 0 and 1, not {self.hindsight}")
+        wanted = _settings_of(self.algo)
+        if not isinstance(self.settings, wanted):
+            raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")
+
+
+def _settings_of(algo: str) -> type[Settings]:
+    """What settings an algorithm takes."""
+    if algo in LIBRARY_ALGORITHMS:
+        return LibrarySettings
+    return PPOSettings if algo == "ppo" else OffPolicySettings
+
+
+def recipe_to_dict(recipe: Recipe) -> dict[str, Any]:
+    """A recipe as plain values for JSON."""
+    return dataclasses.asdict(recipe)
+
+
+def recipe_from_dict(values: dict[str, Any]) -> Recipe:
+    """The recipe that `recipe_to_dict` wrote.
+
+    Raises:
+        TaskError: A key is not part of a recipe.
+    """
+    kind = _settings_of(values.get("algo", "ppo"))
+    settings = kind(**_checked(kind, values.get("settings", {})))
+    rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
+    if "net_arch" in rest:
+        rest["net_arch"] = tuple(rest["net_arch"])
+    if rest.get("goal_reward") is not None:
+        rest["goal_reward"] = GoalReward(**_checked(GoalReward, rest["goal_reward"]))
+    return Recipe(**rest, settings=settings)
+
+
+def _checked(kind: type[Any], values: dict[str, Any]) -> dict[str, Any]:
+    known = {field.name for field in dataclasses.fields(kind)}
+    for key in values:
+        if key not in known:
+            hint = did_you_mean(key, known)
+            raise TaskError(f"'{key}' is not part of {kind.__name__}", hint=hint)
+    return dict(values)
