@@ -6,14 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import gymnasium as gym
 import numpy as np
 import pytest
 import slider_task
-from stable_baselines3 import HerReplayBuffer
 
 from gazelle.envs.dict_rows import ACHIEVED, DESIRED
 from gazelle.errors import TaskError
@@ -249,29 +247,6 @@ def test_it_learns_what_plain_replay_does_not(tmp_path):
         rates[share] = evaluate(result.run.folder, episodes=100).success.value
     assert rates[0.8] > 0.95  # 1.00
     assert rates[0.0] < 0.7  # 0.34
-
-
-@pytest.mark.slow
-def test_it_draws_faster_than_stable_baselines3s():
-    """See docs/decisions/012-own-hindsight-replay.md."""
-    space = slider_task.SliderEnv().observation_space
-    action = gym.spaces.Box(-1, 1, (4,))
-
-    class Env:
-        def env_method(self, name, achieved, desired, infos, indices):
-            return [-(np.linalg.norm(achieved - desired, axis=-1) > 0.1).astype(np.float32)]
-
-    theirs = HerReplayBuffer(640_000, space, action, Env(), device="cpu", n_envs=64)
-    ours = filled("SameStep", 0, copies=64, rows=10_000)
-    theirs.ep_length[:], theirs.pos, theirs.full = 50, 0, True
-    ours.full, ours.steps = True, 10_000
-    seconds = []
-    for memory in (theirs, ours):
-        start = time.process_time()
-        for _ in range(20):
-            memory.sample(256)
-        seconds.append(time.process_time() - start)
-    assert seconds[1] < seconds[0]
 
 
 KILLED = """
