@@ -51,15 +51,17 @@ class FetchEnv(TaskGoalEnv):
     ## How the gripper moves
 
     There a body that MuJoCo calls mocap is put where the gripper is wanted, and a soft weld pulls the
-    arm after it. Here inverse kinematics gives joint positions for a place 0.66 of the way there, and
-    motors hold the joint velocities that lead to them in a step, as on a robot. Ways in the first
-    steps with an action of 1 along x, and then in those with 0:
+    arm after it. Here it is wanted 0.66 of the way there in a step, and motors hold the velocity that
+    leads there: of the gripper alone (``control="gripper"``), or of the arm's joints, by inverse
+    kinematics (``control="joint"``). Ways in the first steps with an action of 1 along x, and then in
+    those with 0:
 
     =====================  =====  =====  =====  =====  =====  =====
     step                   1      2      3      4      5      6
     =====================  =====  =====  =====  =====  =====  =====
     Gymnasium-Robotics     30 mm  33 mm  32 mm  32 mm  2 mm   -1 mm
-    here                   33 mm  33 mm  33 mm  33 mm  0 mm   0 mm
+    ``gripper``            29 mm  33 mm  33 mm  33 mm  4 mm   0 mm
+    ``joint``              33 mm  33 mm  33 mm  33 mm  0 mm   0 mm
     =====================  =====  =====  =====  =====  =====  =====
 
     The physics step is 0.01 s (there 0.002 s). Fingers open and close at up to 0.5 m/s with 60 N.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from gazelle.description import Model, World
+from gazelle.description import Joint, Model, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
 
@@ -34,6 +35,13 @@ def _strangers(model: Model) -> Iterator[Diagnostic]:
                 )
 
 
+def _rolls(joint: Joint) -> bool:
+    """Whether nothing says that somebody drives it: it has no end, and no effort."""
+    return all(
+        axis.lower == -math.inf and axis.upper == math.inf == axis.effort for axis in joint.axes
+    )
+
+
 def _left_out(model: Model) -> Iterator[Diagnostic]:
     """Joints that move and have no transmission."""
     driven = {name for each in model.transmissions for name, _ in each.joints}
@@ -41,7 +49,7 @@ def _left_out(model: Model) -> Iterator[Diagnostic]:
         return
     for joint in model.joints:
         led = any(axis.mimic for axis in joint.axes)
-        if joint.axes and joint.name not in driven and not led:
+        if joint.axes and joint.name not in driven and not led and not _rolls(joint):
             yield Diagnostic(
                 "joint-transmission",
                 f"joint '{joint.name}' has no transmission",
