@@ -12,6 +12,9 @@ from gazelle.formats import load_model
 # The office is built, the fleet's hall is of Stage.
 BUILT = {"office", "fleet"}
 OF_TASKS = {
+    "fetch_table",
+    "fetch_cube",
+    "fetch_puck",
     *("turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"),
     *("rosbot_playground", "summit_xl_room", "turtlebot3_camera"),
 }
