@@ -104,9 +104,9 @@ def test_parts_of_the_robot_are_attributes(moveit, robot):
     with pytest.raises(AttributeError, match="no attribute, group, joint or link"):
         _ = robot.elbow_flex_jont
     for ask in (robot.get_group, robot.get_joint, robot.get_link):
-        with pytest.raises(moveit.MoveItCommanderException, match=r"There is no .* named leg"):
+        with pytest.raises(moveit.MoveItCommanderException, match="no .* is called 'leg'"):
             ask("leg")
-    with pytest.raises(moveit.MoveItCommanderException, match="There is no group named leg"):
+    with pytest.raises(moveit.MoveItCommanderException, match="no group is called 'leg'"):
         robot.get_joint_names("leg")
 
 
@@ -185,16 +185,16 @@ def test_joint_targets(moveit, arm):
     assert arm.get_joint_value_target()[3] == 0.7
     refused = moveit.MoveItCommanderException
     for wrong in ([0.1] * 6, [9.0] + [0.0] * 6, {"no_joint": 1.0}, {TORSO: 0.1}):
-        with pytest.raises(refused, match="Is the target within bounds"):
+        with pytest.raises(refused, match="beyond its limits"):
             arm.set_joint_value_target(wrong)
     joints.position = []
-    with pytest.raises(refused, match="Is the target within bounds"):
+    with pytest.raises(refused, match="beyond"):
         arm.set_joint_value_target(joints)
-    with pytest.raises(refused, match="Joint value expected"):
+    with pytest.raises(refused, match="which value for the joint"):
         arm.set_joint_value_target("elbow_flex_joint")
-    with pytest.raises(refused, match="Too many arguments"):
+    with pytest.raises(refused, match="or one argument alone"):
         arm.set_joint_value_target([0.1] * 7, 1)
-    with pytest.raises(refused, match="Unsupported argument"):
+    with pytest.raises(refused, match="expected joint values"):
         arm.set_joint_value_target(3.0)
 
 
@@ -207,10 +207,12 @@ def test_a_joint_target_of_a_pose_is_a_solution_of_inverse_kinematics(moveit, ar
     assert [each.joint_name for each in goal.joint_constraints] == [*ARM]
     assert not goal.position_constraints
     for extra in ((TIP, True), (True,)):
-        with pytest.raises(moveit.MoveItCommanderException, match="support approximate IK"):
+        with pytest.raises(moveit.MoveItCommanderException, match="no joint values near"):
             arm.set_joint_value_target(pose.pose, *extra)
     pose.pose.position.z += 5.0
-    with pytest.raises(moveit.MoveItCommanderException, match="Is the IK solver functional"):
+    with pytest.raises(
+        moveit.MoveItCommanderException, match="finds no joint values for that pose"
+    ):
         arm.set_joint_value_target(pose)
 
 
@@ -461,7 +463,7 @@ def test_conversions(moveit):
     assert conversions.pose_to_list(pose) == pytest.approx([1, 2, 3, 0, 0, 1, 0])
     made = conversions.list_to_transform([1, 2, 3, 0, 0, 0, 1])
     assert conversions.transform_to_list(made) == [1, 2, 3, 0, 0, 0, 1]
-    with pytest.raises(moveit.MoveItCommanderException, match="6 or 7 elements"):
+    with pytest.raises(moveit.MoveItCommanderException, match="three angles or a quaternion, not 1"):
         conversions.list_to_pose([1])
     copy = load_message("geometry_msgs/Pose")()
     conversions.msg_from_string(copy, conversions.msg_to_string(pose))

@@ -77,7 +77,7 @@ class CommanderSettings:
             MoveItCommanderException: The group is no chain, and has none.
         """
         if not self._g.set_end_effector_link(link_name):
-            raise MoveItCommanderException("Unable to set end effector link")
+            raise MoveItCommanderException(f"no link is called '{link_name}'")
 
     def get_interface_description(self) -> Any:
         """A ``PlannerInterfaceDescription``: which planners there are."""
@@ -118,7 +118,7 @@ class CommanderSettings:
         elif not isinstance(value, str):
             self._g.set_path_constraints_from_msg(packed(value))
         elif not self._g.set_path_constraints(value):
-            raise MoveItCommanderException(f"Unable to set path constraints {value}")
+            raise MoveItCommanderException(f"no path constraints are stored as {value}")
 
     def get_trajectory_constraints(self) -> Any:
         """The ``TrajectoryConstraints``."""
@@ -152,7 +152,7 @@ class CommanderSettings:
             MoveItCommanderException: It is not above zero.
         """
         if not speed > 0.0:
-            raise MoveItCommanderException("Expected speed value to be greater than 0")
+            raise MoveItCommanderException(f"a speed is more than 0 m/s, not {speed}")
         self._g.limit_max_cartesian_link_speed(speed, link_name)
 
     def set_workspace(self, ws: Sequence[float]) -> None:
@@ -165,7 +165,9 @@ class CommanderSettings:
             MoveItCommanderException: It is another number of values.
         """
         if len(ws) not in (0, _FLAT, _SOLID):
-            raise MoveItCommanderException("Expected 0, 4 or 6 values in list specifying workspace")
+            raise MoveItCommanderException(
+                f"a workspace has 4 or 6 numbers, or none, not {len(ws)}"
+            )
         corners = [0.0] * _SOLID if not ws else list(ws)
         if len(corners) == _FLAT:
             corners = [*corners[:2], 0.0, *corners[2:], 0.0]
@@ -187,5 +189,5 @@ class CommanderSettings:
 
 def _factor(value: float) -> float:
     if not 0.0 < value <= 1.0:
-        raise MoveItCommanderException("Expected value in the range from 0 to 1 for scaling factor")
+        raise MoveItCommanderException(f"a scaling factor is between 0 and 1, not {value}")
     return value

@@ -50,7 +50,7 @@ def list_to_pose(pose_list: Sequence[float]) -> Any:
     """
     if len(pose_list) not in (6, 7):
         raise MoveItCommanderException(
-            "Expected either 6 or 7 elements in list: (x,y,z,r,p,y) or (x,y,z,qx,qy,qz,qw)"
+            f"a pose has x, y, z and three angles or a quaternion, not {len(pose_list)} numbers"
         )
     turn = [float(value) for value in pose_list[3:]]
     if len(turn) == 3:

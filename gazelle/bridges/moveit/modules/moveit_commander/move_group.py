@@ -16,7 +16,7 @@ from gazelle.ros.messages import load_message
 
 __all__ = ["MoveGroupCommander"]
 
-_BOUNDS = "Error setting joint target. Is the target within bounds?"
+_BOUNDS = "these joint values are no goal: a joint is unknown, or beyond its limits"
 _TURNS, _AXES = 3, 6
 
 
@@ -46,17 +46,17 @@ class MoveGroupCommander(CommanderSettings):
 
     def get_current_pose(self, end_effector_link: str = "") -> Any:
         """A ``PoseStamped``: where a link is now, the end effector's by default."""
-        self._needs_link(end_effector_link, "There is no end effector to get the pose of")
+        self._needs_link(end_effector_link, "the group has no end effector whose pose this could be")
         return self._stamped(self._g.get_current_pose(end_effector_link))
 
     def get_random_pose(self, end_effector_link: str = "") -> Any:
         """A ``PoseStamped`` that the group can reach."""
-        self._needs_link(end_effector_link, "There is no end effector to get the pose of")
+        self._needs_link(end_effector_link, "the group has no end effector whose pose this could be")
         return self._stamped(self._g.get_random_pose(end_effector_link))
 
     def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
         """``[roll, pitch, yaw]`` of a link now [rad]."""
-        self._needs_link(end_effector_link, "There is no end effector to get the rpy of")
+        self._needs_link(end_effector_link, "the group has no end effector whose angles these could be")
         return self._g.get_current_rpy(end_effector_link)
 
     def get_current_state(self) -> Any:
@@ -106,17 +106,19 @@ class MoveGroupCommander(CommanderSettings):
             self._set_by_pose(arg1, arg2, arg3)
             return
         if arg3 is not None or (arg2 is not None and not isinstance(arg1, str)):
-            raise MoveItCommanderException("Too many arguments specified")
+            raise MoveItCommanderException("expected a joint and its value, or one argument alone")
         if isinstance(arg1, str):
             if arg2 is None:
-                raise MoveItCommanderException("Joint value expected when joint name specified")
+                raise MoveItCommanderException(f"which value for the joint '{arg1}'?")
             done = self._g.set_joint_value_target(arg1, arg2)
         elif kind == "sensor_msgs/JointState":
             done = self._g.set_joint_value_target_from_joint_state_message(packed(arg1))
         elif hasattr(arg1, "__iter__"):
             done = self._g.set_joint_value_target(arg1)
         else:
-            raise MoveItCommanderException(f"Unsupported argument of type {type(arg1)}")
+            raise MoveItCommanderException(
+                f"expected joint values, a JointState, a Pose or a joint, not {type(arg1).__name__}"
+            )
         if not done:
             raise MoveItCommanderException(_BOUNDS)
 
@@ -128,7 +130,9 @@ class MoveGroupCommander(CommanderSettings):
             elif isinstance(each, str):
                 link = each
             elif each is not None:
-                raise MoveItCommanderException("Unexpected type")
+                raise MoveItCommanderException(
+                    f"expected a link or whether to approximate, not {type(each).__name__}"
+                )
         named = hasattr(pose, "header")
         setter = (
             self._g.set_joint_value_target_from_pose_stamped
@@ -137,9 +141,9 @@ class MoveGroupCommander(CommanderSettings):
         )
         if not setter(packed(pose), link, approximate):
             raise MoveItCommanderException(
-                "Error setting joint target. Does your IK solver support approximate IK?"
+                "inverse kinematics finds no joint values near that pose"
                 if approximate
-                else "Error setting joint target. Is the IK solver functional?"
+                else "inverse kinematics finds no joint values for that pose"
             )
 
     def set_named_target(self, name: str) -> None:
@@ -150,7 +154,7 @@ class MoveGroupCommander(CommanderSettings):
         """
         if not self._g.set_named_target(name):
             raise MoveItCommanderException(
-                f"Unable to set target {name}. Is the target within bounds?"
+                f"no posture '{name}' is known, or it is beyond the limits of a joint"
             )
 
     def set_pose_target(self, pose: Any, end_effector_link: str = "") -> None:
@@ -159,24 +163,28 @@ class MoveGroupCommander(CommanderSettings):
         Raises:
             MoveItCommanderException: There is no link, or the pose is none.
         """
-        self._needs_link(end_effector_link, "There is no end effector to set the pose for")
+        self._needs_link(end_effector_link, "which link? The group has no end effector")
         frame = getattr(getattr(pose, "header", None), "frame_id", None)
         if not self._in_frame(
             frame, lambda: self._g.set_pose_target(_listed(pose), end_effector_link)
         ):
-            raise MoveItCommanderException("Unable to set target pose")
+            raise MoveItCommanderException("that pose is no goal: is there a link to bring to it?")
 
     def set_pose_targets(self, poses: Sequence[Any], end_effector_link: str = "") -> None:
         """Set several poses, any of which will do."""
-        self._needs_link(end_effector_link, "There is no end effector to set poses for")
+        self._needs_link(end_effector_link, "which link? The group has no end effector")
         if not self._g.set_pose_targets([_listed(pose) for pose in poses], end_effector_link):
-            raise MoveItCommanderException("Unable to set target poses")
+            raise MoveItCommanderException(
+                "these poses are no goal: is there a link to bring to one?"
+            )
 
     def set_position_target(self, xyz: Sequence[float], end_effector_link: str = "") -> None:
         """Set a position of a link; any orientation will do."""
-        self._needs_link(end_effector_link, "There is no end effector to set the pose for")
+        self._needs_link(end_effector_link, "which link? The group has no end effector")
         if not self._g.set_position_target(xyz[0], xyz[1], xyz[2], end_effector_link):
-            raise MoveItCommanderException("Unable to set position target")
+            raise MoveItCommanderException(
+                "that position is no goal: is there a link to bring to it?"
+            )
 
     def set_rpy_target(self, rpy: Sequence[float], end_effector_link: str = "") -> None:
         """Set ``[roll, pitch, yaw]`` of a link [rad]; any position will do."""
@@ -187,11 +195,13 @@ class MoveGroupCommander(CommanderSettings):
         self._set_turn(self._g.set_orientation_target, q, "[qx, qy, qz, qw]", end_effector_link)
 
     def _set_turn(self, setter: Any, values: Sequence[float], form: str, link: str) -> None:
-        self._needs_link(link, "There is no end effector to set the pose for")
+        self._needs_link(link, "which link? The group has no end effector")
         if len(values) != len(form.split(",")):
-            raise MoveItCommanderException(f"Expected {form}")
+            raise MoveItCommanderException(f"expected {form}, not {list(values)}")
         if not setter(*values, link):
-            raise MoveItCommanderException("Unable to set orientation target")
+            raise MoveItCommanderException(
+                "that orientation is no goal: is there a link to turn to it?"
+            )
 
     def shift_pose_target(self, axis: int, value: float, end_effector_link: str = "") -> None:
         """Set where a link is now but for one axis: 0 to 5 for x, y, z, roll, pitch, yaw.
@@ -201,9 +211,11 @@ class MoveGroupCommander(CommanderSettings):
             value: How far from there [m or rad].
             end_effector_link: The link.
         """
-        self._needs_link(end_effector_link, "There is no end effector to set poses for")
+        self._needs_link(end_effector_link, "which link? The group has no end effector")
         if not 0 <= axis < _AXES:
-            raise MoveItCommanderException("An axis value between 0 and 5 expected")
+            raise MoveItCommanderException(
+                f"axes are numbered from 0 to 5; there is no axis {axis}"
+            )
         pose = self._g.get_current_pose(end_effector_link)
         if axis >= _TURNS:
             pose[3:] = Pose.from_quaternion(pose[:3], pose[3:]).rpy
@@ -281,7 +293,7 @@ class MoveGroupCommander(CommanderSettings):
             jump_threshold, avoid_collisions = 0.0, jump_threshold
         if path_constraints and not hasattr(path_constraints, "joint_constraints"):
             raise MoveItCommanderException(
-                f"Unable to set path constraints, unknown constraint type {type(path_constraints)}"
+                f"expected moveit_msgs/Constraints, not {type(path_constraints).__name__}"
             )
         path, fraction = self._g.compute_cartesian_path(
             [_listed(pose) for pose in waypoints],
@@ -344,8 +356,7 @@ class MoveGroupCommander(CommanderSettings):
         if kinds == {"geometry_msgs/Pose"} and not isinstance(location, list):
             return self._g.place(object_name, _listed(location), plan_only)
         raise MoveItCommanderException(
-            "Parameter location must be a Pose, PoseStamped, PlaceLocation, "
-            "list of PoseStamped or list of PlaceLocation object"
+            "expected a Pose or PoseStamped to place at, a PlaceLocation, or a list of the latter two"
         )
 
 

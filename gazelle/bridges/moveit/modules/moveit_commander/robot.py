@@ -60,7 +60,7 @@ class CommanderJoint:
         owner = self._robot.get_default_owner_group(self._name)
         if owner is None:
             raise MoveItCommanderException(
-                f"There is no known group containing joint {self._name}. Cannot move."
+                f"the joint '{self._name}' is in no group, so nothing moves it"
             )
         group = self._robot.get_group(owner)
         group.set_joint_value_target(group.get_current_joint_values())
@@ -135,7 +135,7 @@ class RobotCommander:
 
     def _known(self, group: str) -> str:
         if not self._r.has_group(group):
-            raise MoveItCommanderException(f"There is no group named {group}")
+            raise MoveItCommanderException(f"no group is called '{group}'")
         return group
 
     # -- parts ---------------------------------------------------------------------------
@@ -147,7 +147,7 @@ class RobotCommander:
             MoveItCommanderException: There is none of that name.
         """
         if name not in self._r.get_joint_names():
-            raise MoveItCommanderException(f"There is no joint named {name}")
+            raise MoveItCommanderException(f"no joint is called '{name}'")
         return CommanderJoint(self, name)
 
     def get_link(self, name: str) -> CommanderLink:
@@ -157,7 +157,7 @@ class RobotCommander:
             MoveItCommanderException: There is none of that name.
         """
         if name not in self._r.get_link_names():
-            raise MoveItCommanderException(f"There is no link named {name}")
+            raise MoveItCommanderException(f"no link is called '{name}'")
         return CommanderLink(self, name)
 
     def get_group(self, name: str) -> MoveGroupCommander:
@@ -205,7 +205,9 @@ class RobotCommander:
         elif isinstance(args[0], str):
             made = self._r.get_group_markers(*args)
         else:
-            raise MoveItCommanderException("Unexpected type")
+            raise MoveItCommanderException(
+                f"expected a RobotState, joint values or a group, not {type(args[0]).__name__}"
+            )
         return unpacked("visualization_msgs/MarkerArray", made)
 
     def __getattr__(self, name: str) -> Any:
