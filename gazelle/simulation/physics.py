@@ -79,6 +79,14 @@ class PhysicsProperties:
         self._simulation = simulation
         self._requests = simulation.requests
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse what is no property: it would have no effect, and nobody would notice."""
+        if not name.startswith("_") and not hasattr(type(self), name):
+            here = [own for own, theirs in (_OF_PROFILE | _OF_SOLVER).items() if theirs == name]
+            hint = f"it is called {here[0]} here" if here else did_you_mean(name, _NAMES)
+            raise SimulationError(f"sim.physics has no '{name}'", hint=hint)
+        object.__setattr__(self, name, value)
+
     # -- what there is -----------------------------------------------------------------
 
     @property

@@ -125,3 +125,18 @@ def test_contacts_are_chosen_by_name_before_and_during_a_run_and_survive(tmp_pat
         replay.run()
         assert replay.simulation.physics.contacts == "exact"
         assert replay.simulation.state_hash() == end
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("max_step_size", "it is called time_step here"),
+        ("iters", "it is called iterations here"),
+        ("gravty", "did you mean 'gravity'"),
+    ],
+)
+def test_a_name_that_is_none_is_refused_and_not_kept(name, hint):
+    with Simulation("empty") as sim:
+        with pytest.raises(SimulationError, match=f"no '{name}'.*{hint}"):
+            setattr(sim.physics, name, 3)
+        assert not hasattr(sim.physics, name)
