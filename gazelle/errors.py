@@ -164,8 +164,11 @@ def _closest(name: str, names: list[str]) -> str | None:
         return close[0] if close else None
     counts = Counter(word for each in names for word in set(_words(each)))
     common = {word for word, count in counts.items() if count > len(names) * _COMMON}
-    own = _rest(name, common)
-    return next((each for each in close if _alike(own, _rest(each, common))), None)
+    for each in close:
+        shared = common.intersection(_words(name), _words(each))
+        if _alike(_rest(name, shared), _rest(each, shared)):
+            return each
+    return None
 
 
 def _words(name: str) -> list[str]:

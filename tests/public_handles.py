@@ -40,7 +40,15 @@ CHANGING = {
     InitialPoses: {"apply", "forget", "restore"},
     # A robot gets a manager of controllers, or a pilot, when it is asked for it.
     Robot: {
-        *("back_to", "bind", "controllers", "mark", "navigation", "set_configuration"),
+        *(
+            "add_manager",
+            "back_to",
+            "bind",
+            "controllers",
+            "mark",
+            "navigation",
+            "set_configuration",
+        ),
         *("set_pose", "set_twist"),
     },
     LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},

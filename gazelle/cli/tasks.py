@@ -28,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
         found = VERIFIED.get(task.name)
         rows.append(
             (
-                task.name,
+                task.name if task.id == f"gazelle/{task.name}-v0" else task.id,
                 recipe.algo,
                 f"{recipe.steps:,}",
                 str(recipe.training_options.get("engine", "-")),

@@ -6,7 +6,10 @@ import pytest
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("turtlebot3_gazebo nosuch", "gazelle launch turtlebot3_gazebo turtlebot3_empty_world"),
+        (
+            "turtlebot3_gazebo nosuch",
+            "gazelle launch turtlebot3_gazebo put_robot_in_world.launch |",
+        ),
         ("turtlebot3_gazebo", "'turtlebot3_gazebo' is a package: name one of its programs too"),
         ("map_server", "there are: map_saver, map_server"),
         ("map_server map_servr", "did you mean 'map_server'?"),

@@ -7,19 +7,19 @@ the episode is over, and a dictionary. Spaces are Gymnasium's.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import gymnasium
 from gymnasium.spaces import Dict
 
+from gazelle.closing import Closeable
 from gazelle.compat.gym.error import Error
 
 Step = tuple[Any, Any, bool, dict[str, Any]]
 """Observation, reward, whether the episode is over, and what else there is to say."""
 
 
-class Env:
+class Env(Closeable):
     """An environment; subclasses define ``step`` and ``reset``, or ``_step`` and ``_reset`` as in gym 0.9.
 
     Attributes:
@@ -87,17 +87,6 @@ class Env:
     def __str__(self) -> str:
         name = type(self).__name__
         return f"<{name} instance>" if self.spec is None else f"<{name}<{self.spec.id}>>"
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 class GoalEnv(Env):

@@ -104,7 +104,7 @@ def test_parts_of_the_robot_are_attributes(moveit, robot):
     with pytest.raises(AttributeError, match="no attribute, group, joint or link"):
         _ = robot.elbow_flex_jont
     for ask in (robot.get_group, robot.get_joint, robot.get_link):
-        with pytest.raises(moveit.MoveItCommanderException, match="no .* is called 'leg'"):
+        with pytest.raises(moveit.MoveItCommanderException, match=r"no .* is called 'leg'"):
             ask("leg")
     with pytest.raises(moveit.MoveItCommanderException, match="no group is called 'leg'"):
         robot.get_joint_names("leg")
@@ -463,7 +463,9 @@ def test_conversions(moveit):
     assert conversions.pose_to_list(pose) == pytest.approx([1, 2, 3, 0, 0, 1, 0])
     made = conversions.list_to_transform([1, 2, 3, 0, 0, 0, 1])
     assert conversions.transform_to_list(made) == [1, 2, 3, 0, 0, 0, 1]
-    with pytest.raises(moveit.MoveItCommanderException, match="three angles or a quaternion, not 1"):
+    with pytest.raises(
+        moveit.MoveItCommanderException, match="three angles or a quaternion, not 1"
+    ):
         conversions.list_to_pose([1])
     copy = load_message("geometry_msgs/Pose")()
     conversions.msg_from_string(copy, conversions.msg_to_string(pose))

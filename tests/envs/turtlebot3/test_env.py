@@ -6,7 +6,7 @@ from dataclasses import replace
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
+from gymnasium.utils.env_checker import check_env, data_equivalence
 
 from gazelle import assets, formats
 from gazelle.envs import task_ids
@@ -17,10 +17,21 @@ STAGE1 = "gazelle/TurtleBot3Stage1-v0"
 STRAIGHT = 2
 
 
+# As the originals have it, and Gymnasium's checker would rather not: observations without
+# bounds, and joints in radians as actions.
+ODD = {
+    "Fetch": ".*Box observation space (min|max)imum value is -?infinity.*",
+    "Reach-": ".*recommend using a symmetric and normalized space.*",
+}
+
+
 @pytest.mark.parametrize("task", task_ids())
 def test_gymnasiums_checker_finds_nothing(task):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        for name, message in ODD.items():
+            if name in task:
+                warnings.filterwarnings("ignore", message)
         env = gym.make(task)
         check_env(env.unwrapped)
     env.close()
@@ -33,7 +44,7 @@ def test_two_runs_with_one_seed_are_the_same(task):
     seen_1, info_1 = first.reset(seed=11)
     seen_2, info_2 = second.reset(seed=11)
     for _ in range(4):
-        assert np.array_equal(seen_1, seen_2)
+        assert data_equivalence(seen_1, seen_2)
         action = first.action_space.sample()
         seen_1, reward_1, *ends_1, info_1 = first.step(action)
         seen_2, reward_2, *ends_2, info_2 = second.step(action)

@@ -46,17 +46,23 @@ class MoveGroupCommander(CommanderSettings):
 
     def get_current_pose(self, end_effector_link: str = "") -> Any:
         """A ``PoseStamped``: where a link is now, the end effector's by default."""
-        self._needs_link(end_effector_link, "the group has no end effector whose pose this could be")
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose pose this could be"
+        )
         return self._stamped(self._g.get_current_pose(end_effector_link))
 
     def get_random_pose(self, end_effector_link: str = "") -> Any:
         """A ``PoseStamped`` that the group can reach."""
-        self._needs_link(end_effector_link, "the group has no end effector whose pose this could be")
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose pose this could be"
+        )
         return self._stamped(self._g.get_random_pose(end_effector_link))
 
     def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
         """``[roll, pitch, yaw]`` of a link now [rad]."""
-        self._needs_link(end_effector_link, "the group has no end effector whose angles these could be")
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose angles these could be"
+        )
         return self._g.get_current_rpy(end_effector_link)
 
     def get_current_state(self) -> Any:
