@@ -29,7 +29,9 @@ def worlds() -> dict[str, Path]:
 def robots() -> dict[str, Path]:
     """Robot files (xacro) by name, such as ``turtlebot3_burger``."""
     files = sorted(root().glob("*_description/urdf/*.urdf.xacro"))
-    return {path.name.removesuffix(".urdf.xacro"): path for path in files}
+    names = {path.name.removesuffix(".urdf.xacro"): path for path in files}
+    # Such as kobuki_standalone: the same robot, by the name that other people's files include.
+    return {name: path for name, path in names.items() if not name.endswith("_standalone")}
 
 
 def models() -> dict[str, Path]:
