@@ -13,7 +13,12 @@ import numpy as np
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, load_actor
-from gazelle.training.exam import Exam, ExamResult, taken, taken_by_workers
+from gazelle.training.evaluation_episodes import (
+    EpisodesPlayed,
+    EvaluationSetup,
+    play_episodes,
+    play_with_workers,
+)
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.records import EpisodeRecord, merged
 from gazelle.training.runs import Run
@@ -139,17 +144,17 @@ def evaluate(
     actor, task, options = resolve_policy(run_or_policy, task, modules, options, best=best)
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
     homes = modules or _homes(run_or_policy)
-    exam = Exam(actor=actor, task=task, options=options, imports=homes)
+    setup = EvaluationSetup(actor=actor, task=task, options=options, imports=homes)
     if workers is None and ray is None:
-        return _summed_up([taken(exam, copies, episodes, seed)], task=task, seed=seed)
+        return _summed_up([play_episodes(setup, copies, episodes, seed)], task=task, seed=seed)
     unit = fitting_copies(task, 1, options)
     start = time.perf_counter()
-    parts = taken_by_workers(exam, divided(copies, unit), episodes, seed, workers, ray)
+    parts = play_with_workers(setup, divided(copies, unit), episodes, seed, workers, ray)
     wall = time.perf_counter() - start
     return replace(_summed_up(parts, task=task, seed=seed), wall_seconds=wall)
 
 
-def _summed_up(parts: Sequence[ExamResult], **about: Any) -> Evaluation:
+def _summed_up(parts: Sequence[EpisodesPlayed], **about: Any) -> Evaluation:
     """What all parts of the episodes say."""
     ledger = merged([part.ledger for part in parts])
     times = [part.sim_seconds for part in parts if part.sim_seconds is not None]

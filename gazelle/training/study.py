@@ -25,7 +25,7 @@ from typing import Any
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.importing import TaskModule
-from gazelle.training.workers.callers import TRIES, call_all, placed
+from gazelle.training.workers.callers import TRIES, call_all, workers_at
 
 _OWN = ("seed", "seconds", "error")
 """Columns that a study adds to those of parameters and results."""
@@ -128,7 +128,7 @@ def conduct(
     module, name = _found(study.function)
     kept = _Table(table, study)
     calls = [call for call in study.calls() if not kept.has(call)]
-    count, start = placed(ray, workers, ExperimentHost, module, name)
+    count, start = workers_at(ray, workers, ExperimentHost, module, name)
     total = len(kept.rows) + len(calls)
 
     def done(call: dict[str, Any], row: dict[str, Any] | None) -> None:

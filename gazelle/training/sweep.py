@@ -19,7 +19,7 @@ from gazelle.training.overrides import with_values
 from gazelle.training.recipes import recipe_for, task_name
 from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
-from gazelle.training.workers.callers import TRIES, call_all, placed
+from gazelle.training.workers.callers import TRIES, call_all, workers_at
 
 try:
     import optuna
@@ -138,7 +138,7 @@ def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str |
     """Let workers do what is left, and end with them."""
     plan = job.plan
     runs = job.folder / "runs"
-    count, start = placed(ray, workers or plan.workers, TrialHost, job, ray is not None)
+    count, start = workers_at(ray, workers or plan.workers, TrialHost, job, ray is not None)
 
     def done(given: TrialValues, outcome: TrialOutcome | None) -> None:
         trial = trials.pop(given.number)

@@ -45,7 +45,7 @@ def call_all(
             caller.stop()
 
 
-def placed(
+def workers_at(
     ray: str | None, workers: int | None, make: Callable[..., Any], *arguments: Any
 ) -> tuple[int, Callable[[], WorkerLink]]:
     """Where workers are: how many there may be, and what starts one.

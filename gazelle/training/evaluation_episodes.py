@@ -16,11 +16,11 @@ from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.records import Ledger, Trail
 from gazelle.training.stepper import Stepper
 from gazelle.training.tasks import control_period, make_task, told_by
-from gazelle.training.workers.callers import TRIES, call_all, placed
+from gazelle.training.workers.callers import TRIES, call_all, workers_at
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exam:
+class EvaluationSetup:
     """Which policy acts in what."""
 
     actor: Actor
@@ -34,8 +34,8 @@ class Exam:
 
 
 @dataclass(frozen=True, slots=True)
-class ExamPart:
-    """A share of an exam's episodes."""
+class EvaluationPart:
+    """A share of an evaluation's episodes."""
 
     number: int
     """From 0."""
@@ -48,7 +48,7 @@ class ExamPart:
 
 
 @dataclass(frozen=True, slots=True)
-class ExamResult:
+class EpisodesPlayed:
     """What came of some episodes."""
 
     ledger: Ledger
@@ -61,33 +61,33 @@ class ExamResult:
     """What stands in the world; None when the task does not tell."""
 
 
-def taken(exam: Exam, copies: int, episodes: int, seed: int) -> ExamResult:
+def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int) -> EpisodesPlayed:
     """Let the policy act until so many episodes ended, fixed in advance for each copy."""
-    env = make_task(exam.task, copies, **exam.options)
+    env = make_task(setup.task, copies, **setup.options)
     try:
         period = control_period(env)
         plan = told_by(env, "floor_plan")
         ledger = Ledger(episodes, copies, tuple(told_by(env, "scenario_names") or ()))
         start = time.perf_counter()
-        steps = _play(exam.actor, Stepper(env, keep_info=True), ledger, seed)
+        steps = _play(setup.actor, Stepper(env, keep_info=True), ledger, seed)
         wall = time.perf_counter() - start
     finally:
         env.close()
-    return ExamResult(ledger, wall, None if period is None else steps * copies * period, plan)
+    return EpisodesPlayed(ledger, wall, None if period is None else steps * copies * period, plan)
 
 
-def taken_by_workers(
-    exam: Exam,
+def play_with_workers(
+    setup: EvaluationSetup,
     sizes: Sequence[int],
     episodes: int,
     seed: int,
     workers: int | None,
     ray: str | None,
-) -> list[ExamResult]:
+) -> list[EpisodesPlayed]:
     """The same, in parts that workers play.
 
     Args:
-        exam: Which policy acts in what.
+        setup: Which policy acts in what.
         sizes: Copies of the environment in each part.
         episodes: Of all parts together.
         seed: Each part has one of its own that follows from it.
@@ -101,9 +101,9 @@ def taken_by_workers(
         TaskError: There is no such cluster, or workers are lost again and again.
     """
     parts = list(_parts(sizes, episodes, seed))
-    found: dict[int, ExamResult] = {}
+    found: dict[int, EpisodesPlayed] = {}
 
-    def done(part: ExamPart, result: ExamResult | None) -> None:
+    def done(part: EvaluationPart, result: EpisodesPlayed | None) -> None:
         if result is None:
             raise TaskError(
                 f"{TRIES} workers ended in the same episodes",
@@ -111,12 +111,12 @@ def taken_by_workers(
             )
         found[part.number] = result
 
-    count, start = placed(ray, workers, ExamHost, exam)
+    count, start = workers_at(ray, workers, EvaluationHost, setup)
     call_all(parts, start, done, workers=min(count, len(parts)))
     return [found[part.number] for part in parts]
 
 
-def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[ExamPart]:
+def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[EvaluationPart]:
     """Every copy runs as many episodes as in one part, but for the remainder."""
     share, rest = divmod(episodes, sum(sizes))
     first = 0
@@ -124,24 +124,24 @@ def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[ExamPart]
         more = min(max(rest - first, 0), size)
         chance = int(np.random.SeedSequence([seed, number]).generate_state(1)[0])
         if share * size + more:
-            yield ExamPart(number, size, share * size + more, chance)
+            yield EvaluationPart(number, size, share * size + more, chance)
         first += size
 
 
-class ExamHost:
+class EvaluationHost:
     """A worker's side: plays episodes.
 
     Args:
-        exam: Which policy acts in what.
+        setup: Which policy acts in what.
     """
 
-    def __init__(self, exam: Exam) -> None:
-        self._exam = exam
+    def __init__(self, setup: EvaluationSetup) -> None:
+        self._setup = setup
 
-    def call(self, part: ExamPart) -> ExamResult:
+    def call(self, part: EvaluationPart) -> EpisodesPlayed:
         """What came of a part."""
-        load_all(self._exam.imports)
-        return taken(self._exam, part.copies, part.episodes, part.seed)
+        load_all(self._setup.imports)
+        return play_episodes(self._setup, part.copies, part.episodes, part.seed)
 
     def close(self) -> None:
         """Nothing is left to do."""
