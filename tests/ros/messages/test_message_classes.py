@@ -73,8 +73,13 @@ def test_defaults_are_those_of_the_types(all_kinds):
     assert (message.lambda_, message.self_) == (0, 0)
 
 
+def of_packages():
+    """All messages, without those that other tests register, some of which cannot be."""
+    return [name for name in definitions() if not name.startswith("sample_msgs/")]
+
+
 def test_defaults_are_genpys(all_kinds, genpy):
-    for made in (all_kinds, *map(load_message, definitions()[::7])):
+    for made in (all_kinds, *map(load_message, of_packages()[::7])):
         theirs = genpy.class_of(made)()
         assert str(made()) == str(theirs)
         assert dumps(made()) == dumps(theirs)
@@ -93,7 +98,7 @@ def test_equality_is_by_value_and_messages_cannot_be_keys():
 
 
 def test_messages_can_be_copied_and_pickled(all_kinds):
-    for made in (all_kinds, *map(load_message, definitions()[::20])):
+    for made in (all_kinds, *map(load_message, of_packages()[::20])):
         message = random_message(made, random.Random(1))
         for same in (
             copy.copy(message),
