@@ -42,24 +42,17 @@ def _turtlebot3() -> list[RegisteredTask]:
     ]
 
 
-def _agv_fleet() -> RegisteredTask:
-    home = "gazelle.envs.agv_fleet.envs"
-    return RegisteredTask(
-        id="gazelle/AGVFleet-v0",
-        env=f"{home}:AGVFleetEnv",
-        vector_env=f"{home}:AGVFleetVectorEnv",
-        max_episode_steps=500,
-    )
+def _named(room: str, name: str, steps: int, env: str = "") -> RegisteredTask:
+    """A task whose environments are called after it.
 
-
-def _cartpole() -> RegisteredTask:
-    home = "gazelle.envs.cartpole.envs"
-    return RegisteredTask(
-        id="gazelle/CartPoleStayUp-v0",
-        env=f"{home}:CartPoleStayUpEnv",
-        vector_env=f"{home}:CartPoleStayUpVectorEnv",
-        max_episode_steps=1000,
-    )
+    Args:
+        room: The package below `gazelle.envs` that has them.
+        name: Of the task.
+        steps: Control steps until an episode is truncated.
+        env: What stands before ``Env`` and ``VectorEnv``, if not the name.
+    """
+    home = f"gazelle.envs.{room}.envs:{env or name}"
+    return RegisteredTask(f"gazelle/{name}-v0", f"{home}Env", f"{home}VectorEnv", steps)
 
 
 def _fetch() -> list[RegisteredTask]:
@@ -77,94 +70,25 @@ def _fetch() -> list[RegisteredTask]:
     ]
 
 
-def _moving_cube() -> RegisteredTask:
-    home = "gazelle.envs.moving_cube.envs"
-    return RegisteredTask(
-        id="gazelle/MovingCubeOneDiskWalk-v0",
-        env=f"{home}:MovingCubeEnv",
-        vector_env=f"{home}:MovingCubeVectorEnv",
-        max_episode_steps=1000,
-    )
-
-
-def _driving() -> list[RegisteredTask]:
-    home = "gazelle.envs.discrete_drive.envs"
-    return [
-        RegisteredTask(
-            id=f"gazelle/{name}-v0",
-            env=f"{home}:{name}Env",
-            vector_env=f"{home}:{name}VectorEnv",
-            max_episode_steps=500,
-        )
-        for name in (
-            *("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World"),
-            *("Husarion", "SummitXLRoom"),
-        )
-    ]
-
-
-def _kobuki() -> list[RegisteredTask]:
-    home = "gazelle.envs.kobuki_maze.envs"
-    return [
-        RegisteredTask(
-            id=f"gazelle/Kobuki{name}-v0",
-            env=f"{home}:Kobuki{name}Env",
-            vector_env=f"{home}:Kobuki{name}VectorEnv",
-            max_episode_steps=1000,
-        )
-        for name in ("Empty", "Maze", "Dynamic1", "Dynamic2", "Dynamic3")
-    ]
-
-
-def _camera_world() -> RegisteredTask:
-    home = "gazelle.envs.camera_world.envs"
-    return RegisteredTask(
-        id="gazelle/TurtleBot3CameraWorld-v0",
-        env=f"{home}:TurtleBot3CameraWorldEnv",
-        vector_env=f"{home}:TurtleBot3CameraWorldVectorEnv",
-        max_episode_steps=120,
-    )
-
-
-def _hopper() -> RegisteredTask:
-    home = "gazelle.envs.hopper.envs"
-    return RegisteredTask(
-        id="gazelle/HopperStayUp-v0",
-        env=f"{home}:HopperStayUpEnv",
-        vector_env=f"{home}:HopperStayUpVectorEnv",
-        max_episode_steps=1000,
-    )
-
-
-def _reachers() -> list[RegisteredTask]:
-    home = "gazelle.envs.reacher.envs"
-    steps = {
-        "ABBIRB120Reach": 50,
-        "ABBIRB140Reach": 50,
-        "ABBIRB140VelocityReach": 300,
-        "UR5Reach": 50,
-    }
-    return [
-        RegisteredTask(
-            id=f"gazelle/{name}-v0",
-            env=f"{home}:{name}Env",
-            vector_env=f"{home}:{name}VectorEnv",
-            max_episode_steps=limit,
-        )
-        for name, limit in steps.items()
-    ]
-
+_DRIVES = ("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World", "Husarion", "SummitXLRoom")
+_KOBUKIS = ("Empty", "Maze", "Dynamic1", "Dynamic2", "Dynamic3")
+_REACHERS = {
+    "ABBIRB120Reach": 50,
+    "ABBIRB140Reach": 50,
+    "ABBIRB140VelocityReach": 300,
+    "UR5Reach": 50,
+}
 
 ENTRIES = (
     *_turtlebot3(),
-    _camera_world(),
-    _agv_fleet(),
-    _cartpole(),
-    _moving_cube(),
-    *_driving(),
-    *_kobuki(),
-    _hopper(),
-    *_reachers(),
+    _named("camera_world", "TurtleBot3CameraWorld", 120),
+    _named("agv_fleet", "AGVFleet", 500),
+    _named("cartpole", "CartPoleStayUp", 1000),
+    _named("moving_cube", "MovingCubeOneDiskWalk", 1000, env="MovingCube"),
+    *(_named("discrete_drive", name, 500) for name in _DRIVES),
+    *(_named("kobuki_maze", f"Kobuki{name}", 1000) for name in _KOBUKIS),
+    _named("hopper", "HopperStayUp", 1000),
+    *(_named("reacher", name, steps) for name, steps in _REACHERS.items()),
     *_fetch(),
 )
 
