@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Unpack
-
-from gymnasium.vector import AutoresetMode
-
 from gazelle.envs.camera_world.task import CameraWorldTask
-from gazelle.envs.options import TaskOptions, TaskSettings, check_whole, read_options
-from gazelle.envs.single_env import TaskEnv
-from gazelle.envs.vector_env import TaskVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
-class TurtleBot3CameraWorldEnv(TaskEnv):
+class TurtleBot3CameraWorldEnv(SettingsEnv):
     """A TurtleBot3 Waffle Pi drives to the red post in a room, by nothing but its camera.
 
     The room is that of stage 1, 3.7 m square. A red, a green and a blue post stand in it, each
@@ -63,15 +57,10 @@ class TurtleBot3CameraWorldEnv(TaskEnv):
     """
 
     task: CameraWorldTask
-
-    def __init__(self, **options: Unpack[TaskOptions]) -> None:
-        settings = read_options(TaskSettings, options)
-        super().__init__(
-            CameraWorldTask(1, settings), seed=settings.seed, render_mode=settings.render_mode
-        )
+    task_class = CameraWorldTask
 
 
-class TurtleBot3CameraWorldVectorEnv(TaskVectorEnv):
+class TurtleBot3CameraWorldVectorEnv(SettingsVectorEnv):
     """`TurtleBot3CameraWorldEnv` in many worlds at once.
 
     Args:
@@ -81,18 +70,4 @@ class TurtleBot3CameraWorldVectorEnv(TaskVectorEnv):
     """
 
     task: CameraWorldTask
-
-    def __init__(
-        self,
-        num_envs: int = 1,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
-        **options: Unpack[TaskOptions],
-    ) -> None:
-        check_whole("num_envs", num_envs, 1)
-        settings = read_options(TaskSettings, options)
-        super().__init__(
-            CameraWorldTask(num_envs, settings),
-            seed=settings.seed,
-            render_mode=settings.render_mode,
-            autoreset_mode=autoreset_mode,
-        )
+    task_class = CameraWorldTask

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Unpack
-
-from gymnasium.vector import AutoresetMode
-
 from gazelle.envs.cartpole.task import CartPoleTask
-from gazelle.envs.options import TaskOptions, TaskSettings, check_whole, read_options
-from gazelle.envs.single_env import TaskEnv
-from gazelle.envs.vector_env import TaskVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
-class CartPoleStayUpEnv(TaskEnv):
+class CartPoleStayUpEnv(SettingsEnv):
     """A cart on a rail moves to and fro so that the pole on it stays up.
 
     The task ``CartPoleStayUp-v0`` of openai_ros, with its observation, actions, reward and ends,
@@ -62,15 +56,10 @@ class CartPoleStayUpEnv(TaskEnv):
     """
 
     task: CartPoleTask
-
-    def __init__(self, **options: Unpack[TaskOptions]) -> None:
-        settings = read_options(TaskSettings, options)
-        super().__init__(
-            CartPoleTask(1, settings), seed=settings.seed, render_mode=settings.render_mode
-        )
+    task_class = CartPoleTask
 
 
-class CartPoleStayUpVectorEnv(TaskVectorEnv):
+class CartPoleStayUpVectorEnv(SettingsVectorEnv):
     """`CartPoleStayUpEnv` in many worlds at once.
 
     Args:
@@ -80,18 +69,4 @@ class CartPoleStayUpVectorEnv(TaskVectorEnv):
     """
 
     task: CartPoleTask
-
-    def __init__(
-        self,
-        num_envs: int = 1,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
-        **options: Unpack[TaskOptions],
-    ) -> None:
-        check_whole("num_envs", num_envs, 1)
-        settings = read_options(TaskSettings, options)
-        super().__init__(
-            CartPoleTask(num_envs, settings),
-            seed=settings.seed,
-            render_mode=settings.render_mode,
-            autoreset_mode=autoreset_mode,
-        )
+    task_class = CartPoleTask
