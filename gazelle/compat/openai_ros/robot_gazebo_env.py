@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
-from gazelle.compat.gym.core import Env, Step
-from gazelle.compat.gym.utils import seeding
+from gazelle.compat.gym.core import Step
 from gazelle.compat.openai_ros.controllers_connection import ControllersConnection
 from gazelle.compat.openai_ros.gazebo_connection import SIMULATION, GazeboConnection
+from gazelle.compat.openai_ros.graph_env import GraphEnv
 from gazelle.compat.openai_ros.simulated_time import SimulatedTime
-from gazelle.ros import load_message
-from gazelle.ros.compat import rospy
-
-REWARD_TOPIC = "/openai/reward"
 
 
-class RobotGazeboEnv(Env):
+class RobotGazeboEnv(GraphEnv):
     """An environment whose robot is on a ROS 1 graph.
 
     A step lets time go on, does the action, pauses, and looks. After every episode
@@ -48,23 +42,12 @@ class RobotGazeboEnv(Env):
         start_init_physics_parameters: bool = True,  # noqa: FBT001, FBT002
         reset_world_or_sim: str = SIMULATION,
     ) -> None:
-        self.gazebo = GazeboConnection(start_init_physics_parameters, reset_world_or_sim)
-        self.controllers_object = ControllersConnection(robot_name_space, controllers_list or ())
-        self.reset_controls = reset_controls
+        super().__init__(
+            GazeboConnection(start_init_physics_parameters, reset_world_or_sim),
+            ControllersConnection(robot_name_space, controllers_list or ()),
+            reset_controls=reset_controls,
+        )
         self.simulated_time = SimulatedTime()
-        self.np_random: np.random.RandomState | None = None
-        self.seed()
-        self.episode_num = 0
-        self.cumulated_episode_reward = 0.0
-        self._info: Any = load_message("openai_ros/RLExperimentInfo")
-        self.reward_pub = rospy.Publisher(REWARD_TOPIC, self._info, queue_size=1)
-
-    # -- gym's interface ---------------------------------------------------------------------
-
-    def seed(self, seed: int | None = None) -> list[int]:
-        """Decide the random numbers of ``np_random``."""
-        self.np_random, used = seeding.np_random(seed)
-        return [used]
 
     def step(self, action: Any) -> Step:
         """Do an action; returns observation, reward, whether the episode is over, and nothing more."""
@@ -77,30 +60,10 @@ class RobotGazeboEnv(Env):
         self.cumulated_episode_reward += reward
         return observation, reward, done, {}
 
-    def reset(self) -> Any:
-        """Begin an episode; returns the first observation."""
-        self._reset_sim()
-        self._init_env_variables()
-        self._update_episode()
-        return self._get_obs()
-
-    def close(self) -> None:
-        """End the node of the script."""
-        rospy.signal_shutdown("the environment is closed")
-
-    # -- what happens around an episode ---------------------------------------------------------
-
     def _update_episode(self) -> None:
         """Publish what the last episode came to, and count."""
         self._publish_reward_topic(self.cumulated_episode_reward, self.episode_num)
-        self.episode_num += 1
-        self.cumulated_episode_reward = 0.0
-
-    def _publish_reward_topic(self, reward: float, episode_number: int = 1) -> None:
-        """Publish the reward of an episode."""
-        self.reward_pub.publish(
-            self._info(episode_number=episode_number, episode_reward=float(reward))
-        )
+        super()._update_episode()
 
     def _reset_sim(self) -> bool:
         """Bring the robot to its beginning, and reset the simulator."""
@@ -111,44 +74,3 @@ class RobotGazeboEnv(Env):
         self._begin_motion()
         self.gazebo.pauseSim()
         return True
-
-    def _begin_motion(self) -> None:
-        """Let time go on, with controllers and sensors that answer."""
-        self.gazebo.unpauseSim()
-        if self.reset_controls:
-            self.controllers_object.reset_controllers()
-        self._check_all_systems_ready()
-
-    # -- what subclasses say --------------------------------------------------------------------
-
-    def _set_init_pose(self) -> Any:
-        """Bring the robot into the pose that it begins with."""
-        raise NotImplementedError
-
-    def _check_all_systems_ready(self) -> Any:
-        """Wait until sensors and controllers answer."""
-        raise NotImplementedError
-
-    def _get_obs(self) -> Any:
-        """What is seen now."""
-        raise NotImplementedError
-
-    def _init_env_variables(self) -> Any:
-        """Begin the variables of an episode."""
-        raise NotImplementedError
-
-    def _set_action(self, action: Any) -> Any:
-        """Do an action."""
-        raise NotImplementedError
-
-    def _is_done(self, observations: Any) -> bool:
-        """Whether the episode is over."""
-        raise NotImplementedError
-
-    def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        """What the last action is worth."""
-        raise NotImplementedError
-
-    def _env_setup(self, initial_qpos: Mapping[str, float]) -> Any:
-        """Prepare the robot, once."""
-        raise NotImplementedError
