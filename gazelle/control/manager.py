@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import threading
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -17,6 +16,7 @@ from gazelle.control import registry
 from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller, ControllerSetup
 from gazelle.control.hardware import RobotHardware
+from gazelle.control.loaded_controllers import LoadedControllers
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import Serializer
 from gazelle.control.switching import LoadedController, Switch, planned
@@ -49,6 +49,8 @@ class ControllerManager:
         model: The robot as its URDF describes it; None where nobody knows it.
         call: Does work between two updates; a lock of its own if None.
         namespace: Of the robot; before all topics that are relative.
+        measure: Called before controllers start: reads the robot once more, and returns the time now
+            [ns]. None for one that is read all the time; what was read last is true enough then.
 
     Attributes:
         hardware: The robot.
@@ -66,15 +68,17 @@ class ControllerManager:
         model: Model | None = None,
         call: Serializer | None = None,
         namespace: str = "",
+        measure: Callable[[], int] | None = None,
     ) -> None:
         self.hardware, self.model, self.namespace = hardware, model, namespace
         self.parameters: dict[str, Any] = dict(parameters or {})
         self.find_parameters: Callable[[str], Mapping[str, Any] | None] = self.parameters.get
         self._lock = threading.RLock()
         self.call: Serializer = call or self._locked
-        self._loaded: dict[str, LoadedController] = {}
+        self._loaded = LoadedControllers()
         self._watchers: list[tuple[Callable[[Controller], None], Callable[[Controller], None]]] = []
         self._switch: Switch | None = None
+        self._measure = measure
         self.now_ns = 0
 
     def _locked(self, work: Callable[[], R]) -> R:
@@ -166,7 +170,7 @@ class ControllerManager:
     @property
     def busy(self) -> bool:
         """Whether a controller runs, or is to be started; for the thread that updates."""
-        return self._switch is not None or any(e.controller.running for e in self._loaded.values())
+        return self._switch is not None or bool(self._loaded.running)
 
     def __getitem__(self, name: str) -> Controller:
         """A loaded controller.
@@ -174,7 +178,7 @@ class ControllerManager:
         Raises:
             ControlError: There is none of that name.
         """
-        return self._entry(name).controller
+        return self._loaded[name].controller
 
     def __contains__(self, name: object) -> bool:
         return name in self._loaded
@@ -185,7 +189,7 @@ class ControllerManager:
         Raises:
             ControlError: There is none of that name.
         """
-        return self._entry(name).state
+        return self._loaded[name].state
 
     def watch(
         self, loaded: Callable[[Controller], None], unloaded: Callable[[Controller], None]
@@ -214,41 +218,18 @@ class ControllerManager:
             period: Since the last update [s].
             restart: Worlds in which what runs begins anew first, as after an emergency stop.
         """
-        self.now_ns, time = now_ns, now_ns * 1e-9
-        running = [each for each in self._loaded.values() if each.controller.running]
-        for entry in running:
-            controller = entry.controller
-            controller.now_ns = now_ns
-            try:
-                if restart is not None and len(restart) < self.hardware.nworld:
-                    controller.reset(restart)
-                elif restart is not None:
-                    controller.stopping(time)
-                    controller.starting(time)
-                controller.update(time, period)
-            except Exception as error:  # noqa: BLE001  one controller's fault is not the others'
-                controller.running, entry.state = False, "aborted"
-                text = f"controller '{controller.name}' failed and is aborted: {error}"
-                warnings.warn(ControlWarning(text), stacklevel=2)
+        self.now_ns = now_ns
+        self._loaded.control(now_ns, period, restart)
         if self._switch is not None:
             self._go_on(self._switch)
 
     def laws(self) -> list[ControlLaw] | None:
         """What controllers that run do in native code, in order; None if Python has to update one."""
-        if self._switch is not None:
-            return None
-        found = []
-        for entry in self._loaded.values():
-            if entry.controller.running:
-                if entry.law is None:
-                    return None
-                found.append(entry.law)
-        return found
+        return None if self._switch is not None else self._loaded.laws()
 
     def wake_ns(self) -> float:
         """When ``update`` has to be called although all is native code [ns]."""
-        running = (e.controller for e in self._loaded.values() if e.controller.running)
-        return min((each.wake_ns() for each in running), default=math.inf)
+        return self._loaded.wake_ns()
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """Controllers were updated in native code.
@@ -259,49 +240,21 @@ class ControllerManager:
             period: Of an update [s].
         """
         self.now_ns = now_ns
-        for entry in self._loaded.values():
-            if entry.controller.running:
-                entry.controller.now_ns = now_ns
-                entry.controller.catch_up(updates, period)
+        self._loaded.catch_up(now_ns, updates, period)
 
     def reset(self, worlds: Worlds | None) -> None:
         """The robot was put back to its initial state in these worlds; all if None."""
-        for entry in self._loaded.values():
-            entry.controller.now_ns = self.now_ns
-            entry.controller.reset(worlds)
+        self._loaded.reset(self.now_ns, worlds)
 
     def states(self) -> Mapping[str, NDArray[np.generic]]:
         """Everything that changes in controllers, for a snapshot."""
-        return {
-            f"{name}/{key}": value
-            for name, entry in self._loaded.items()
-            for key, value in {
-                **entry.controller.state(),
-                "running": np.array(entry.controller.running),
-            }.items()
-        }
+        return self._loaded.states()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``states`` gave; controllers loaded since stay as they are."""
-        for name, entry in self._loaded.items():
-            own = {
-                k.removeprefix(f"{name}/"): v for k, v in state.items() if k.startswith(f"{name}/")
-            }
-            if own:
-                running = bool(own.pop("running"))
-                entry.controller.running = running
-                if running or entry.state == "running":
-                    entry.state = "running" if running else "stopped"
-                entry.controller.restore(own)
+        self._loaded.restore(state)
 
     # -- one thing at a time -----------------------------------------------------------
-
-    def _entry(self, name: str) -> LoadedController:
-        if name not in self._loaded:
-            raise ControlError(
-                f"there is no controller '{name}'", hint=did_you_mean(name, self._loaded)
-            )
-        return self._loaded[name]
 
     def _load(self, name: str, given: Mapping[str, Any] | None) -> Controller:
         if name in self._loaded:
@@ -389,6 +342,8 @@ class ControllerManager:
                 "could not switch controllers: the hardware interface combination for the requested "
                 "controllers is unfeasible"
             )
+        if starting and self._measure is not None:
+            self.now_ns = self._measure()
         switch = Switch(tuple(starting), tuple(stopping), asap, timeout, self.now_ns)
         if starting or stopping:
             self.hardware.do_switch(*infos)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid_law import PidLaw
 from gazelle.control.ports import TunableValue
@@ -146,6 +146,10 @@ class Pid:
         rows = slice(None) if worlds is None else worlds
         for kept in (self.p_error, self.i_error, self.d_error, self.output, self._last):
             kept[rows] = 0.0
+
+    def forget_rates(self, loops: Indices, worlds: Worlds) -> None:
+        """Let some loops count the error before as 0 in some worlds; their sums stay."""
+        self._last[np.ix_(worlds, loops)] = 0.0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, gains apart."""

@@ -19,11 +19,11 @@ from gazelle.description import Model, Parameters, Transmission
 from gazelle.errors import ControlWarning, Error, SimulationError, did_you_mean, located
 from gazelle.simulation import Input, Robot, Setting, absolute, namespace_of
 from gazelle.simulation.control_loop import ControlLoop
-from gazelle.simulation.joint_hardware import (
+from gazelle.simulation.joint_hardware import JointHardware
+from gazelle.simulation.simulated_hardware import (
     INTERFACES,
     CommandedJoint,
     HardwareSetup,
-    JointHardware,
     SimulatedHardware,
 )
 from gazelle.simulation.values import EmergencyStop

@@ -18,15 +18,15 @@ from gazelle.description import Model
 from gazelle.errors import ControlWarning
 from gazelle.native.joint_system import JointSystem
 from gazelle.simulation.clock import NANOSECONDS
-from gazelle.simulation.joint_hardware import (
+from gazelle.simulation.joint_hardware import JointHardware
+from gazelle.simulation.plugin import ModelPlugin
+from gazelle.simulation.robot import Robot
+from gazelle.simulation.simulated_hardware import (
     INTERFACES,
     CommandedJoint,
     HardwareSetup,
-    JointHardware,
     SimulatedHardware,
 )
-from gazelle.simulation.plugin import ModelPlugin
-from gazelle.simulation.robot import Robot
 from gazelle.simulation.stepping import make_scheduled
 
 
@@ -57,7 +57,11 @@ class ControlLoop(ModelPlugin):
         self._robot, self._clock = robot, robot.simulation.clock
         self.hardware = hardware
         self.manager = ControllerManager(
-            hardware, model=model, call=robot.simulation.requests.call, namespace=namespace
+            hardware,
+            model=model,
+            call=robot.simulation.requests.call,
+            namespace=namespace,
+            measure=self._measure,
         )
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
@@ -74,6 +78,17 @@ class ControlLoop(ModelPlugin):
             self._robot.joints[name].add_motor(0.0)
         self.hardware = self.manager.hardware = hardware
         self._told = False
+
+    def _measure(self) -> int:
+        """See joints as they are now, for controllers that start; returns the time [ns].
+
+        Since the last update somebody may have put the joints elsewhere, and where nothing was to be
+        done there was none for long: that is no period of control.
+        """
+        if not self.active:
+            self._updated_ns = self._written_ns = None
+        self.hardware.measure(self._clock.now)
+        return self._clock.now_ns
 
     def set_period(self, seconds: float) -> None:
         """Let controllers act at this period; as often as the physics if it is never set."""

@@ -8,8 +8,7 @@ joint's limits at every physics step.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,6 @@ from gazelle.control import (
     VELOCITY,
     ControllerInfo,
     JointCommandInterface,
-    RobotHardware,
 )
 from gazelle.control.control_cycle import ControlCycle
 from gazelle.control.interfaces import COMMAND_FIELDS
@@ -35,16 +33,20 @@ from gazelle.control.joint_law import (
     JointLaw,
     JointMemory,
 )
-from gazelle.control.limits import JointLimits, limit_law
+from gazelle.control.limits import limit_law
 from gazelle.control.pid import Pid, PidGains
-from gazelle.description import Model
 from gazelle.engines import CarryingEngine
 from gazelle.errors import SimulationError
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.sensor_hardware import sensor_interfaces
+from gazelle.simulation.simulated_hardware import (
+    INTERFACES,
+    CommandedJoint,
+    HardwareSetup,
+    SimulatedHardware,
+)
 
-INTERFACES = (EFFORT, POSITION, VELOCITY)
-"""Those that a simulated joint can be commanded through."""
+__all__ = ["INTERFACES", "CommandedJoint", "HardwareSetup", "JointHardware", "SimulatedHardware"]
 
 # How a joint is commanded through an interface, without gains and with them.
 _WAYS = {
@@ -58,66 +60,6 @@ _JUMP = 100.0
 
 # What a motor may use at most where the robot's file gives no effort limit [N or N m].
 _STRONG = 1e6
-
-
-@dataclass(frozen=True, slots=True)
-class CommandedJoint:
-    """A joint that controllers command.
-
-    Attributes:
-        name: Within the robot.
-        interfaces: That it can be commanded through, at least one; the first one acts at first.
-        limits: That commands are held within.
-        gains: For positions and velocities; None to be put there.
-    """
-
-    name: str
-    interfaces: tuple[str, ...]
-    limits: JointLimits = field(default_factory=JointLimits)
-    gains: PidGains | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class HardwareSetup:
-    """What the robot's side of control is made of.
-
-    Attributes:
-        namespace: Of the robot.
-        joints: To be commanded.
-        model: The robot as its URDF describes it.
-        parameters: Of the plugin that asks, as tags; None without one.
-    """
-
-    namespace: str
-    joints: Sequence[CommandedJoint]
-    model: Model
-    parameters: Any = None
-
-
-class SimulatedHardware(RobotHardware):
-    """Base class of the robot's side in a simulation; ``robotSimType`` may name a subclass of yours.
-
-    Args:
-        robot: In the simulation.
-        setup: What was found in its files.
-    """
-
-    def __init__(self, robot: Robot, setup: HardwareSetup) -> None:
-        super().__init__(robot.simulation.nworld)
-        self.robot, self.setup = robot, setup
-
-    @property
-    def idle(self) -> bool:
-        """Whether nothing is to be done while no controller runs."""
-        return False
-
-    @property
-    def motors(self) -> frozenset[str]:
-        """The joints on which it has put motors; what takes its place switches those off."""
-        return frozenset()
-
-    def stop_emergency(self, stopped: Bools) -> None:
-        """Whether the emergency stop is pressed now, shape (nworld,); told before every step."""
 
 
 class JointHardware(SimulatedHardware):
@@ -151,6 +93,7 @@ class JointHardware(SimulatedHardware):
         upper = np.array([each.limits.upper for each in self._joints])
         turning = np.array([each.type != "prismatic" for each in described], bool)
         endless = turning & np.isinf(lower) & np.isinf(upper)
+        self._limited = np.flatnonzero(turning & ~endless)
         self._strength = np.array([each.limits.effort for each in self._joints])
         self._active = [each.interfaces[0] for each in self._joints]
         self._placed: Floats = np.full((self.nworld, len(names)), math.nan)
@@ -224,11 +167,34 @@ class JointHardware(SimulatedHardware):
             self.cycle.effort_out[:, left] = 0.0
             self._act()
             self._arrange()
+        wanted = {name for info in start for held in info.claimed.values() for name in held}
+        some = [index for index, name in enumerate(names) if name in wanted]
+        self._forget(some, np.arange(self.nworld))
+
+    def _forget(self, joints: Iterable[int], worlds: Worlds) -> None:
+        """Hold positions from where joints are, wherever they were commanded to be before."""
+        by_position = (BY_POSITION, BY_PLACE)
+        some = np.array([i for i in joints if self._kinds[i] in by_position], np.intp)
+        cells = np.ix_(worlds, some)
+        self._memory.previous[cells] = self._placed[cells] = math.nan
+        self._pid.forget_rates(some, worlds)
 
     # -- the loop ----------------------------------------------------------------------
 
     def read(self, time: float, period: float) -> None:  # noqa: ARG002  it asks the engine
         """Measure; joints that turn are followed round and round, and never jump."""
+        self._look()
+        self.law.read_all()
+
+    def measure(self, time: float) -> None:
+        """``read``, but joints that have limits are where they are, however many turns away that is."""
+        self._look()
+        states = self.states
+        states.position[:, self._limited] = self.cycle.position_in[:, self._limited]
+        self.read(time, 0.0)
+
+    def _look(self) -> None:
+        """Ask the engine where joints are."""
         carrier = self._carrier()
         if carrier is not None:
             carrier.read_joints(self.cycle)
@@ -237,7 +203,6 @@ class JointHardware(SimulatedHardware):
             for column, name in enumerate(self._names):
                 self.cycle.position_in[:, column] = engine.joint_position(name)[:, 0]
                 self.cycle.velocity_in[:, column] = engine.joint_velocity(name)[:, 0]
-        self.law.read_all()
 
     def _carrier(self) -> CarryingEngine | None:
         """The engine, if it is to be told of all joints at once."""
@@ -253,6 +218,9 @@ class JointHardware(SimulatedHardware):
         """Take the power from joints, and hold those where they are that hold positions."""
         memory = self._memory
         begun = stopped & ~memory.stopped
+        if begun.any():
+            self.measure(self.robot.simulation.time)
+            self._forget(range(len(self._joints)), np.flatnonzero(begun))
         memory.held[begun] = self.states.position[begun]
         memory.stopped[:] = stopped
 
