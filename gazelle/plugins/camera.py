@@ -7,7 +7,10 @@ moment have the same stamp on every topic.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from gazelle.array_types import Worlds
 from gazelle.description import Camera, Parameters
@@ -158,16 +161,19 @@ class CameraPlugin(SensorPlugin):
         return image
 
 
-class TriggeredCameraPlugin(CameraPlugin):
-    """Pictures of a camera, one for each message on the topic of the trigger."""
+class PictureTrigger:
+    """Messages that ask for one picture each.
 
-    def open(self, camera: Camera, settings: CameraSettings) -> None:
-        """Open the ports."""
-        self._pending, self._told_ns = 0, -1
-        PublishedCamera(self._sensor, camera, settings, self.look, self._is_triggered).open()
-        topic = settings.topic(settings.trigger_topic)
-        self._sensor.robot.inputs[settings.trigger_topic.strip("/")] = Input(
-            topic, Trigger, self._pull, forget=self._forget
+    Args:
+        sensor: Measures.
+        settings: Name of the topic.
+        of: Before the name of the port, of one of several cameras.
+    """
+
+    def __init__(self, sensor: SensorUnit, settings: CameraSettings, of: str = "") -> None:
+        self._sensor, self._pending, self._told_ns = sensor, 0, -1
+        sensor.robot.inputs[of + settings.trigger_topic.strip("/")] = Input(
+            settings.topic(settings.trigger_topic), Trigger, self._pull, forget=self._forget
         )
 
     def _pull(self, _value: Trigger, _worlds: Worlds | None) -> None:
@@ -176,7 +182,7 @@ class TriggeredCameraPlugin(CameraPlugin):
     def _forget(self, _worlds: Worlds | None) -> None:
         self._pending, self._told_ns = 0, -1
 
-    def _is_triggered(self) -> bool:
+    def is_pulled(self) -> bool:
         """Whether the measurement of this moment is told; all topics hear the same."""
         now = self._sensor.robot.simulation.clock.now_ns
         if self._told_ns == now:
@@ -185,6 +191,30 @@ class TriggeredCameraPlugin(CameraPlugin):
             return False
         self._pending, self._told_ns = self._pending - 1, now
         return True
+
+
+class TriggeredCameraPlugin(CameraPlugin):
+    """Pictures of a camera, one for each message on the topic of the trigger."""
+
+    def open(self, camera: Camera, settings: CameraSettings) -> None:
+        """Open the ports."""
+        trigger = PictureTrigger(self._sensor, settings)
+        PublishedCamera(self._sensor, camera, settings, self.look, trigger.is_pulled).open()
+
+
+class ThermalCameraPlugin(CameraPlugin):
+    """Grey pictures in which what is pure red is hot, as Hector's plugins have them."""
+
+    def open(self, camera: Camera, settings: CameraSettings) -> None:
+        """Open the ports."""
+        PublishedCamera(self._sensor, replace(camera, format="L8"), settings, self._warmth).open()
+
+    def _warmth(self) -> CameraImage:
+        """White where the picture is (255, 0, 0), an eighth of the sum of its colours elsewhere."""
+        seen = self.look()
+        grey = (seen.color.sum(axis=-1) // 8).astype(np.uint8)
+        grey[(seen.color == (255, 0, 0)).all(axis=-1)] = 255
+        return replace(seen, color=np.repeat(grey[..., None], 3, axis=-1))
 
 
 class MultiCameraPlugin(SensorPlugin):
@@ -201,4 +231,30 @@ class MultiCameraPlugin(SensorPlugin):
                 image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
                 return image
 
-            PublishedCamera(sensor, camera, settings, look).open()
+            self.open(sensor, camera, settings, look)
+
+    def open(
+        self,
+        sensor: SensorUnit,
+        camera: Camera,
+        settings: CameraSettings,
+        look: Callable[[], CameraImage],
+    ) -> None:
+        """Open the ports of one of them."""
+        PublishedCamera(sensor, camera, settings, look).open()
+
+
+class TriggeredMultiCameraPlugin(MultiCameraPlugin):
+    """The same, each with the topic of a trigger of its own."""
+
+    def open(
+        self,
+        sensor: SensorUnit,
+        camera: Camera,
+        settings: CameraSettings,
+        look: Callable[[], CameraImage],
+    ) -> None:
+        """Open the ports of one of them."""
+        side = settings.prefix.rpartition("/")[2]
+        trigger = PictureTrigger(sensor, settings, f"{side}/")
+        PublishedCamera(sensor, camera, settings, look, trigger.is_pulled).open()

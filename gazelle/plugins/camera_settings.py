@@ -56,7 +56,8 @@ class CameraSettings:
             sensor: That the plugin is on.
             camera: Of the sensor.
             parameters: The tags.
-            suffix: After the camera's name, of one of several.
+            suffix: After the camera's name, of one of several; only the right one of a pair is
+                a baseline away.
             topics: Before the names of topics that the file does not name.
         """
         namespace = namespace_of(sensor.robot, parameters)
@@ -72,7 +73,7 @@ class CameraSettings:
             1.0 / rate if rate > 0.0 else 0.0,
             parameters.get("focalLength", 0.0),
             (parameters.get("Cx", 0.0), parameters.get("Cy", 0.0)),
-            parameters.get("hackBaseline", 0.0),
+            parameters.get("hackBaseline", 0.0) if suffix in ("", "right") else 0.0,
             _distortion(camera, parameters),
         )
 

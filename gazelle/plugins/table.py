@@ -61,6 +61,9 @@ _SENSORS = (
     _simulated("gazebo_ros_camera gazebo_ros_prosilica", "pictures, JPEG too, and what the lens is", "camera:CameraPlugin"),
     _simulated("gazebo_ros_triggered_camera", "a picture for each message on `image_trigger`", "camera:TriggeredCameraPlugin"),
     _simulated("gazebo_ros_multicamera", "cameras that see at once", "camera:MultiCameraPlugin"),
+    _simulated("gazebo_ros_triggered_multicamera", "the same, each for a message on its `image_trigger`", "camera:TriggeredMultiCameraPlugin"),
+    _simulated("gazebo_ros_thermal_camera gazebo_ros_thermal_depth_camera", "Hector's picture of heat: pure red is white, all else dark",
+               "camera:ThermalCameraPlugin"),
     _simulated("gazebo_ros_depth_camera", "pictures, depths and points", "depth_camera:DepthCameraPlugin"),
     _simulated("gazebo_ros_openni_kinect", "the same of a Kinect", "depth_camera:KinectPlugin"),
     _simulated("hector_gazebo_ros_sonar", "Hector's sonar", "hector_sonar:HectorSonar"),
@@ -105,8 +108,6 @@ _WORLDS = (
 )
 
 _NOT_SIMULATED = (
-    _left_out("gazebo_ros_thermal_camera gazebo_ros_thermal_depth_camera gazebo_ros_triggered_multicamera",
-              "cameras of heat, triggered pairs", "its pictures are not published yet; its topics stay away"),
     _left_out("gazebo_ros_projector gazebo_ros_video", "pictures on models", "pictures on models are not shown; its topic is not listened to"),
     _left_out("CessnaGUIPlugin HydraDemoPlugin HydraPlugin JoyPlugin KeysToCmdVelPlugin KeysToJointsPlugin PlaneDemoPlugin",
               "what keys, joysticks and buttons drive", "there are no keys, joysticks or buttons; command it by topics, or from Python"),

@@ -8,9 +8,22 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
+from gazelle.rendering.bilinear import PixelMeans
 from gazelle.rendering.lens import PinholeLens
 from gazelle.rendering.live_scene import LiveScene
 from gazelle.rendering.renderer import Frames, Renderer
 from gazelle.rendering.visible import VisiblePart
+from gazelle.rendering.wide_lens import LensMapping, WideLens
+from gazelle.rendering.wide_view import WideView
 
-__all__ = ["Frames", "LiveScene", "PinholeLens", "Renderer", "VisiblePart"]
+__all__ = [
+    "Frames",
+    "LensMapping",
+    "LiveScene",
+    "PinholeLens",
+    "PixelMeans",
+    "Renderer",
+    "VisiblePart",
+    "WideLens",
+    "WideView",
+]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,9 @@ from gazelle.array_types import Bytes, Floats32, Worlds
 from gazelle.description import Camera, Pose
 from gazelle.engines import Engine
 from gazelle.errors import EngineError
-from gazelle.rendering import Frames, LiveScene, PinholeLens
+from gazelle.rendering import LiveScene
 from gazelle.rotations import multiply, rotate
-from gazelle.sensors.lens_distortion import LensDistortion
+from gazelle.sensors.optics import Optics, optics_of
 from gazelle.states import restore_all, states_of
 from gazelle.streams import Stream
 
@@ -47,6 +48,7 @@ class CameraModel:
     Args:
         cameras: What the file says; more than one of a multicamera.
         depth: Whether depths are measured too.
+        wide: Whether they are wide-angle cameras.
         legacy: Whether the coefficients of a distortion are meant as Gazebo's own.
         scene: Draws.
         engine: Knows the motion.
@@ -70,18 +72,17 @@ class CameraModel:
         name: str,
         *,
         depth: bool,
+        wide: bool = False,
         legacy: bool = True,
     ) -> None:
         if not cameras:
             raise EngineError("it has no <camera>")
         self.cameras, self.depth = tuple(cameras), depth
         self._scene, self._engine, self.link = scene, engine, link
-        self._lenses = [PinholeLens.of_camera(camera) for camera in cameras]
+        self._make_optics = partial(optics_of, wide=wide, legacy=legacy)
+        self._optics = [self._make_optics(camera) for camera in cameras]
+        self._previews: dict[int, Optics] = {}
         self.poses = [pose * camera.pose for camera in cameras]
-        self._bends = [
-            LensDistortion(camera, legacy=legacy) if any(camera.distortion) else None
-            for camera in cameras
-        ]
         self._noises = [
             Stream(seed, f"{name}/{number}", engine.nworld) for number in range(len(cameras))
         ]
@@ -94,25 +95,37 @@ class CameraModel:
             interval: Plays no part.
         """
         del interval
-        place = self._engine.link_placement(self.link, worlds)
         parts: list[Bytes] = []
-        for number, (lens, pose) in enumerate(zip(self._lenses, self.poses, strict=True)):
-            at = place.position + rotate(place.quaternion, np.asarray(pose.position))
-            turned = multiply(place.quaternion, np.asarray(pose.quaternion))
-            want = ("color", "depth") if self.depth else ("color",)
-            frames = self._scene.render(lens, at, turned, worlds, want=want)
-            parts += self._bytes_of(number, frames, worlds)
+        for number, optics in enumerate(self._optics):
+            color, depth = self._look(number, optics, worlds, depth=self.depth)
+            color = self._noisy(number, color, worlds)
+            parts.append(color.reshape(len(color), -1))
+            if self.depth:
+                parts.append(depth.reshape(len(color), -1).view(np.uint8))
         return np.concatenate(parts, axis=1)
 
-    def _bytes_of(self, number: int, frames: Frames, worlds: Worlds | None) -> list[Bytes]:
-        bend = self._bends[number]
-        color = frames.color if bend is None else bend.apply(frames.color)
-        color = self._noisy(number, color, worlds)
-        count = len(color)
-        parts = [color.reshape(count, -1)]
-        if self.depth:
-            parts.append(frames.depth.reshape(count, -1).view(np.uint8))
-        return parts
+    def preview(self, worlds: Worlds, width: int) -> Bytes:
+        """What the first camera sees now without its noise, shape (n, rows, columns, 3).
+
+        Args:
+            worlds: Which worlds.
+            width: Columns at most [pixel].
+        """
+        camera = self.cameras[0]
+        columns = min(camera.width, width)
+        rows = max(1, round(camera.height * columns / camera.width))
+        if width not in self._previews:
+            small = replace(camera, width=columns, height=rows)
+            self._previews[width] = self._make_optics(small)
+        return self._look(0, self._previews[width], worlds, depth=False)[0]
+
+    def _look(
+        self, number: int, optics: Optics, worlds: Worlds | None, *, depth: bool
+    ) -> tuple[Bytes, Floats32]:
+        place, pose = self._engine.link_placement(self.link, worlds), self.poses[number]
+        at = place.position + rotate(place.quaternion, np.asarray(pose.position))
+        turned = multiply(place.quaternion, np.asarray(pose.quaternion))
+        return optics.look(self._scene, at, turned, worlds, depth=depth)
 
     def _noisy(self, number: int, color: Bytes, worlds: Worlds | None) -> Bytes:
         """The same normal number on red, green and blue of a pixel, as Gazebo's shader adds it."""

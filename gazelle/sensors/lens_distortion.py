@@ -17,7 +17,7 @@ import numpy as np
 from gazelle.array_types import Bools, Bytes, Floats
 from gazelle.description import Camera
 from gazelle.errors import EngineError
-from gazelle.rendering import PinholeLens
+from gazelle.rendering import PinholeLens, PixelMeans
 
 Coefficients = tuple[float, float, float, float, float]
 
@@ -51,36 +51,14 @@ class LensDistortion:
         if legacy and camera.distortion[0] < 0.0:
             place = place * _crop_of(camera)
         origin, found = origin_of(place, camera.distortion)
-        self._weights(origin * unit + middle - 0.5, found)
+        spot = origin * unit + middle - 0.5
+        inside = found & (spot > -0.5).all(axis=-1)
+        inside &= (spot < np.array([width - 0.5, height - 0.5])).all(axis=-1)
+        self._means = PixelMeans.about(spot, inside, (height, width))
 
     def apply(self, color: Bytes) -> Bytes:
         """Pictures as the lens shows them; black where nothing falls, shape (n, height, width, 3)."""
-        flat = color.reshape(len(color), -1, 3)
-        height, width = self._shape
-        bent = sum(
-            weight[:, None] * flat[:, index] for index, weight in zip(*self._table, strict=True)
-        )
-        return np.rint(bent).astype(np.uint8).reshape(len(color), height, width, 3)
-
-    def _weights(self, spot: Floats, found: Bools) -> None:
-        """Which four pixels each pixel is a mean of, and how much of each."""
-        height, width = self._shape = spot.shape[:2]
-        inside = found & (spot > -0.5).all(axis=-1)
-        inside &= (spot < np.array([width - 0.5, height - 0.5])).all(axis=-1)
-        spot = np.clip(np.where(inside[..., None], spot, 0.0), 0.0, [width - 1.0, height - 1.0])
-        low = np.minimum(np.floor(spot).astype(np.intp), [max(width - 2, 0), max(height - 2, 0)])
-        share = spot - low
-        indices, weights = [], []
-        for dy in (0, 1):
-            for dx in (0, 1):
-                x = np.minimum(low[..., 0] + dx, width - 1)
-                y = np.minimum(low[..., 1] + dy, height - 1)
-                part = (share[..., 0] if dx else 1.0 - share[..., 0]) * (
-                    share[..., 1] if dy else 1.0 - share[..., 1]
-                )
-                indices.append((y * width + x).ravel())
-                weights.append(np.where(inside, part, 0.0).ravel())
-        self._table = (indices, weights)
+        return self._means.of(color.reshape(len(color), -1, 3))
 
 
 def distort(place: Floats, coefficients: Coefficients) -> Floats:

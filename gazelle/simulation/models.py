@@ -120,11 +120,15 @@ def _depth_camera(mount: SensorMount) -> SensorModel:
     return _camera_model(mount, depth=True)
 
 
-def _camera_model(mount: SensorMount, *, depth: bool) -> SensorModel:
+def _wide_camera(mount: SensorMount) -> SensorModel:
+    return _camera_model(mount, depth=False, wide=True)
+
+
+def _camera_model(mount: SensorMount, *, depth: bool, wide: bool = False) -> SensorModel:
     mode = mount.sensor.settings.find("camera/distortion/ignition:legacy_mode")
     legacy = mode is None or mode.text.strip().lower() not in ("false", "0")
     return CameraModel(
-        mount.sensor.cameras, mount.scene, *_on_link(mount), depth=depth, legacy=legacy
+        mount.sensor.cameras, mount.scene, *_on_link(mount), depth=depth, wide=wide, legacy=legacy
     )
 
 
@@ -212,4 +216,6 @@ _MODELS: dict[str, Callable[[SensorMount], SensorModel]] = {
     "ray": _lidar,
     "rgbd_camera": _depth_camera,
     "sonar": _sonar,
+    "wide_angle_camera": _wide_camera,
+    "wideanglecamera": _wide_camera,
 }

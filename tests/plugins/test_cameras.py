@@ -225,3 +225,47 @@ def test_a_plugin_on_a_sensor_of_another_kind_is_told(file, kind, words):
     text = WORLD.format(file=file, kind=kind, format="L8", tags="", more="<ray></ray>")
     with pytest.warns(SimulationWarning, match=words):
         gazelle.Simulation(load_string(text))
+
+
+def test_only_the_right_camera_of_a_pair_is_a_baseline_away():
+    tags = "<hackBaseline>0.07</hackBaseline>"
+    sim, robot = outputs("libgazebo_ros_multicamera.so", kind="multicamera", more=RIGHT, tags=tags)
+    told = heard(robot)
+    sim.run(0.15)
+    assert told["/ns/cam/left/camera_info"][0].baseline == 0.0
+    assert told["/ns/cam/right/camera_info"][0].baseline == 0.07
+
+
+def test_each_camera_of_a_triggered_pair_has_a_trigger_of_its_own():
+    sim, robot = outputs("libgazebo_ros_triggered_multicamera.so", kind="multicamera", more=RIGHT)
+    told = heard(robot)
+    sim.run(0.15)
+    assert not told
+    trigger = robot.inputs["right/image_trigger"]
+    assert trigger.topic == "/ns/cam/right/image_trigger"
+    trigger.send(Trigger())
+    sim.run(0.3)
+    assert set(told) == {
+        f"/ns/cam/right/{name}" for name in ("image_raw", "image_raw/compressed", "camera_info")
+    }
+    assert len(told["/ns/cam/right/image_raw"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("file", "kind"),
+    [
+        ("libgazebo_ros_thermal_camera.so", "camera"),
+        ("libgazebo_ros_thermal_depth_camera.so", "depth"),
+    ],
+)
+@pytest.mark.parametrize(("emissive", "warmth"), [("1 0 0", 255), ("1 0.4 0", (255 + 102) // 8)])
+def test_pure_red_is_hot(file, kind, emissive, warmth):
+    text = WORLD.format(file=file, kind=kind, format="R8G8B8", tags="", more="")
+    text = text.replace("<ambient>1 0 0 1</ambient>", f"<emissive>{emissive} 1</emissive>")
+    text = text.replace("<diffuse>1 0 0 1</diffuse>", "<diffuse>0 0 0 1</diffuse>")
+    sim = gazelle.Simulation(load_string(text))
+    told = heard(sim.robots["robot"])
+    sim.run(0.15)
+    image = told["/ns/cam/image_raw"][0]
+    assert image.encoding == "mono8"
+    assert image.pixels[0, 12, 16] == pytest.approx(warmth, abs=1)

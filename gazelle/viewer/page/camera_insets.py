@@ -5,11 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-import numpy as np
-
 from gazelle.array_types import Picture
-from gazelle.rendering import PinholeLens
-from gazelle.rotations import multiply, rotate
 from gazelle.sensors import CameraModel
 from gazelle.viewer.page.context import PageContext
 
@@ -64,15 +60,5 @@ class CameraInsets:
         """Sensors are looked up with every picture."""
 
     def _picture(self, model: CameraModel) -> Picture:
-        simulation, world = self._context.simulation, self._context.chosen
-        place = simulation.engine.link_placement(model.link, world)
-        pose, camera = model.poses[0], model.cameras[0]
-        at = place.position + rotate(place.quaternion, np.asarray(pose.position))
-        turned = multiply(place.quaternion, np.asarray(pose.quaternion))
-        width = min(camera.width, _WIDTH)
-        height = max(1, round(camera.height * width / camera.width))
-        lens = PinholeLens(width, height, camera.horizontal_fov, camera.near, camera.far)
-        found: Picture = simulation.live_scene.render(
-            lens, at, turned, world, want=("color",)
-        ).color[0]
+        found: Picture = model.preview(self._context.chosen, _WIDTH)[0]
         return found
