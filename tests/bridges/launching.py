@@ -60,12 +60,12 @@ class Found:
 class Launched:
     """A launch file that runs in a process of its own, and a node that watches the graph."""
 
-    def __init__(self, uri, corpus, folder, file, name="/watcher"):
+    def __init__(self, uri, corpus, folder, file, name="/watcher", more=None):
         self._log = folder / "launch.log"
         with self._log.open("w", encoding="utf-8") as log:
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "gazelle", "launch", *file.split()],
-                env=environment(uri, corpus, folder),
+                env=environment(uri, corpus, folder) | (more or {}),
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL,

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import ast
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats
+from gazelle.array_types import Floats, Indices
 from gazelle.errors import Error
 
 _CORNERS = 16
@@ -67,11 +65,37 @@ def placed(footprint: Floats, x: float, y: float, heading: float) -> Floats:
     return corners
 
 
-def inside(corners: Floats, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> Bools:
-    """Which points are within a polygon, by the even-odd rule; shape of ``x`` and ``y``."""
-    found = np.zeros(np.broadcast(x, y).shape, np.bool_)
-    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if ay != by:
-            crossing = ax + (y - ay) * (bx - ax) / (by - ay)
-            found ^= ((ay <= y) != (by <= y)) & (x < crossing)
+def cells_under(corners: Indices) -> tuple[Indices, Indices]:
+    """The cells that a robot is on, those of its outline included.
+
+    The lines from corner to corner are those along which local planners look for obstacles, so that
+    a robot never stands on an obstacle in a costmap where these cells were freed.
+
+    Args:
+        corners: Columns and rows of the corners of a convex outline, shape (n, 2).
+
+    Returns:
+        Columns and rows, shape (k,) each.
+    """
+    lines = [_line(*ends) for ends in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+    columns, rows = np.concatenate(lines).T
+    first = int(columns.min())
+    count = int(columns.max()) - first + 1
+    low, high = np.full(count, rows.max()), np.full(count, rows.min())
+    np.minimum.at(low, columns - first, rows)
+    np.maximum.at(high, columns - first, rows)
+    heights = high - low + 1
+    which = np.repeat(np.arange(count), heights)
+    above = np.arange(len(which)) - np.repeat(np.cumsum(heights) - heights, heights)
+    return first + which, low[which] + above
+
+
+def _line(start: Indices, end: Indices) -> Indices:
+    """The cells of Bresenham's line between two cells, as base_local_planner draws it, shape (k, 2)."""
+    along = np.abs(end - start)
+    count = int(along.max())
+    if count == 0:
+        return start[None]
+    steps = np.arange(count + 1)[:, None]
+    found: Indices = start + np.sign(end - start) * ((count // 2 + steps * along) // count)
     return found

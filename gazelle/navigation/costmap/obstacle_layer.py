@@ -10,7 +10,7 @@ import numpy as np
 
 from gazelle.array_types import Bytes, Floats
 from gazelle.navigation.costmap.costmap import Costmap, Layer, raise_to, roll
-from gazelle.navigation.costmap.footprint import inside, placed
+from gazelle.navigation.costmap.footprint import cells_under, placed
 from gazelle.navigation.costmap.rays import clear_rays
 from gazelle.navigation.costmap.values import (
     FREE_SPACE,
@@ -209,10 +209,9 @@ class ObstacleLayer(Layer):
 
 
 def _fill(cells: Bytes, costmap: Costmap, outline: Floats, cost: int) -> None:
-    """Give all cells whose middles are within an outline a cost."""
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    window = costmap.window_of(CostmapBounds(low[0], low[1], high[0], high[1]))
-    side = costmap.resolution
-    x = costmap.origin[0] + (np.arange(window.x0, window.x1, dtype=np.float64) + 0.5) * side
-    y = costmap.origin[1] + (np.arange(window.y0, window.y1, dtype=np.float64) + 0.5) * side
-    cells[window.slices][inside(outline, x, y[:, None])] = cost
+    """Give all cells that a robot is on a cost."""
+    corners = np.floor((outline - np.array(costmap.origin)) / costmap.resolution).astype(np.intp)
+    columns, rows = cells_under(corners)
+    high, wide = cells.shape
+    on_map = (columns >= 0) & (rows >= 0) & (columns < wide) & (rows < high)
+    cells[rows[on_map], columns[on_map]] = cost

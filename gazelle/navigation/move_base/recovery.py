@@ -69,8 +69,10 @@ class ClearCostmapRecovery(RecoveryBehavior):
 class RotateRecovery(RecoveryBehavior):
     """Turns once around, if there is room.
 
-    Parameters: ``sim_granularity`` 0.017 rad, ``acc_lim_th`` 3.2, ``max_rotational_vel`` 1.0,
-    ``min_in_place_rotational_vel`` 0.4, ``yaw_goal_tolerance`` 0.1.
+    Parameters: ``sim_granularity`` 0.017 rad. As in the original the others stand below
+    ``~TrajectoryPlannerROS``, whichever planner is used: ``acc_lim_theta`` 3.2, ``max_vel_theta`` 1.0,
+    ``min_in_place_vel_theta`` 0.4 (before Melodic ``acc_lim_th``, ``max_rotational_vel``,
+    ``min_in_place_rotational_vel``), ``yaw_goal_tolerance`` 0.1.
     """
 
     def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
@@ -83,38 +85,40 @@ class RotateRecovery(RecoveryBehavior):
         """Go on turning."""
         self._left -= wrapped(in_local[2] - self._last)
         self._last = in_local[2]
-        values = self.parameters
-        if self._left < value_of(values, "yaw_goal_tolerance", 0.1) or not self._has_room(in_local):
+        if self._left < self._limit("yaw_goal_tolerance", "", 0.1) or not self._has_room(in_local):
             return None
-        rate = math.sqrt(2.0 * value_of(values, "acc_lim_th", 3.2) * self._left)
-        least = value_of(values, "min_in_place_rotational_vel", 0.4)
-        most = value_of(values, "max_rotational_vel", 1.0)
+        rate = math.sqrt(2.0 * self._limit("acc_lim_theta", "acc_lim_th", 3.2) * self._left)
+        least = self._limit("min_in_place_vel_theta", "min_in_place_rotational_vel", 0.4)
+        most = self._limit("max_vel_theta", "max_rotational_vel", 1.0)
         return 0.0, 0.0, min(max(rate, least), most)
+
+    def _limit(self, name: str, before: str, default: float) -> float:
+        """A parameter by its name of today or of before."""
+        values = self.parameters
+        key = before if before in values and name not in values else name
+        return float(value_of(values, key, default))
 
     def _has_room(self, pose: Pose2) -> bool:
         """Whether it hits nothing in what is left to turn."""
         costs = self.local.cells
-        grids = np.zeros((4, *costs.shape), np.int32)
         rollout = TrajectoryRollout(
             costs,
             self.local.origin,
             self.local.resolution,
             self.local.footprint,
-            grids,
+            np.zeros((4, *costs.shape), np.int32),
             np.zeros(6),
             0.0,
         )
         step = max(value_of(self.parameters, "sim_granularity", 0.017), 1e-3)
-        turns = np.arange(0.0, min(self._left, 2.0 * math.pi), step)
-        return all(
-            rollout.footprint_cost(pose[0], pose[1], pose[2] + turn) >= 0.0 for turn in turns
-        )
+        return rollout.can_turn(pose, min(self._left, 2.0 * math.pi), step)
 
 
 MakeRecovery = Callable[[str, Costmap, Costmap, Values], RecoveryBehavior]
+_ROTATE = "rotate_recovery/RotateRecovery"
 _KINDS: dict[str, MakeRecovery] = {
     "clear_costmap_recovery/ClearCostmapRecovery": ClearCostmapRecovery,
-    "rotate_recovery/RotateRecovery": RotateRecovery,
+    _ROTATE: RotateRecovery,
 }
 
 
@@ -147,4 +151,7 @@ def make_recovery(
         given.setdefault("reset_distance", conservative)
     elif name == "aggressive_reset":
         given.setdefault("reset_distance", 4.0 * local.circumscribed)
+    if kind == _ROTATE:
+        base = values.get("TrajectoryPlannerROS")
+        given = {**(base if isinstance(base, Mapping) else {}), **given}
     return _KINDS[kind](name, whole, local, given)

@@ -239,8 +239,9 @@ class MoveBase:
             return self._end(GoalOutcome.SUCCEEDED, REACHED)
         timeout = self.settings.oscillation_timeout
         if timeout > 0.0 and self._last_oscillation + timeout < time:
+            # As in the original a velocity is asked for all the same: a robot that has none waits
+            # for `controller_patience`, and then recoveries follow each other at once.
             self._recover(_Trigger.OSCILLATION)
-            return MoveStep(STOP)
         velocity = self.controller.command(state.in_local, state.velocity, to_local)
         if velocity is not None:
             self._last_control = time
@@ -271,11 +272,13 @@ class MoveBase:
         if velocity is not None:
             return MoveStep(velocity, recovery=begun)
         self._running = None
-        self._last_oscillation = self._last_plan = self._last_control = time
+        self._last_oscillation = self._last_plan = time
         self._retries = 0
         self._recovery_index += 1
         self.phase = Phase.PLANNING
-        return MoveStep(STOP, recovery=begun)
+        # A robot that turned is not stopped: from a stand, a base whose least turning rate is more
+        # than it can reach within a cycle has no way to turn on the spot.
+        return MoveStep(recovery=begun)
 
     def _end(self, outcome: GoalOutcome, text: str) -> MoveStep:
         self.cancel()

@@ -15,7 +15,7 @@ from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.oscillation import OscillationGuard
 from gazelle.navigation.planners.plugins import Values, Velocity
-from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
+from gazelle.navigation.planners.rollout import NO_MOTION, TrajectoryRollout, steps_of
 from gazelle.navigation.planners.stop_rotate import StopRotate, VelocityLimits
 from gazelle.navigation.planners.wavefront import grid_distances
 
@@ -97,18 +97,16 @@ class DwaPlanner(PlanFollower):
                 pose,
                 velocity,
                 goal,
-                lambda wanted: bool(self._score(rollout, pose, velocity, wanted)[0] >= 0.0),
+                lambda wanted: self._fits(rollout, pose, velocity, wanted),
+                lambda angle: rollout.can_turn(pose, angle, self.settings.angular_sim_granularity),
             )
         rollout = self._rollout(pose, plan, goal)
-        commands = self._samples(velocity, pose, goal)
-        costs = self._score(rollout, pose, velocity, commands)
-        costs[self._guard.forbidden(commands)] = -5.0
-        good = costs >= 0.0
-        if not good.any():
+        chosen = self._best(rollout, pose, velocity, self._samples(velocity, pose, goal))
+        if chosen is None:
+            chosen = self._best(rollout, pose, velocity, self._turns_from_rest(velocity))
+        if chosen is None:
             self.local_plan = None
             return None
-        best = int(np.where(good, costs, np.inf).argmin())
-        chosen = commands[best]
         self._guard.update(pose, chosen, self.limits.min_vel_trans)
         self.local_plan = self._driven(pose, chosen)
         return float(chosen[0]), float(chosen[1]), float(chosen[2])
@@ -150,19 +148,49 @@ class DwaPlanner(PlanFollower):
             rollout.accelerate(np.array([acc.acc_lim_x, acc.acc_lim_y, acc.acc_lim_theta]))
         return rollout
 
+    def _best(
+        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, commands: Floats
+    ) -> Floats | None:
+        """The command that costs least, shape (3,); None if all are out of the question."""
+        costs = self._score(rollout, pose, velocity, commands)
+        costs[self._guard.forbidden(commands)] = -5.0
+        good = costs >= 0.0
+        if not good.any():
+            return None
+        best: Floats = commands[int(np.where(good, costs, np.inf).argmin())]
+        return best
+
     def _score(
         self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, commands: Floats
     ) -> Floats:
         s = self.settings
         commands = np.ascontiguousarray(commands, np.float64).reshape(-1, 3)
         steps = steps_of(commands, s.sim_time, s.sim_granularity, s.angular_sim_granularity)
-        if len(commands) == 1:
-            steps = np.maximum(steps, 1)
-        elif len(commands) > 1:
-            steps[self._too_slow_or_fast(commands)] = 0
+        steps[self._too_slow_or_fast(commands)] = 0
         return rollout.judge(
             np.array(pose, np.float64), np.array(velocity, np.float64), commands, steps, s.sim_time
         )
+
+    def _fits(
+        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, wanted: Floats
+    ) -> bool:
+        """Whether a command hits nothing; one that is hardly any motion does not, as in the original."""
+        cost = self._score(rollout, pose, velocity, wanted)[0]
+        return bool(cost >= 0.0 or cost == NO_MOTION)
+
+    def _turns_from_rest(self, velocity: Velocity) -> Floats:
+        """Turning on the spot at the least rate, where that is too much for a cycle, shape (n, 3).
+
+        A base whose ``min_vel_theta`` is more than ``acc_lim_theta`` reaches within a cycle has no
+        way to turn on the spot from a stand. Where driving is out of the question, too, the original
+        waits for recoveries; this planner does what its own turning at goals does, and commands
+        the least rate all the same.
+        """
+        own = self.limits
+        within = abs(velocity[2]) + own.acc_lim_theta * self.period
+        if not within < own.min_vel_theta <= own.max_vel_theta:
+            return np.zeros((0, 3))
+        return np.array([[0.0, 0.0, -own.min_vel_theta], [0.0, 0.0, own.min_vel_theta]])
 
     def _too_slow_or_fast(self, commands: Floats) -> Any:
         """Commands that are neither fast enough nor turn enough, or too fast."""

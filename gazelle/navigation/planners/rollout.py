@@ -242,7 +242,7 @@ class TrajectoryRollout:
     def _edge(
         self, x0: cython.double, y0: cython.double, x1: cython.double, y1: cython.double
     ) -> cython.double:
-        """The highest cost along an edge, given in cells."""
+        """The highest cost along an edge, given in cells: on Bresenham's line between its ends."""
         column: cython.int = cython.cast(cython.int, floor(x0))
         row: cython.int = cython.cast(cython.int, floor(y0))
         wide: cython.int = cython.cast(cython.int, floor(x1)) - column
@@ -250,21 +250,25 @@ class TrajectoryRollout:
         step_x: cython.int = 1 if wide >= 0 else -1
         step_y: cython.int = 1 if high >= 0 else -1
         wide, high = wide * step_x, high * step_y
-        error: cython.int = wide - high
+        count: cython.int = max(wide, high)
+        along: cython.int = count // 2
+        aside: cython.int = count // 2
         worst: cython.double = 0.0
-        for _ in range(wide + high + 1):
+        for _ in range(count + 1):
             if not self._within(column, row):
                 return LEFT_MAP
             cost: cython.double = self._costs[row, column]
             if cost >= 254.0:
                 return ON_OBSTACLE
             worst = max(worst, cost)
-            if error > 0 or (error == 0 and wide > high):
+            along += wide
+            aside += high
+            if along >= count:
+                along -= count
                 column += step_x
-                error -= 2 * high
-            else:
+            if aside >= count:
+                aside -= count
                 row += step_y
-                error += 2 * wide
         return worst
 
     def footprint_cost(self, x: float, y: float, heading: float) -> float:
@@ -274,6 +278,21 @@ class TrajectoryRollout:
         if not self._within(column, row):
             return LEFT_MAP
         return float(self._stands(x, y, cos(heading), sin(heading), column, row))
+
+    def can_turn(self, pose: tuple[float, float, float], angle: float, step: float) -> bool:
+        """Whether the robot hits nothing while it turns on the spot.
+
+        Args:
+            pose: x, y [m] and heading [rad].
+            angle: How far, counter-clockwise [rad].
+            step: Between headings that are looked at [rad].
+        """
+        x, y, heading = pose
+        count = max(int(np.ceil(abs(angle) / step)), 1)
+        return all(
+            self.footprint_cost(x, y, heading + angle * number / count) >= 0.0
+            for number in range(count + 1)
+        )
 
 
 @cython.cfunc

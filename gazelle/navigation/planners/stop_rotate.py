@@ -93,15 +93,24 @@ class StopRotate:
         return self.at_position(pose, goal) and turned and self._stands(velocity)
 
     def command(
-        self, pose: Pose2, velocity: Velocity, goal: Pose2, fits: Callable[[Floats], bool]
+        self,
+        pose: Pose2,
+        velocity: Velocity,
+        goal: Pose2,
+        fits: Callable[[Floats], bool],
+        can_turn: Callable[[float], bool],
     ) -> Velocity | None:
         """Stop, or turn; None if there is no room for it.
+
+        It turns the shorter way round, as the original, unless only the longer one is free. What the
+        original asks of a turn, that it could go on for ``sim_time``, is only asked where neither is.
 
         Args:
             pose: Of the robot.
             velocity: That it has.
             goal: In the same frame.
             fits: Says whether a command hits nothing.
+            can_turn: Says whether turning on the spot by an angle hits nothing.
         """
         left = wrapped(goal[2] - pose[2])
         if abs(left) <= self.limits.yaw_goal_tolerance:
@@ -109,10 +118,12 @@ class StopRotate:
             return STOP
         if not self._turning and not self._stands(velocity):
             wanted = self._braked(velocity)
-        else:
-            self._turning = True
-            wanted = 0.0, 0.0, self._turn(left, velocity[2])
-        return wanted if fits(np.array([wanted])) else None
+            return wanted if fits(np.array([wanted])) else None
+        self._turning = True
+        around = left - math.copysign(2.0 * math.pi, left)
+        free = next((angle for angle in (left, around) if can_turn(angle)), None)
+        wanted = 0.0, 0.0, self._turn(left if free is None else free, velocity[2])
+        return wanted if free is not None or fits(np.array([wanted])) else None
 
     def _stands(self, velocity: Velocity) -> bool:
         slow = math.hypot(velocity[0], velocity[1]) <= self.limits.trans_stopped_vel

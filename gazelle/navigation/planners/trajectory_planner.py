@@ -107,6 +107,7 @@ class TrajectoryPlanner(PlanFollower):
                 velocity,
                 goal,
                 lambda wanted: bool(self._score(rollout, pose, velocity, wanted)[0] >= 0.0),
+                lambda angle: rollout.can_turn(pose, angle, self.settings.angular_sim_granularity),
             )
         chosen = self._best(rollout, to_goal, pose, velocity)
         self.local_plan = None

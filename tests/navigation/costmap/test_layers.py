@@ -20,8 +20,9 @@ from gazelle.navigation.costmap import (
     costmap_of,
     footprint_of,
 )
-from gazelle.navigation.costmap.footprint import inside, radii_of
+from gazelle.navigation.costmap.footprint import cells_under, placed, radii_of
 from gazelle.navigation.costmap.values import shown
+from gazelle.navigation.planners.rollout import TrajectoryRollout
 
 SQUARE = footprint_of([[-1, -1], [-1, 1], [1, 1], [1, -1]], padding=0.0)
 LETHAL, INSCRIBED, FREE, UNKNOWN = 254, 253, 0, 255
@@ -68,11 +69,25 @@ def test_what_is_no_footprint_is_refused(wrong):
         footprint_of(wrong)
 
 
-@given(st.floats(-2, 2), st.floats(-2, 2))
-def test_points_are_within_a_square_or_not(x, y):
-    if abs(abs(x) - 1) > 1e-9 and abs(abs(y) - 1) > 1e-9:
-        found = inside(SQUARE, np.array([x]), np.array([y]))[0]
-        assert found == (abs(x) < 1 and abs(y) < 1)
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(-4.0, 4.0), st.floats(0.3, 6.0))
+def test_a_robot_is_on_the_cells_within_it_and_on_its_outline(x, y, heading, long):
+    corners = placed(SQUARE * (long, 2.5), x, y, heading)
+    found = set(
+        zip(*(axis.tolist() for axis in cells_under(np.floor(corners).astype(int))), strict=True)
+    )
+    for column in range(-10, 11):
+        for row in range(-10, 11):
+            # In the frame of the robot: a cell whose middle is more than a diagonal within is one of
+            # them, one that is more than a diagonal off is none.
+            dx, dy = column + 0.5 - x, row + 0.5 - y
+            along = abs(math.cos(heading) * dx + math.sin(heading) * dy) - long
+            aside = abs(math.cos(heading) * dy - math.sin(heading) * dx) - 2.5
+            if max(along, aside) < -1.5:
+                assert (column, row) in found
+            if max(along, aside) > 1.5:
+                assert (column, row) not in found
+    columns, rows = np.floor(corners).astype(int).T
+    assert set(zip(columns.tolist(), rows.tolist(), strict=True)) <= found
 
 
 # Inflation -------------------------------------------------------------------------------
@@ -204,6 +219,29 @@ def test_a_robot_stands_on_free_ground():
     )
     assert costmap.cost_at(5.5, 5.5) == FREE
     assert costmap.cost_at(8.5, 8.5) == LETHAL
+
+
+@given(
+    st.floats(-0.05, 0.05), st.floats(-0.05, 0.05), st.floats(-4.0, 4.0), st.floats(0.05, 0.4), st.integers(3, 6)
+)  # fmt: skip
+def test_a_robot_among_obstacles_never_stands_on_one(x, y, heading, side, corners):
+    """What is seen where it stands is freed up to its outline, so that it may drive off again."""
+    turns = 2.0 * math.pi * np.arange(corners) / corners
+    footprint = side * np.stack((np.cos(turns), 0.7 * np.sin(turns)), axis=1)
+    source = ObservationSource(obstacle_range=9)
+    costmap = Costmap(
+        [ObstacleLayer("o", {"scan": source}), InflationLayer(radius=0.3)],
+        footprint, width=2, height=2, resolution=0.05, rolling=True,
+    )  # fmt: skip
+    grid = np.stack(np.meshgrid(*[np.arange(-0.9, 0.9, 0.04)] * 2), -1).reshape(-1, 2)
+    points = np.column_stack((grid, np.full(len(grid), 0.5)))
+    look(costmap.layers[0], costmap, points, pose=(x, y, heading))
+    rollout = TrajectoryRollout(
+        costmap.cells, costmap.origin, 0.05, footprint, np.zeros((4, *costmap.cells.shape), np.int32),
+        np.zeros(6), 0.0,
+    )  # fmt: skip
+    assert rollout.footprint_cost(x, y, heading) >= 0.0
+    assert rollout.footprint_cost(x + 0.3, y, heading) < 0.0
 
 
 def test_a_rolling_map_keeps_what_stays_in_its_window():

@@ -115,6 +115,58 @@ def test_there_is_no_command_when_it_is_walled_in():
     assert planner.command((1.0, 1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) is None
 
 
+@pytest.mark.parametrize(
+    "limits",
+    [
+        {},
+        {"min_vel_trans": 0.2, "sim_time": 1.5},
+        {"min_vel_theta": 0.9, "max_vel_theta": 1.82},
+        {"acc_lim_theta": 0.1, "min_vel_theta": 0.2},
+    ],
+)
+def test_one_that_stands_between_two_walls_turns(limits):
+    """It cannot reach its least turning rate within a cycle, and may drive neither way."""
+    _, _, local = world([(0.7, 0.6, 0.75, 1.4), (1.2, 0.6, 1.25, 1.4)])
+    start = (1.0, 1.0, 0.0)
+    values = {**DWA, "min_vel_trans": 0.15, "sim_time": 2.0, **limits}
+    local.update(start)
+    planner = DwaPlanner("d", local, values, 0.1)
+    planner.set_plan(np.array([start, (1.0, 1.2, 1.57), (1.0, 3.0, 1.57)]))
+    first = planner.command(start, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    assert first is not None
+    assert first[:2] == (0.0, 0.0)
+    assert abs(first[2]) == pytest.approx(values["min_vel_theta"])
+    assert planner.command(start, first, (0.0, 0.0, 0.0)) is not None
+
+
+@pytest.mark.parametrize(("blocked", "way"), [(None, 1), (math.pi / 2, -1), (-math.pi / 2, 1)])
+def test_at_a_goal_it_turns_the_way_that_is_free(blocked, way):
+    grid, _, local = world()
+    pose = (3.0, 3.0, 0.0)
+    goal = (3.0, 3.0, 3.0)
+    rear = footprint_of([[-0.4, -0.05], [-0.4, 0.05], [0.05, 0.05], [0.05, -0.05]])
+    local.set_footprint(rear)
+    if blocked is not None:
+        # Where its rear passes when it looks there.
+        x, y = 3.0 - 0.35 * math.cos(blocked), 3.0 - 0.35 * math.sin(blocked)
+        grid[
+            round(y / 0.05) - 1 : round(y / 0.05) + 1, round(x / 0.05) - 1 : round(x / 0.05) + 1
+        ] = 100
+        local.layers[0].set_map(OccupancyMap(grid, 0.05, Pose()), local)
+    planner = DwaPlanner("d", local, DWA, 0.1)
+    planner.set_plan(np.array([pose, goal]))
+    velocity, turned = (0.0, 0.0, 0.0), 0.0
+    for _ in range(100):
+        local.update(pose)
+        if planner.goal_reached(pose, velocity, (0.0, 0.0, 0.0)):
+            break
+        velocity = planner.command(pose, velocity, (0.0, 0.0, 0.0))
+        assert velocity is not None
+        turned += 0.1 * velocity[2]
+        pose = (3.0, 3.0, pose[2] + 0.1 * velocity[2])
+    assert turned == pytest.approx(3.0 if way > 0 else 3.0 - 2.0 * math.pi, abs=0.2)
+
+
 def test_velocities_keep_to_the_dynamic_window():
     _, _, local = world()
     local.update((3.0, 3.0, 0.0))
