@@ -36,6 +36,8 @@ _COUNTERS = (
     "_current_progress_remaining",
     "_n_calls",
     "exploration_rate",
+    "least_reward",
+    "greatest_reward",
 )
 
 

@@ -38,10 +38,8 @@ def export_actor(policy: Any) -> Actor:
     if hasattr(policy, "quantile_net"):
         _take_means(weights, biases, policy.quantile_net.n_quantiles)
     if not sees:
-        gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
-        entries = len(gain)
-        biases[0] = biases[0] + offset @ weights[0][:entries]
-        weights[0][:entries] *= gain[:, None]
+        weights[0], more = _unscaled(weights[0], extractor)
+        biases[0] = biases[0] + more
     relu = any(isinstance(module, nn.ReLU) for module in modules)
     continuous = isinstance(space, gym.spaces.Box)
     return Actor(
@@ -56,6 +54,25 @@ def export_actor(policy: Any) -> Actor:
         features=None if sees else extractor.features,
         pictures=extractor.exported() if sees else None,
     )
+
+
+def _unscaled(weight: Floats32, extractor: Any) -> tuple[Floats32, Floats32]:
+    """The first layer for observations as they are: its weights, and what its biases gain.
+
+    Scaling and the differences of goals are linear, so they are part of the layer.
+    """
+    gain, offset = _numpy(extractor.gain), _numpy(extractor.offset)
+    entries = len(gain)
+    added = offset @ weight[:entries]
+    weight[:entries] *= gain[:, None]
+    if extractor.goals is not None:
+        achieved, desired = extractor.goals
+        count = desired.stop - desired.start
+        differences = weight[-count:] * gain[desired, None]
+        weight = weight[:-count].copy()
+        weight[desired] += differences
+        weight[achieved] -= differences
+    return weight, added
 
 
 def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:

@@ -16,6 +16,7 @@ from gazelle.training.goal_replay import GoalReplay
 from gazelle.training.replay import MaskedReplayBuffer
 
 _RUNNING = -1
+_ROUNDS = 2  # in which steps are drawn again
 
 
 class HindsightReplayBuffer(MaskedReplayBuffer):
@@ -29,6 +30,9 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         args: As Stable-Baselines3's ``ReplayBuffer`` takes them.
         goals: Where goals stand in observations, and what they are worth.
         share: Of transitions that get another goal, in [0, 1].
+        redraw: Share of these that is drawn again where that goal was reached before the step
+            already, in [0, 1] (O. Manela and A. Biess, "Bias-reduced hindsight experience replay
+            with virtual goal prioritization", 2019, arXiv 1905.05498, leave all of them out).
         reward_scale: Rewards are multiplied by this.
         kwargs: As there.
     """
@@ -38,11 +42,13 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         *args: Any,
         goals: GoalReplay,
         share: float,
+        redraw: float = 0.0,
         reward_scale: float = 1.0,
         **kwargs: Any,
     ) -> None:
         super().__init__(*args, **kwargs)
         self._goals, self._share, self._reward_scale = goals, share, reward_scale
+        self._redraw = redraw
         shape = self.buffer_size, self.n_envs
         self.episodes = np.zeros(shape, np.int64)
         """The number of the episode of each transition, counted in its copy, modulo the rows."""
@@ -91,19 +97,49 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> dict[str, npt.NDArray[Any]]:
         """The transitions at the given rows and slots, the first of them with other goals."""
-        parts = super()._parts(rows, slots)
         count = round(self._share * len(rows))
         if not count:
-            return parts
+            return super()._parts(rows, slots)
         later = self._later(rows[:count], slots[:count])
+        if self._redraw:
+            self._draw_again(rows[:count], slots[:count], later)
+        parts = super()._parts(rows, slots)
         achieved, desired = self._goals.achieved, self._goals.desired
-        goals = self.next_observations[later, slots[:count]][:, achieved]
+        goals = self._achieved(later, slots[:count])
         parts["observations"][:count, desired] = goals
         parts["next_observations"][:count, desired] = goals
         reached = parts["next_observations"][:count, achieved]
         rewards = self._goals.rewards(reached, goals) * np.float32(self._reward_scale)
         parts["rewards"][:count, 0] = rewards
         return parts
+
+    def _draw_again(
+        self,
+        rows: npt.NDArray[np.intp],
+        slots: npt.NDArray[np.intp],
+        later: npt.NDArray[np.intp],
+    ) -> None:
+        """Change, in place, most of the steps whose goals were reached before them."""
+        looked_at = np.arange(len(rows))
+        for _ in range(_ROUNDS):
+            at, of = rows[looked_at], slots[looked_at]
+            goals = self._achieved(later[looked_at], of)
+            before = self.observations[at, of][:, self._goals.achieved]
+            best = self._goals.rewards(goals, goals)
+            idle = looked_at[self._goals.rewards(before, goals) >= best]
+            chances = np.random.random_sample(len(idle))  # noqa: NPY002  # as the parent draws
+            looked_at = idle[chances < self._redraw]
+            if not len(looked_at):
+                return
+            rows[looked_at], slots[looked_at] = self._draw(len(looked_at))
+            later[looked_at] = self._later(rows[looked_at], slots[looked_at])
+
+    def _achieved(
+        self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
+    ) -> npt.NDArray[Any]:
+        """What was reached after these steps, shape (n, entries)."""
+        reached: npt.NDArray[Any] = self.next_observations[rows, slots][:, self._goals.achieved]
+        return reached
 
     def _later(
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]

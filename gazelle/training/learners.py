@@ -7,11 +7,12 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from stable_baselines3 import DDPG, DQN, SAC, TD3
+from stable_baselines3 import DQN, SAC
 from stable_baselines3.common.noise import NormalActionNoise
 from torch import nn
 
 from gazelle.errors import TaskError
+from gazelle.training.deterministic import FastDDPG, FastTD3
 from gazelle.training.library import build_library_learner
 from gazelle.training.memories import replay_options
 from gazelle.training.picture_features import PictureFeatures
@@ -73,14 +74,6 @@ class _SAC(_Rescaled, SAC):  # type: ignore[misc]  # untyped base
     pass
 
 
-class _TD3(_Rescaled, TD3):  # type: ignore[misc]  # untyped base
-    pass
-
-
-class _DDPG(_Rescaled, DDPG):  # type: ignore[misc]  # untyped base
-    pass
-
-
 def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     settings = recipe.settings
     if not isinstance(settings, PPOSettings):
@@ -122,11 +115,19 @@ def _build_sac(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 
 
 def _build_td3(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return _TD3("MlpPolicy", env, **_noisy(recipe, env, seed))
+    return _settled(FastTD3("MlpPolicy", env, **_noisy(recipe, env, seed)), recipe)
 
 
 def _build_ddpg(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return _DDPG("MlpPolicy", env, **_noisy(recipe, env, seed))
+    return _settled(FastDDPG("MlpPolicy", env, **_noisy(recipe, env, seed)), recipe)
+
+
+def _settled(learner: FastTD3 | FastDDPG, recipe: Recipe) -> Learner:
+    """The learner, with what Stable-Baselines3's own does not take."""
+    learner.ways = settings = _off_policy(recipe)
+    if settings.policy_delay is not None:
+        learner.policy_delay = settings.policy_delay
+    return learner
 
 
 ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
@@ -145,6 +146,9 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     rate = recipe.learning_rate
     sees = is_picture(env.observation_space)
     scale = ObservationScale(env.observation_space, scale=recipe.scale_observations and not sees)
+    extractor: dict[str, Any] = {"scale": scale, "features": recipe.features}
+    if recipe.goal_differences and not sees:
+        extractor["goals"] = _goal_places(env)
     return {
         "learning_rate": (lambda left: left * rate) if recipe.learning_rate_decay else rate,
         "gamma": recipe.gamma,
@@ -154,10 +158,25 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
             "net_arch": list(recipe.net_arch),
             "activation_fn": activation,
             "features_extractor_class": PictureFeatures if sees else ScaledObservations,
-            "features_extractor_kwargs": {"scale": scale, "features": recipe.features},
+            "features_extractor_kwargs": extractor,
             "normalize_images": False,  # as the features extractor does it
         },
     }
+
+
+def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:
+    """Where in observations stands what is reached and what is wanted.
+
+    Raises:
+        TaskError: There are no goals.
+    """
+    goals = env.goal_replay
+    if goals is None:
+        raise TaskError(
+            "this task has no goals, of which a network could be told the differences",
+            hint="leave out goal_differences",
+        )
+    return goals.achieved, goals.desired
 
 
 def _replaying(

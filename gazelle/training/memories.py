@@ -31,6 +31,7 @@ def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
         "replay_buffer_kwargs": {
             "goals": goals,
             "share": recipe.hindsight,
+            "redraw": recipe.hindsight_redraw,
             "reward_scale": recipe.reward_scale,
         },
     }

@@ -67,6 +67,16 @@ class OffPolicySettings:
     """Share of the new weights that goes into the target network at each update."""
     action_noise: float = 0.1
     """Standard deviation of DDPG's and TD3's exploration noise, actions scaled to [-1, 1]."""
+    random_actions: float = 0.0
+    """Share of DDPG's and TD3's actions that are drawn evenly."""
+    action_penalty: float = 0.0
+    """Price of an action's mean square (DDPG, TD3), so that small ones are not given up for good."""
+    bound_values: bool = False
+    """Whether targets stay within what the rewards seen so far can add up to (DDPG, TD3)."""
+    policy_delay: int | None = None
+    """Minibatches for each update of DDPG's and TD3's policy; by default 1 and 2."""
+    bfloat16: bool = False
+    """Whether hidden layers multiply in bfloat16 (DDPG, TD3), where the processor can far faster."""
     exploration_fraction: float = 0.2
     """Share of the training in which DQN's random actions become rare."""
     exploration_final: float = 0.05
@@ -117,6 +127,11 @@ class Recipe:
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
+    hindsight_redraw: float = 0.0
+    """Share of those steps that is drawn again, up to twice, where that goal was reached before the
+    step already: such steps teach standing still, and are most of all while nothing is learnt yet."""
+    goal_differences: bool = False
+    """Whether the network is also given how far what is reached is from the goal, entry by entry."""
     training_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -140,8 +155,9 @@ class Recipe:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
-        if not 0 <= self.hindsight <= 1:
-            raise TaskError(f"hindsight must be between 0 and 1, not {self.hindsight}")
+        for name in ("hindsight", "hindsight_redraw"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")
         wanted = _settings_of(self.algo)
         if not isinstance(self.settings, wanted):
             raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")

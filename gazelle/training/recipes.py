@@ -98,19 +98,25 @@ _FETCH_REACH = Recipe(
     ),
 )
 
-# Not verified, see docs/environments/fetch.md: FetchPush had not begun to learn after 114,000 steps.
 _FETCH_OBJECT = dataclasses.replace(
     _FETCH_REACH,
     steps=1_000_000,
-    num_envs=32,
-    net_arch=(128, 128, 128),
+    num_envs=64,
+    net_arch=(256, 256, 256),
+    hindsight_redraw=0.9,
+    goal_differences=True,
     settings=OffPolicySettings(
         buffer_size=1_000_000,
-        batch_size=256,
+        batch_size=512,
         learning_starts=3_200,
-        gradient_steps=16,
-        tau=0.05,
+        gradient_steps=2,
+        tau=0.1,
         action_noise=0.2,
+        random_actions=0.3,
+        action_penalty=1.0,
+        bound_values=True,
+        policy_delay=2,
+        bfloat16=True,
     ),
 )
 

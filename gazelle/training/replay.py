@@ -33,15 +33,19 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
     def sample(self, batch_size: int, env: Any = None) -> Any:
         """Draw transitions evenly from the valid ones."""
         del env
+        return self._gather(*self._draw(batch_size))
+
+    def _draw(self, count: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+        """Rows and slots of so many valid transitions."""
         filled = self.buffer_size if self.full else self.pos
-        rows = np.random.randint(0, filled, size=batch_size)  # noqa: NPY002  # as the parent draws
-        slots = np.random.randint(0, self.n_envs, size=batch_size)  # noqa: NPY002
+        rows = np.random.randint(0, filled, size=count)  # noqa: NPY002  # as the parent draws
+        slots = np.random.randint(0, self.n_envs, size=count)  # noqa: NPY002
         bad = np.flatnonzero(~self.valid[rows, slots])
         while len(bad):
             rows[bad] = np.random.randint(0, filled, size=len(bad))  # noqa: NPY002
             slots[bad] = np.random.randint(0, self.n_envs, size=len(bad))  # noqa: NPY002
             bad = bad[~self.valid[rows[bad], slots[bad]]]
-        return self._gather(rows, slots)
+        return rows, slots
 
     def get_state(self) -> dict[str, Any]:
         """The memory as arrays, only as far as it is filled."""

@@ -111,12 +111,14 @@ class ObservationScale:
 
 
 class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
-    """Flattens, scales each entry, and adds `Features` if asked to.
+    """Flattens, scales each entry, and adds `Features` and differences if asked to.
 
     Args:
         observation_space: A Box.
         scale: By what; that of all networks of the learner. By default the bounds alone.
         features: Whether sines, cosines and logarithms are added.
+        goals: Where what is reached and the goal stand, if by how much it is missed is added,
+            scaled as the goal is.
     """
 
     def __init__(
@@ -125,11 +127,15 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         *,
         scale: ObservationScale | None = None,
         features: bool = False,
+        goals: tuple[slice, slice] | None = None,
     ) -> None:
         scale = scale or ObservationScale(observation_space)
         size = int(np.prod(observation_space.shape))
         self.features = Features.of(observation_space) if features else None
         added = 0 if self.features is None else self.features.count
+        self.goals = goals
+        if goals is not None:
+            added += goals[1].stop - goals[1].start
         super().__init__(observation_space, features_dim=size + added)
         # The very tensors of the scale, which changes them in place.
         for name in ("gain", "offset", "moments", "tally"):
@@ -142,8 +148,13 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
         """Shape (N, ...) to (N, entries and those added)."""
         flat = observations.flatten(1)
-        scaled: torch.Tensor = flat * self.gain + self.offset
-        return scaled if self.features is None else torch.cat((scaled, self._added(flat)), dim=1)
+        parts = [flat * self.gain + self.offset]
+        if self.features is not None:
+            parts.append(self._added(flat))
+        if self.goals is not None:
+            achieved, desired = self.goals
+            parts.append((flat[:, desired] - flat[:, achieved]) * self.gain[desired])
+        return torch.cat(parts, dim=1) if len(parts) > 1 else parts[0]
 
     def _added(self, flat: torch.Tensor) -> torch.Tensor:
         """What `Features.added_to` adds, of shape (N, added)."""

@@ -1,0 +1,149 @@
+"""DDPG and TD3 with an update that costs a processor less and that goals far away do not upset.
+
+What Stable-Baselines3 computes (T. P. Lillicrap et al., "Continuous control with deep reinforcement
+learning", 2015, arXiv 1509.02971; S. Fujimoto et al., "Addressing Function Approximation Error in
+Actor-Critic Methods", 2018, arXiv 1802.09477), and besides, as M. Plappert et al., "Multi-Goal
+Reinforcement Learning", 2018, arXiv 1802.09464, learn goals: values stay within what rewards can
+add up to, large actions have a price, and some actions are drawn evenly.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from stable_baselines3 import DDPG, TD3
+from torch import nn
+
+from gazelle.training.recipe import OffPolicySettings
+from gazelle.training.scaling import ObservationScale
+
+
+class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
+    """What `FastDDPG` and `FastTD3` have in common.
+
+    Attributes:
+        scale: Of observations.
+        ways: How it learns, beyond what Stable-Baselines3 knows.
+        least_reward: The least that was learnt from so far, 0 at most.
+        greatest_reward: The greatest, 0 at least.
+    """
+
+    scale: ObservationScale
+    ways: OffPolicySettings = OffPolicySettings()
+    least_reward: float = 0.0
+    greatest_reward: float = 0.0
+
+    def train(self, gradient_steps: int, batch_size: int = 100) -> None:
+        """Learn from so many minibatches."""
+        # The memory holds observations as they were, so all that is learnt from is scaled alike.
+        self.scale.refresh()
+        self.policy.set_training_mode(True)
+        self._update_learning_rate([self.actor.optimizer, self.critic.optimizer])
+        critic_loss = actor_loss = torch.zeros(())
+        for _ in range(gradient_steps):
+            self._n_updates += 1
+            batch = self.replay_buffer.sample(batch_size)
+            features = self.actor.features_extractor(batch.observations)
+            critic_loss = self._improve_critic(features, batch)
+            if self._n_updates % self.policy_delay == 0:
+                actor_loss = self._improve_actor(features)
+                self._follow()
+        self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
+        self.logger.record("train/actor_loss", actor_loss.item())
+        self.logger.record("train/critic_loss", critic_loss.item())
+
+    def _improve_critic(self, features: torch.Tensor, batch: Any) -> torch.Tensor:
+        """One step of the critics' optimiser; their loss."""
+        target = self._target(batch)
+        known = torch.cat((features, batch.actions), dim=1)
+        errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
+        loss = torch.stack([error.square().mean() for error in errors]).sum()
+        self.critic.optimizer.zero_grad()
+        torch.autograd.backward(loss)
+        self.critic.optimizer.step()
+        return loss.detach()
+
+    @torch.no_grad()
+    def _target(self, batch: Any) -> torch.Tensor:
+        """What the critics should say, shape (n, 1)."""
+        following = self.actor.features_extractor(batch.next_observations)
+        actions = self._outputs(self.actor_target.mu, following)
+        if self.target_policy_noise:
+            noise = torch.randn_like(actions) * self.target_policy_noise
+            noise = noise.clamp(-self.target_noise_clip, self.target_noise_clip)
+            actions = (actions + noise).clamp(-1.0, 1.0)
+        known = torch.cat((following, actions), dim=1)
+        values = [self._outputs(net, known) for net in self.critic_target.q_networks]
+        value = torch.stack(values).amin(dim=0)
+        target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
+        if not self.ways.bound_values or self.gamma >= 1.0:
+            return target
+        self.least_reward = min(self.least_reward, batch.rewards.min().item())
+        self.greatest_reward = max(self.greatest_reward, batch.rewards.max().item())
+        horizon = 1.0 / (1.0 - self.gamma)
+        return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
+
+    def _improve_actor(self, features: torch.Tensor) -> torch.Tensor:
+        """One step of the actor's optimiser; its loss."""
+        actions = self._outputs(self.actor.mu, features)
+        critic = self.critic.q_networks[0]
+        with _frozen(critic.parameters()):
+            value = self._outputs(critic, torch.cat((features, actions), dim=1)).mean()
+        loss = self.ways.action_penalty * actions.square().mean() - value
+        self.actor.optimizer.zero_grad()
+        torch.autograd.backward(loss)
+        self.actor.optimizer.step()
+        return loss.detach()
+
+    @torch.no_grad()
+    def _follow(self) -> None:
+        """Let the targets come nearer."""
+        pairs = (self.critic, self.critic_target), (self.actor, self.actor_target)
+        for learnt, target in pairs:
+            old, new = list(target.parameters()), list(learnt.parameters())
+            torch._foreach_lerp_(old, new, self.tau)
+
+    def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
+        """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
+        last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
+        with torch.autocast("cpu", torch.bfloat16, enabled=self.ways.bfloat16):
+            hidden = net[:last](inputs)
+        outputs: torch.Tensor = net[last:](hidden.float())
+        return outputs
+
+    def _sample_action(
+        self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
+    ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+        """Actions for the environment, and as the memory keeps them: some drawn evenly."""
+        actions, kept = super()._sample_action(learning_starts, action_noise, n_envs)
+        if self.ways.random_actions and self.num_timesteps >= learning_starts:
+            anyhow = np.random.random_sample(n_envs) < self.ways.random_actions  # noqa: NPY002
+            kept[anyhow] = np.random.uniform(-1.0, 1.0, kept[anyhow].shape)  # noqa: NPY002
+            actions = self.policy.unscale_action(kept)
+        return actions, kept
+
+
+class FastDDPG(_Deterministic, DDPG):  # type: ignore[misc]  # untyped base
+    """DDPG; see the module's text for what differs."""
+
+
+class FastTD3(_Deterministic):
+    """TD3; likewise."""
+
+
+@contextlib.contextmanager
+def _frozen(parameters: Iterable[nn.Parameter]) -> Any:
+    """Ask for no gradients of these meanwhile."""
+    held = list(parameters)
+    for each in held:
+        each.requires_grad_(False)
+    try:
+        yield
+    finally:
+        for each in held:
+            each.requires_grad_(True)
