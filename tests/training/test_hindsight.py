@@ -79,7 +79,7 @@ class Walk(gym.vector.VectorEnv):
         return (desired - achieved)[:, 0]
 
 
-def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0):
+def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0, redraw=0.0):
     adapter = VectorEnvAdapter(Walk(copies, mode, seed))
     memory = HindsightReplayBuffer(
         rows * copies,
@@ -89,6 +89,7 @@ def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0):
         n_envs=copies,
         goals=adapter.goal_replay,
         share=share,
+        redraw=redraw,
         reward_scale=2.0,
     )
     obs = adapter.reset()
@@ -142,6 +143,50 @@ def test_every_later_step_is_as_likely():
     assert place.achieved != place.desired
 
 
+class Doorstep(Walk):
+    """What is reached changes with the 10th step of the second copy alone."""
+
+    def obs(self):
+        parts = super().obs()
+        parts[ACHIEVED] = np.float32((np.arange(self.num_envs) == 1) & (self.count % 1000 > 20))[
+            :, None
+        ]
+        return parts
+
+    def compute_reward(self, achieved, desired, info):
+        return np.where(np.abs(desired - achieved)[:, 0] < 0.5, 0.0, -1.0)
+
+
+@pytest.mark.parametrize("redraw", [0.0, 0.5, 1.0])
+def test_steps_from_where_the_goal_is_reached_are_drawn_again(monkeypatch, redraw):
+    monkeypatch.setitem(globals(), "Walk", Doorstep)
+    memory = filled("SameStep", 30, redraw=redraw, seed=2)
+    place, idle = memory._goals, []
+    for _ in range(40):
+        batch = memory.sample(500)
+        before, after = batch.observations.numpy()[:400], batch.next_observations.numpy()[:400]
+        goal = before[:, place.desired]
+        assert (goal == after[:, place.desired]).all()
+        reached = (goal == after[:, place.achieved])[:, 0]
+        np.testing.assert_array_equal(batch.rewards.numpy()[:400, 0], np.where(reached, 0, -2))
+        idle.append((goal == before[:, place.achieved]).mean())
+    first = np.mean(idle)
+    # Twice drawn again: what was idle with share s still is with s (1 - r) + r s (s (1 - r) + r s s).
+    plain = 1.0 - np.mean([_moving(memory) for _ in range(40)])
+    wanted = plain
+    for _ in range(2):
+        wanted = plain * (1.0 - redraw) + plain * redraw * wanted
+    assert first == pytest.approx(wanted, abs=0.02)
+
+
+def _moving(memory):
+    rows, slots = memory._draw(1000)
+    later = memory._later(rows, slots)
+    achieved = memory._goals.achieved
+    before = memory.observations[rows, slots][:, achieved]
+    return (memory._achieved(later, slots) != before).mean()
+
+
 def test_the_share_is_kept_and_none_is_the_plain_memory():
     plain = filled("SameStep", 60, share=0.0)
     assert (plain.sample(200).rewards.numpy() == WALK).all()
@@ -186,10 +231,23 @@ class StopAt(NoProgress):
             os.kill(os.getpid(), signal.SIGINT)
 
 
-@pytest.mark.parametrize("algo", ["ddpg", "sac", "td3", "tqc"])
-def test_every_algorithm_learns_from_it_and_resumes_with_the_same_bits(tmp_path, algo):
+MORE = {
+    "hindsight_redraw": 0.9,
+    "goal_differences": True,
+    "settings": dataclasses.replace(
+        SMALL, random_actions=0.3, action_penalty=1.0, bound_values=True, bfloat16=True
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("algo", "more"),
+    [("ddpg", {}), ("ddpg", MORE), ("sac", {}), ("td3", {}), ("td3", MORE), ("tqc", {})],
+    ids=["ddpg", "ddpg and more", "sac", "td3", "td3 and more", "tqc"],
+)
+def test_every_algorithm_learns_from_it_and_resumes_with_the_same_bits(tmp_path, algo, more):
     pytest.importorskip("sb3_contrib")
-    given = {"recipe": recipe(algo), "seed": 5}
+    given = {"recipe": recipe(algo, **more), "seed": 5}
     whole = train("test/Slider-v0", out=tmp_path / "whole", **given)
     first = train("test/Slider-v0", out=tmp_path / "cut", progress=StopAt(300), **given)
     assert first.interrupted
