@@ -20,11 +20,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     del args
-    from gazelle.training import VERIFIED, list_tasks, recipe_for
+    from gazelle.training import VERIFIED, list_tasks, listed_recipe
 
     rows = [("TASK", "ALGO", "STEPS", "ENGINE", "PLANAR", "MUJOCO", "SECONDS")]
     for task in list_tasks():
-        recipe = recipe_for(task.name)
+        recipe = listed_recipe(task.id)
         found = VERIFIED.get(task.name)
         rows.append(
             (

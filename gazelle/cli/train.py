@@ -97,7 +97,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     _check(args)
-    from gazelle.training import choose_progress, recipe_for, resume, train, with_values
+    from gazelle.training import choose_progress, resume, task_recipe, train, with_values
 
     if args.sweep is not None:
         return _sweep(args)
@@ -111,8 +111,9 @@ def run(args: argparse.Namespace) -> int:
             ray=args.ray,
         )
         return report(result)
-    bare = args.task.rpartition(":")[2]
-    recipe = with_values(recipe_for(bare, args.algo), dict(args.values))
+    options = environment_options(args)
+    own = task_recipe(args.task, args.algo, imports=args.imports, options=options)
+    recipe = with_values(own, dict(args.values))
     result = train(
         args.task,
         recipe=recipe,
@@ -127,7 +128,7 @@ def run(args: argparse.Namespace) -> int:
         imports=args.imports,
         workers=args.workers,
         ray=args.ray,
-        **environment_options(args),
+        **options,
     )
     return report(result)
 

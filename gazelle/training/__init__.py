@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
+    from gazelle.training.recipe_choice import listed_recipe, task_recipe
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
     from gazelle.training.verified import VERIFIED, Verified
 
@@ -71,11 +72,13 @@ _HOMES = {
     "export_policy": "policy_files",
     "find_task": "tasks",
     "list_tasks": "tasks",
+    "listed_recipe": "recipe_choice",
     "load_actor": "actor",
     "load_policy": "policy_files",
     "make_task": "tasks",
     "recipe_for": "recipes",
     "resume": "session",
+    "task_recipe": "recipe_choice",
     "train": "session",
     "wilson_interval": "statistics",
     "with_values": "overrides",
@@ -109,11 +112,13 @@ __all__ = [
     "export_policy",
     "find_task",
     "list_tasks",
+    "listed_recipe",
     "load_actor",
     "load_policy",
     "make_task",
     "recipe_for",
     "resume",
+    "task_recipe",
     "train",
     "wilson_interval",
     "with_values",

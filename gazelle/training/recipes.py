@@ -22,6 +22,7 @@ from gazelle.training.recipe import (
 
 __all__ = [
     "ALGORITHM_NAMES",
+    "GOALS",
     "LIBRARY_ALGORITHMS",
     "RECIPES",
     "LibrarySettings",
@@ -97,6 +98,32 @@ _FETCH_REACH = Recipe(
         action_noise=0.2,
     ),
 )
+
+# For goals of anybody: what is reached grows slowly at first, so all that makes it grow is used.
+GOALS = Recipe(
+    algo="ddpg",
+    steps=100_000,
+    num_envs=16,
+    net_arch=(128, 128),
+    activation="relu",
+    learning_rate=1e-3,
+    gamma=0.95,
+    hindsight_redraw=0.9,
+    goal_differences=True,
+    settings=OffPolicySettings(
+        buffer_size=1_000_000,
+        batch_size=256,
+        learning_starts=1_600,
+        gradient_steps=4,
+        tau=0.05,
+        action_noise=0.2,
+        random_actions=0.3,
+        action_penalty=1.0,
+        bound_values=True,
+        bfloat16=True,
+    ),
+)
+"""For tasks with goals that have no recipe of their own, see `gazelle.training.recipe_choice`."""
 
 _FETCH_OBJECT = dataclasses.replace(
     _FETCH_REACH,

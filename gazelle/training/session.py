@@ -18,9 +18,10 @@ from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress, Watched
-from gazelle.training.recipes import Recipe, recipe_for
+from gazelle.training.recipes import Recipe
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
+from gazelle.training.recipe_choice import task_recipe
 from gazelle.training.tasks import (
     find_task,
     make_task,
@@ -82,7 +83,7 @@ def train(
     Args:
         task: A task's id or name, or ``module:id`` for one that a module registers.
         algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; by default what the recipe says.
-        recipe: How to train; by default the task's own, see `recipe_for`.
+        recipe: How to train; by default the task's own, see `task_recipe`.
         steps: Control steps in total, instead of the recipe's.
         num_envs: Copies that run at once, instead of the recipe's.
         seed: Seed of everything random.
@@ -109,7 +110,7 @@ def train(
     homes, names = find_callbacks(callbacks)
     modules = load_all([*imports, *([] if module is None else [module]), *homes])
     task = find_task(task)
-    recipe = recipe or recipe_for(task, algo)
+    recipe = recipe or task_recipe(task, algo, options=options)
     recipe = dataclasses.replace(
         recipe,
         steps=recipe.steps if steps is None else steps,

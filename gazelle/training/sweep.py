@@ -16,7 +16,8 @@ from typing import Any
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.training.importing import TaskModule
 from gazelle.training.overrides import with_values
-from gazelle.training.recipes import recipe_for, task_name
+from gazelle.training.recipes import task_name
+from gazelle.training.recipe_choice import task_recipe
 from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
@@ -87,7 +88,8 @@ def sweep(
     """
     plan.check()
     name = task_name(task.rpartition(":")[2])
-    with_values(recipe_for(name, plan.algo), dict.fromkeys(plan.parameters, 1) | {"net_arch": ()})
+    own = task_recipe(task, plan.algo, imports=imports, options=options)
+    with_values(own, dict.fromkeys(plan.parameters, 1) | {"net_arch": ()})
     folder = Path(out) / f"{name}-sweep"
     folder.mkdir(parents=True, exist_ok=True)
     job = TrialJob(

@@ -12,7 +12,7 @@ from typing import Any
 from gazelle.training.evaluation import evaluate
 from gazelle.training.importing import TaskModule
 from gazelle.training.overrides import with_values
-from gazelle.training.recipes import recipe_for, task_name
+from gazelle.training.recipe_choice import task_recipe
 from gazelle.training.session import train
 from gazelle.training.sweep_plan import SweepPlan
 
@@ -93,10 +93,10 @@ class TrialHost:
     def _tried(self, given: TrialValues, runs: Path) -> TrialOutcome:
         """Train and evaluate with some values."""
         job, plan = self._job, self._job.plan
-        bare = task_name(job.task.rpartition(":")[2])
+        own = task_recipe(job.task, plan.algo, imports=job.imports, options=job.options)
         result = train(
             job.task,
-            recipe=with_values(recipe_for(bare, plan.algo), given.values),
+            recipe=with_values(own, given.values),
             steps=plan.steps,
             seed=plan.seed + given.number,
             out=runs,
