@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from gazelle.training.overrides import with_values
     from gazelle.training.policy_files import PolicyFiles, export_policy, load_policy
     from gazelle.training.progress import Progress, choose_progress
+    from gazelle.training.recipe_choice import listed_recipe, task_recipe
     from gazelle.training.recipes import (
         RECIPES,
         LibrarySettings,
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
-    from gazelle.training.recipe_choice import listed_recipe, task_recipe
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
     from gazelle.training.verified import VERIFIED, Verified
 

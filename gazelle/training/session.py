@@ -18,10 +18,10 @@ from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress, Watched
+from gazelle.training.recipe_choice import task_recipe
 from gazelle.training.recipes import Recipe
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
-from gazelle.training.recipe_choice import task_recipe
 from gazelle.training.tasks import (
     find_task,
     make_task,

@@ -16,8 +16,8 @@ from typing import Any
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.training.importing import TaskModule
 from gazelle.training.overrides import with_values
-from gazelle.training.recipes import task_name
 from gazelle.training.recipe_choice import task_recipe
+from gazelle.training.recipes import task_name
 from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
 from gazelle.training.workers.callers import TRIES, call_all, workers_at

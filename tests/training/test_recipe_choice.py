@@ -95,7 +95,7 @@ def test_the_list_tells_by_the_class():
 
 
 def test_an_unknown_task_is_named():
-    with pytest.raises(TaskError, match="no task 'test/Slyder-v0'.*test/Slider-v0"):
+    with pytest.raises(TaskError, match=r"no task 'test/Slyder-v0'.*test/Slider-v0"):
         task_recipe("test/Slyder-v0")
 
 
