@@ -1,4 +1,8 @@
-"""Shapes of collisions and visuals, each in its own frame, z up, lengths in metres."""
+"""Shapes of collisions and visuals, each in its own frame, z up, lengths in metres.
+
+``given`` of a primitive shape is what a file says where that is not greater than zero and other
+lengths were taken, in the order of the attributes; a file that is written says it again.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,13 @@ from gazelle.description.source import Source
 
 @dataclass(frozen=True, slots=True)
 class Empty:
-    """No shape at all: the element is there, but nothing collides or shows."""
+    """No shape at all: the element is there, but nothing collides or shows.
+
+    Attributes:
+        given: The sides of a box without size, if a file calls it that; else none.
+    """
+
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +30,7 @@ class Box:
     """A box centred at the origin; ``size`` is the full length along x, y, z [m]."""
 
     size: Vector3
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +38,7 @@ class Sphere:
     """A sphere centred at the origin."""
 
     radius: float
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +47,7 @@ class Cylinder:
 
     radius: float
     length: float
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +56,7 @@ class Capsule:
 
     radius: float
     length: float
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +64,7 @@ class Ellipsoid:
     """An ellipsoid centred at the origin; ``radii`` along x, y, z [m]."""
 
     radii: Vector3
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +73,7 @@ class Cone:
 
     radius: float
     length: float
+    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

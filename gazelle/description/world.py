@@ -70,6 +70,7 @@ class World:
         plugins: In file order.
         camera: Pose of the user's camera, or None.
         states: ``<state>`` elements kept whole, already applied to the poses above.
+        unrestored: The world before they were applied, for what writes it again; else None.
         extras: Other elements kept whole: road, population, audio, gui, ...
         stage: All that a Stage file says, which ``models`` above are made of; else None.
     """
@@ -89,6 +90,7 @@ class World:
     plugins: tuple[Plugin, ...] = ()
     camera: Pose | None = None
     states: tuple[Parameters, ...] = ()
+    unrestored: World | None = field(default=None, compare=False, repr=False)
     extras: tuple[Parameters, ...] = ()
     stage: StageWorld | None = field(default=None, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 
-from gazelle.description import Parameters
+from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Parameters, Sphere
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 
 LEAST = 1e-4
 """What Gazebo with DART takes for a length of zero; ODE makes a shape of no thickness [m]."""
+
+
+Primitive = Box | Sphere | Cylinder | Capsule | Cone | Ellipsoid
 
 
 def extent(node: Parameters, value: float, what: str, reading: Reading) -> float:
@@ -22,6 +25,32 @@ def extent(node: Parameters, value: float, what: str, reading: Reading) -> float
         return value
     if not math.isfinite(value):
         raise values.fail(node, f"{what} must be finite, found {value:g}")
-    taken = max(abs(value), LEAST)
+    taken = _taken(value)
     reading.fault(f"{what} must be greater than zero, found {value:g}: {taken:g} was taken", node)
     return taken
+
+
+def given(*lengths: float) -> tuple[float, ...]:
+    """The lengths in a file, if others are taken for some of them; else none."""
+    return () if all(length > 0.0 for length in lengths) else lengths
+
+
+def lengths(shape: Primitive) -> tuple[float, ...]:
+    """What to write of a shape: what was given, as long as the present lengths follow from it."""
+    present = _present(shape)
+    follows = len(shape.given) == len(present) and tuple(map(_taken, shape.given)) == present
+    return shape.given if follows else present
+
+
+def _present(shape: Primitive) -> tuple[float, ...]:
+    match shape:
+        case Box(size=sides) | Ellipsoid(radii=sides):
+            return sides
+        case Sphere(radius=radius):
+            return (radius,)
+        case _:
+            return (shape.radius, shape.length)
+
+
+def _taken(value: float) -> float:
+    return value if value > 0.0 else max(abs(value), LEAST)

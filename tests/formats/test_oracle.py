@@ -22,7 +22,6 @@ from gazelle import Error, formats
 from gazelle.formats import xacro
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.formats.sdf import state
 
 ROBOTS = "ROBOTIS-GIT__turtlebot3/turtlebot3_description/urdf"
 MODELS = "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/models"
@@ -55,7 +54,6 @@ FILES = [
 MORE = re.compile(r"more: \S*(/frame\[|/mimic)")
 # robots of the corpus that come out otherwise, and why
 KNOWN_ROBOTS = {
-    "pioneer3dx": "boxes without size, which nothing ever touches, are left out",
     "pr2": "libsdformat forgets that a link is lumped in <gazebo><joint>, so its file cannot be read",
 }
 # what of SDF files comes out otherwise, and why
@@ -195,9 +193,8 @@ def unexpected(found):
 @pytest.mark.slow
 @pytest.mark.timeout(3600)
 @pytest.mark.corpus
-def test_every_sdf_file_of_the_corpus_is_what_libsdformat_reads(corpus, monkeypatch):
+def test_every_sdf_file_of_the_corpus_is_what_libsdformat_reads(corpus):
     roots = sorted({str(config.parent.parent) for config in corpus.rglob("model.config")})
-    monkeypatch.setattr(state, "apply", lambda world: world)  # libsdformat leaves it to Gazebo
     wrong, same = {}, 0
     for path in corpus_table.files(corpus, "sdf", "world"):
         theirs = oracle(path, roots)

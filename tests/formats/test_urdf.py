@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from xml_samples import INERTIAL, joint, link, urdf, urdf_joint, urdf_link
 
 from gazelle import FormatError, Pose
-from gazelle.description import Box, Inertia, Inertial
+from gazelle.description import Box, Empty, Inertia, Inertial
 from gazelle.errors import FormatWarning
 from gazelle.formats.urdf.lump import combine
 
@@ -284,12 +284,6 @@ TWO = urdf_link("a") + "\n" + urdf_link("b") + "\n"
             "/link[@name='a']/inertial/mass",
             "must not be negative",
         ),
-        (
-            urdf_link("a", "<collision>\n<geometry><blob/></geometry></collision>"),
-            3,
-            "/link[@name='a']/collision/geometry/blob",
-            "unknown shape <blob>",
-        ),
     ],
 )
 def test_errors_name_file_line_and_element(body, line, element, reason):
@@ -352,7 +346,34 @@ def test_a_box_without_size_is_left_out_with_a_word():
     nothing = "<collision><geometry><box size='0 0.0 0'/></geometry></collision>"
     with pytest.warns(FormatWarning, match="a box without size is left out"):
         m = urdf(urdf_link("a", f"{INERTIAL}{nothing}<collision>{BOX}</collision>"))
-    assert [each.geometry for each in m.links[0].collisions] == [Box((1, 1, 1))]
+    assert [each.geometry for each in m.links[0].collisions] == [Empty(), Box((1, 1, 1))]
+
+
+@pytest.mark.parametrize("tag", ["collision", "visual"])
+@pytest.mark.parametrize(
+    ("shape", "reason"),
+    [
+        ("<geometry><blob/></geometry>", "unknown shape <blob>"),
+        ("<geometry><bxo size='1 1 1'/></geometry>", "did you mean 'box'"),
+        ("<geometry/>", "needs a <geometry> with a shape"),
+        ("", "needs a <geometry> with a shape"),
+        ("<geometry><box/></geometry>", "'size' is required"),
+        ("<geometry><sphere radius='x'/></geometry>", "expected a number"),
+        ("<geometry><cylinder radius='1'/></geometry>", "'length' is required"),
+        ("<geometry><mesh/></geometry>", "'filename' is required"),
+    ],
+)
+def test_a_part_whose_shape_cannot_be_read_is_left_out_as_by_urdfdom(tag, shape, reason):
+    good = f"<{tag}>{BOX}</{tag}>"
+    with pytest.warns(FormatWarning) as said:
+        m = urdf(urdf_link("a", f"{INERTIAL}{good}<{tag}>{shape}</{tag}>"))
+    told = [text for each in said if f"<{tag}> was left out" in (text := str(each.message))]
+    assert len(told) == 1
+    assert reason in told[0]
+    assert "test.urdf:" in told[0]
+    link = m.links[0]
+    parts = link.collisions if tag == "collision" else link.visuals
+    assert [each.geometry for each in parts] == [Box((1, 1, 1))]
 
 
 @pytest.mark.parametrize("name", ["on", "lamp"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeVar
 
 from gazelle.description import (
     Box,
@@ -22,7 +23,7 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.formats import values
-from gazelle.formats.extent import extent
+from gazelle.formats.extent import extent, given
 from gazelle.formats.reading import Reading
 
 
@@ -47,44 +48,57 @@ def _polylines(nodes: list[Parameters], reading: Reading) -> Polyline:
     return Polyline(tuple(s.outlines[0] for s in shapes), shapes[0].height)
 
 
-def _size(node: Parameters, path: str, default: float, reading: Reading) -> float:
-    return extent(node, values.real(node, path, default), f"<{path}>", reading)
+_ROUND = TypeVar("_ROUND", Cylinder, Capsule, Cone)
 
 
-def _sides(node: Parameters, path: str, reading: Reading) -> Vector3:
+def _round(kind: type[_ROUND], node: Parameters, usual: float, reading: Reading) -> _ROUND:
+    """A shape of a radius and a length."""
+    radius, length = values.real(node, "radius", usual), values.real(node, "length", 1.0)
+    return kind(
+        extent(node, radius, "<radius>", reading),
+        extent(node, length, "<length>", reading),
+        given=given(radius, length),
+    )
+
+
+def _sides(node: Parameters, path: str, reading: Reading) -> tuple[Vector3, tuple[float, ...]]:
+    """The lengths along x, y, z that are taken, and those in the file if they are others."""
     sides = values.vector(node, path, (1.0, 1.0, 1.0))
     x, y, z = (extent(node, side, f"<{path}>", reading) for side in sides)
-    return (x, y, z)
+    return (x, y, z), given(*sides)
 
 
 def read_box(node: Parameters, reading: Reading) -> Box:
     """``<box><size>``."""
-    return Box(_sides(node, "size", reading))
+    sides, others = _sides(node, "size", reading)
+    return Box(sides, given=others)
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """``<sphere><radius>``."""
-    return Sphere(_size(node, "radius", 1.0, reading))
+    radius = values.real(node, "radius", 1.0)
+    return Sphere(extent(node, radius, "<radius>", reading), given=given(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
     """``<cylinder><radius><length>``."""
-    return Cylinder(_size(node, "radius", 1.0, reading), _size(node, "length", 1.0, reading))
+    return _round(Cylinder, node, 1.0, reading)
 
 
 def read_capsule(node: Parameters, reading: Reading) -> Capsule:
     """``<capsule><radius><length>``."""
-    return Capsule(_size(node, "radius", 0.5, reading), _size(node, "length", 1.0, reading))
+    return _round(Capsule, node, 0.5, reading)
 
 
 def read_cone(node: Parameters, reading: Reading) -> Cone:
     """``<cone><radius><length>``."""
-    return Cone(_size(node, "radius", 1.0, reading), _size(node, "length", 1.0, reading))
+    return _round(Cone, node, 1.0, reading)
 
 
 def read_ellipsoid(node: Parameters, reading: Reading) -> Ellipsoid:
     """``<ellipsoid><radii>``."""
-    return Ellipsoid(_sides(node, "radii", reading))
+    radii, others = _sides(node, "radii", reading)
+    return Ellipsoid(radii, given=others)
 
 
 def read_plane(node: Parameters, _: Reading) -> Plane:

@@ -26,7 +26,20 @@ def apply(world: World) -> World:
             for light in world.lights
             for saved in [_saved(lights.get(light.name))]
         ),
+        unrestored=world,
     )
+
+
+def unapplied(world: World) -> World | None:
+    """The world as its file has it, which ``apply`` makes this of; None if it does not."""
+    if not world.states:
+        return world
+    before = world.unrestored
+    if before is not None:
+        known = replace(world, models=before.models, lights=before.lights)
+        if apply(known) == world:
+            return known
+    return world if apply(world) == world else None
 
 
 def _saved(node: Parameters | None) -> Pose | None:

@@ -6,12 +6,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from gazelle.description import (
     Box,
     Capsule,
     Color,
     Cylinder,
+    Empty,
     Geometry,
     Inertia,
     Inertial,
@@ -22,7 +24,7 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
-from gazelle.formats.extent import extent
+from gazelle.formats.extent import extent, given
 from gazelle.formats.reading import Reading
 
 _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -91,30 +93,42 @@ def _required(node: Parameters, tag: str) -> Parameters:
     return child
 
 
-def _size(node: Parameters, name: str, reading: Reading) -> float:
-    return extent(node, values.attribute_real(node, name), f"the {name}", reading)
+_ROUND = TypeVar("_ROUND", Cylinder, Capsule)
 
 
-def read_box(node: Parameters, reading: Reading) -> Box:
-    """``<box size>``."""
+def _round(kind: type[_ROUND], node: Parameters, reading: Reading) -> _ROUND:
+    radius, length = (values.attribute_real(node, name) for name in ("radius", "length"))
+    return kind(
+        extent(node, radius, "the radius", reading),
+        extent(node, length, "the length", reading),
+        given=given(radius, length),
+    )
+
+
+def read_box(node: Parameters, reading: Reading) -> Box | Empty:
+    """``<box size>``; one without any size, which stands for a frame, touches nothing."""
     sides = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
+    if not any(sides):
+        reading.note("a box without size is left out", node)
+        return Empty(given=sides)
     x, y, z = (extent(node, side, "the size of a box", reading) for side in sides)
-    return Box((x, y, z))
+    return Box((x, y, z), given=given(*sides))
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """``<sphere radius>``."""
-    return Sphere(_size(node, "radius", reading))
+    radius = values.attribute_real(node, "radius")
+    return Sphere(extent(node, radius, "the radius", reading), given=given(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
     """``<cylinder radius length>``."""
-    return Cylinder(_size(node, "radius", reading), _size(node, "length", reading))
+    return _round(Cylinder, node, reading)
 
 
 def read_capsule(node: Parameters, reading: Reading) -> Capsule:
     """``<capsule radius length>``, of URDF 1.2."""
-    return Capsule(_size(node, "radius", reading), _size(node, "length", reading))
+    return _round(Capsule, node, reading)
 
 
 def read_mesh(node: Parameters, reading: Reading) -> Mesh:
@@ -152,6 +166,15 @@ def read_geometry(node: Parameters, reading: Reading) -> Geometry:
             return reader(child, reading)
     shape = geometry.children[0]
     raise values.fail(shape, f"unknown shape <{shape.tag}>", hint=did_you_mean(shape.tag, SHAPES))
+
+
+def shape_if_any(node: Parameters, reading: Reading) -> Geometry | None:
+    """The same; None where it cannot be read: urdfdom says so, and goes on without that part."""
+    try:
+        return read_geometry(node, reading)
+    except FormatError as error:
+        reading.tolerate(error, f"the <{node.tag}> was left out")
+        return None
 
 
 @dataclass(frozen=True, slots=True)

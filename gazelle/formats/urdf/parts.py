@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from gazelle.description import (
     Collision,
+    Geometry,
     Light,
     Material,
     Parameters,
@@ -23,7 +24,7 @@ from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.urdf.applied import LUMP, applied, blob, material, real, surface
-from gazelle.formats.urdf.elements import Paint, read_geometry, read_origin, read_paint
+from gazelle.formats.urdf.elements import Paint, read_origin, read_paint, shape_if_any
 from gazelle.formats.urdf.extensions import Extensions
 from gazelle.formats.urdf.tree import LumpedLink, Member
 from gazelle.formats.urdf.upright import upright
@@ -66,31 +67,25 @@ def part_names(body: LumpedLink, tag: str) -> list[tuple[Member, Parameters, str
 def read_collisions(body: LumpedLink, robot: PartReader) -> tuple[Collision, ...]:
     """All collisions of a body."""
     return tuple(
-        _collision(body, member, node, name, robot)
+        _collision(body, member, node, name, shape, robot)
         for member, node, name, _ in part_names(body, "collision")
-        if not _is_nothing(node, robot)
+        if (shape := shape_if_any(node, robot.reading)) is not None
     )
 
 
-def _is_nothing(node: Parameters, robot: PartReader) -> bool:
-    """Whether the shape is a box without size, which Gazebo takes and nothing ever touches."""
-    box = node.find("geometry/box")
-    if box is None:
-        return False
-    if any(values.parse_reals(box, values.attribute(box, "size"), "attribute 'size'", 3)):
-        return False
-    robot.reading.note("a box without size is left out", box)
-    return True
-
-
 def _collision(
-    body: LumpedLink, member: Member, node: Parameters, name: str, robot: PartReader
+    body: LumpedLink,
+    member: Member,
+    node: Parameters,
+    name: str,
+    shape: Geometry,
+    robot: PartReader,
 ) -> Collision:
     elements = applied(body, robot.extensions, "collision", name)
     more = blob(elements, "collision")
     return Collision(
         name=name,
-        geometry=read_geometry(node, robot.reading),
+        geometry=shape,
         pose=upright(member.pose * read_origin(node.find("origin"))),
         surface=surface(elements),
         laser_retro=real(elements, "laserRetro", values.real(more, "laser_retro", 0.0)),
@@ -102,20 +97,25 @@ def _collision(
 def read_visuals(body: LumpedLink, robot: PartReader) -> tuple[Visual, ...]:
     """All visuals of a body."""
     return tuple(
-        _visual(body, member, node, name, robot)
+        _visual(body, member, node, name, shape, robot)
         for member, node, name, _ in part_names(body, "visual")
-        if not _is_nothing(node, robot)
+        if (shape := shape_if_any(node, robot.reading)) is not None
     )
 
 
 def _visual(
-    body: LumpedLink, member: Member, node: Parameters, name: str, robot: PartReader
+    body: LumpedLink,
+    member: Member,
+    node: Parameters,
+    name: str,
+    shape: Geometry,
+    robot: PartReader,
 ) -> Visual:
     elements = applied(body, robot.extensions, "visual", name)
     more = blob(elements, "visual")
     return Visual(
         name=name,
-        geometry=read_geometry(node, robot.reading),
+        geometry=shape,
         pose=upright(member.pose * read_origin(node.find("origin"))),
         material=_material(node, elements, robot),
         transparency=values.real(more, "transparency", 0.0),
@@ -184,9 +184,13 @@ def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:
 
 
 def read_lights(body: LumpedLink, robot: PartReader) -> tuple[Light, ...]:
-    """Lights that ``<gazebo>`` puts on a body."""
+    """Lights that ``<gazebo>`` puts on a body.
+
+    Those of a lumped link are where they would be on the body itself: libsdformat moves sensors
+    and projectors along with such a link, but no light.
+    """
     return tuple(
-        read_light(node, member.pose * read_pose(node.find("pose")))
+        read_light(node, read_pose(node.find("pose")))
         for member in body.members
         for node in robot.extensions.of(member.link.name)
         if node.tag == "light"

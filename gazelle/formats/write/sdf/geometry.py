@@ -22,6 +22,7 @@ from gazelle.description import (
     Polyline,
     Sphere,
 )
+from gazelle.formats.extent import lengths
 from gazelle.formats.write.element import element, group, leaf
 from gazelle.formats.write.writing import Writing
 
@@ -38,25 +39,26 @@ def write_geometry(shape: Geometry, writing: Writing) -> Parameters:
     return element("geometry", *SHAPES[type(shape)](shape, writing))
 
 
-def _empty(_: Empty, __: Writing) -> list[Parameters]:
-    return [element("empty")]
+def _empty(shape: Empty, _: Writing) -> list[Parameters]:
+    return [element("box", leaf("size", shape.given)) if shape.given else element("empty")]
 
 
 def _box(shape: Box, _: Writing) -> list[Parameters]:
-    return [element("box", leaf("size", shape.size))]
+    return [element("box", leaf("size", lengths(shape)))]
 
 
 def _sphere(shape: Sphere, _: Writing) -> list[Parameters]:
-    return [element("sphere", leaf("radius", shape.radius))]
+    return [element("sphere", leaf("radius", *lengths(shape)))]
 
 
 def _round(shape: Cylinder | Capsule | Cone, _: Writing) -> list[Parameters]:
     tag = type(shape).__name__.lower()
-    return [element(tag, leaf("radius", shape.radius), leaf("length", shape.length))]
+    radius, length = lengths(shape)
+    return [element(tag, leaf("radius", radius), leaf("length", length))]
 
 
 def _ellipsoid(shape: Ellipsoid, _: Writing) -> list[Parameters]:
-    return [element("ellipsoid", leaf("radii", shape.radii))]
+    return [element("ellipsoid", leaf("radii", lengths(shape)))]
 
 
 def _plane(shape: Plane, _: Writing) -> list[Parameters]:

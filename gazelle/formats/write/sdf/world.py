@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from gazelle.description import (
     Atmosphere,
     Ode,
@@ -26,6 +28,7 @@ from gazelle.formats.write.writing import Writing
 def write_world(world: World, writing: Writing) -> Parameters:
     """A world with everything in it."""
     usual = World()
+    world = _unrestored(world, writing)
     with inside("world", world):
         distinct("model", world.models)
         return element(
@@ -43,7 +46,7 @@ def write_world(world: World, writing: Writing) -> Parameters:
             *map(write_frame, world.frames),
             *(write_joint(joint, writing) for joint in world.joints),
             *map(write_plugin, world.plugins),
-            *_states(world, writing),
+            *world.states,
             name=world.name,
         )
 
@@ -142,18 +145,19 @@ def _gui(camera: Pose) -> Parameters:
     return element("gui", element("camera", pose_leaf(camera, always=True), name=USER_CAMERA))
 
 
-def _states(world: World, writing: Writing) -> tuple[Parameters, ...]:
-    """Saved states, unless they would move what is no longer where the first one put it."""
-    if not world.states:
-        return ()
+def _unrestored(world: World, writing: Writing) -> World:
+    """The world before its saved state was applied, as libsdformat leaves it.
+
+    Without its states, if they would move what is no longer where the first one put it.
+    """
     try:
-        restored = state.apply(world)
+        before = state.unapplied(world)
     except FormatError:
-        restored = None
-    if restored == world:
-        return world.states
+        before = None
+    if before is not None:
+        return before
     writing.note(
         "the poses differ from those of the saved <state>, which is left out",
         world.states[0].source,
     )
-    return ()
+    return replace(world, states=())

@@ -12,6 +12,7 @@ from gazelle.description import (
     Capsule,
     Collision,
     Cylinder,
+    Empty,
     Geometry,
     Inertial,
     Link,
@@ -23,6 +24,7 @@ from gazelle.description import (
     Visual,
 )
 from gazelle.errors import FormatError
+from gazelle.formats.extent import lengths
 from gazelle.formats.urdf.applied import LUMP
 from gazelle.formats.write.element import angles_of, element, exact_angles, inside, written
 from gazelle.formats.write.writing import Writing
@@ -59,7 +61,12 @@ def write_collisions(link: Link, group: int, shift: Pose, writing: Writing) -> l
 
 def visuals_of(link: Link) -> list[Visual]:
     """The visuals whose shapes URDF has."""
-    return [visual for visual in link.visuals if type(visual.geometry) in SHAPES]
+    return [visual for visual in link.visuals if _has_words(visual.geometry)]
+
+
+def _has_words(shape: Geometry) -> bool:
+    """Whether URDF can say the shape."""
+    return bool(shape.given) if isinstance(shape, Empty) else type(shape) in SHAPES
 
 
 def surfaces(link: Link) -> list[list[Collision]]:
@@ -69,7 +76,7 @@ def surfaces(link: Link) -> list[list[Collision]]:
     """
     found: list[tuple[tuple[object, ...], list[Collision]]] = []
     for collision in link.collisions:
-        if type(collision.geometry) not in SHAPES:
+        if not _has_words(collision.geometry):
             continue
         terms = _terms(collision)
         group = next((group for known, group in found if known == terms), None)
@@ -203,7 +210,7 @@ def _material(visual: Visual, writing: Writing) -> Parameters | None:
 
 def _note_lost(part: Collision | Visual, writing: Writing) -> None:
     shape = part.geometry
-    if type(shape) not in SHAPES:
+    if not _has_words(shape):
         kind = type(shape).__name__.lower()
         writing.note(f"URDF has no shape '{kind}': '{part.name}' is left out", part.source)
     if isinstance(shape, Mesh) and (shape.submesh or shape.center_submesh):
@@ -233,14 +240,16 @@ def package_uri(uri: str, path: Path | None, writing: Writing) -> str:
 
 def _round(shape: Cylinder | Capsule, _: Writing) -> Parameters:
     tag = type(shape).__name__.lower()
-    return element(tag, radius=written(shape.radius), length=written(shape.length))
+    radius, length = map(written, lengths(shape))
+    return element(tag, radius=radius, length=length)
 
 
 SHAPES: dict[type, Callable[[Any, Writing], Parameters]] = {
-    Box: lambda shape, _: element("box", size=written(shape.size)),
+    Box: lambda shape, _: element("box", size=written(lengths(shape))),
     Capsule: _round,
     Cylinder: _round,
+    Empty: lambda shape, _: element("box", size=written(shape.given)),
     Mesh: _mesh,
-    Sphere: lambda shape, _: element("sphere", radius=written(shape.radius)),
+    Sphere: lambda shape, _: element("sphere", radius=written(*lengths(shape))),
 }
 """One writer a shape."""
