@@ -3,7 +3,7 @@
 A TIFF is a picture. SRTM's ``.hgt`` is whole metres of 16 bits, the most significant byte first,
 rows from north to south, -32768 where nothing is known (SRTM Topography, U.S. Geological Survey).
 An ESRI ASCII grid, ``.asc``, has a head of names and values and the rows of the grid from north
-to south (ArcGIS, "Esri ASCII raster format").
+to south (ArcGIS, "Esri ASCII raster format"). The USGS's ``.dem`` has a module of its own.
 """
 
 from __future__ import annotations
@@ -18,9 +18,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError
 from gazelle.formats.picture import MAX_PIXELS, read_elevations
-
-UNREADABLE: Final = frozenset({".dem"})
-"""Suffixes of files of elevations that Gazebo reads, and Gazelle does not."""
+from gazelle.formats.usgs_dem import read_usgs_dem
 
 _UNKNOWN = -32768
 _OBLONG = (3601, 1801)  # north of 50 degrees a degree has half as many columns
@@ -80,6 +78,7 @@ def read_ascii_grid(path: Path) -> Floats:
 
 READERS: Final[dict[str, Callable[[Path], Floats]]] = {
     ".asc": read_ascii_grid,
+    ".dem": read_usgs_dem,
     ".hgt": read_srtm,
     ".tif": read_elevations,
     ".tiff": read_elevations,

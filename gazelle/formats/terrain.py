@@ -26,8 +26,8 @@ def load_heights(shape: Heightmap) -> Floats:
 
     Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
     ``size``. As in Gazebo Classic the brightest pixel has the height ``size[2]`` and black
-    none; where that is negative, heights h become 1 - h. A TIFF, an SRTM tile (``.hgt``) and an
-    ESRI grid (``.asc``) hold elevations: as in Gazebo built with GDAL the highest is scaled to ``size[2]`` and 0 stays the sea, below which nothing
+    none; where that is negative, heights h become 1 - h. A TIFF, an SRTM tile (``.hgt``), an
+    ESRI grid (``.asc``) and a model of the USGS (``.dem``) hold elevations: as in Gazebo built with GDAL the highest is scaled to ``size[2]`` and 0 stays the sea, below which nothing
     lies; the lowest is put to height 0.
 
     Raises:

@@ -25,7 +25,6 @@ from gazelle.description import (
     Polyline,
     Sphere,
 )
-from gazelle.formats.elevations import UNREADABLE
 from gazelle.rendering import tessellation as t
 
 
@@ -82,7 +81,7 @@ def _mesh(shape: Mesh) -> t.TriangleMesh:
 
 
 def _heightmap(shape: Heightmap) -> t.TriangleMesh:
-    if shape.path is None or shape.path.suffix.lower() in UNREADABLE:
+    if shape.path is None:
         return _nothing(shape)
     from gazelle.formats.terrain import load_heights
 

@@ -9,7 +9,7 @@ from PIL import Image as Picture
 from gazelle import formats
 from gazelle.description import Heightmap, Image, Mesh, Polyline, Pose
 from gazelle.engines import make_engine
-from gazelle.errors import EngineWarning, FormatError
+from gazelle.errors import FormatError
 
 
 @pytest.fixture(autouse=True)
@@ -87,7 +87,7 @@ def test_pictures_that_cannot_be_read(tmp_path):
     with pytest.raises(FormatError, match="cannot be used"):
         make_engine("mujoco", scenes.world(bad))
     other = scenes.solid("dem", Heightmap("h.dem", tmp_path / "h.dem"), static=True)
-    with pytest.warns(EngineWarning, match=r"'\.dem' is not supported; it is left out"):
+    with pytest.raises(FormatError, match=r"no elevation model of the USGS.*gdal_translate"):
         make_engine("mujoco", scenes.world(other))
     missing = scenes.solid("gone", Heightmap("h.png", None), static=True)
     make_engine("mujoco", scenes.world(missing, scenes.ground()))

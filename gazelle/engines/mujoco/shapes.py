@@ -33,7 +33,6 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.errors import EngineWarning, located
-from gazelle.formats.elevations import UNREADABLE
 from gazelle.formats.ground import Ground
 
 if TYPE_CHECKING:
@@ -322,12 +321,10 @@ def _polyline(
 
 
 def _heightmap(
-    builder: ShapeBuilder, shape: Heightmap, pose: Pose, source: Source | None
+    builder: ShapeBuilder, shape: Heightmap, pose: Pose, _: Source | None
 ) -> list[dict[str, Any]]:
     if shape.path is None:
         return []
-    if shape.path.suffix.lower() in UNREADABLE:
-        return _left_out(f"a heightmap of kind '{shape.path.suffix}' is not supported", source)
     from gazelle.formats.terrain import load_heights
 
     name = builder.heightmaps.get(shape)
@@ -361,11 +358,6 @@ def _image(_: ShapeBuilder, shape: Image, pose: Pose, __: Source | None) -> list
 
 
 def _nothing(_: ShapeBuilder, __: Empty, ___: Pose, ____: Source | None) -> list[dict[str, Any]]:
-    return []
-
-
-def _left_out(reason: str, source: Source | None) -> list[dict[str, Any]]:
-    warnings.warn(EngineWarning(located(f"{reason}; it is left out", source)), stacklevel=2)
     return []
 
 
