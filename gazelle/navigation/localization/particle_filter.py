@@ -13,10 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Bools, Floats, Indices
+from gazelle.array_types import Floats, Indices
+from gazelle.navigation.localization.pose_bins import PoseBins
 
-_BIN = np.array([0.5, 0.5, math.radians(10.0)])
-"""Sides of the bins that are counted [m, m, rad]."""
+_SIDE = 0.5
+_TURN = math.radians(10.0)
+"""Sides of the bins that are counted [m, rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,20 +123,19 @@ class ParticleFilter:
         even = (np.arange(self.most) + self._random.random()) * (sums[-1] / self.most)
         drawn = np.searchsorted(sums, even, side="right")
         self._random.shuffle(drawn)
-        poses = self.poses[np.minimum(drawn, len(self.poses) - 1)]
+        poses = self.poses.take(np.minimum(drawn, len(self.poses) - 1), axis=0)
         if lost > 0.0:
             elsewhere = self._random.random(self.most) < lost
             poses[elsewhere] = anywhere(int(elsewhere.sum()))
             self._long = self._short = 0.0
-        keys = _keys(poses)
-        fresh = np.zeros(self.most, np.bool_)
-        fresh[np.unique(keys, return_index=True)[1]] = True
-        needed = self.needed(np.cumsum(fresh))
+        bins = PoseBins(poses, _SIDE, _TURN)
+        needed = self.needed(np.arange(bins.count + 1))[bins.counts()]
         enough = np.flatnonzero(np.arange(1, self.most + 1) > needed)
         count = int(enough[0]) + 1 if len(enough) else self.most
         self.poses = np.ascontiguousarray(poses[:count])
         self.weights = np.full(count, 1.0 / count)
-        off = np.abs(self.poses[:, :2] - self.poses[:, :2].mean(axis=0))
+        places = np.ascontiguousarray(self.poses[:, :2].T)
+        off = np.abs(places - places.mean(axis=1, keepdims=True))
         self.converged = bool(off.max() <= _CONVERGED)
 
     def needed(self, bins: Indices) -> Floats:
@@ -148,64 +149,33 @@ class ParticleFilter:
 
     def estimate(self) -> PoseEstimate:
         """What they agree on: the mean of the heaviest cluster."""
-        labels = _clusters(_keys(self.poses))
+        labels = PoseBins(self.poses, _SIDE, _TURN).clusters()
         heaviest = int(np.bincount(labels, self.weights).argmax())
-        chosen: Bools = labels == heaviest
-        mean = _mean(self.poses[chosen], self.weights[chosen])
+        own = np.where(labels == heaviest, self.weights, 0.0)
+        x, y, heading = np.ascontiguousarray(self.poses.T)
+        # What is averaged: place and direction. Sums, as products of matrices are left to several threads,
+        # whose number would show in the last bits.
+        values = np.stack((x, y, np.cos(heading), np.sin(heading)))
+        weight = float(own.sum())
+        at_x, at_y, cos, sin = ((values * own).sum(axis=1) / weight).tolist()
         return PoseEstimate(
-            mean, _covariance(self.poses, self.weights), float(self.weights[chosen].sum())
+            np.array([at_x, at_y, math.atan2(sin, cos)]), _covariance(values, self.weights), weight
         )
 
 
-def _keys(poses: Floats) -> Indices:
-    """A number for the bin of each pose, shape (n,)."""
-    bins = np.floor(poses / _BIN).astype(np.int64) + (1 << 20)
-    found: Indices = (bins[:, 0] << 42) | (bins[:, 1] << 21) | bins[:, 2]
-    return found
+def _covariance(values: Floats, weights: Floats) -> Floats:
+    """Of place, and the circular variance of headings, as amcl gives it; shape (3, 3).
 
-
-_SIDES = [
-    (x << 42) + (y << 21) + turn
-    for x in (-1, 0, 1)
-    for y in (-1, 0, 1)
-    for turn in (-1, 0, 1)
-    if x or y or turn
-]
-
-
-def _clusters(keys: Indices) -> Indices:
-    """Which cluster each bin is in: those that touch are one, shape (n,)."""
-    bins, inverse = np.unique(keys, return_inverse=True)
-    label = dict.fromkeys(bins.tolist(), -1)
-    count = 0
-    for seed in label:
-        if label[seed] >= 0:
-            continue
-        label[seed] = count
-        front = [seed]
-        while front:
-            here = front.pop()
-            for side in _SIDES:
-                if label.get(here + side, 0) < 0:
-                    label[here + side] = count
-                    front.append(here + side)
-        count += 1
-    return np.fromiter(label.values(), np.intp, len(label))[inverse]
-
-
-def _mean(poses: Floats, weights: Floats) -> Floats:
+    Args:
+        values: x, y [m], cosine and sine of the heading, shape (4, n).
+        weights: Shape (n,).
+    """
     share = weights / weights.sum()
-    x, y = share @ poses[:, 0], share @ poses[:, 1]
-    turn = math.atan2(share @ np.sin(poses[:, 2]), share @ np.cos(poses[:, 2]))
-    return np.array([x, y, turn])
-
-
-def _covariance(poses: Floats, weights: Floats) -> Floats:
-    """Of place, and the circular variance of headings, as amcl gives it; shape (3, 3)."""
-    share = weights / weights.sum()
-    away = poses[:, :2] - share @ poses[:, :2]
+    means = (values * share).sum(axis=1)
+    x, y = values[:2] - means[:2, None]
     found = np.zeros((3, 3))
-    found[:2, :2] = (away * share[:, None]).T @ away
-    length = math.hypot(share @ np.sin(poses[:, 2]), share @ np.cos(poses[:, 2]))
+    found[0, 0], found[1, 1] = (share * x * x).sum(), (share * y * y).sum()
+    found[0, 1] = found[1, 0] = (share * x * y).sum()
+    length = math.hypot(means[2], means[3])
     found[2, 2] = -2.0 * math.log(max(min(length, 1.0), 1e-12))
     return found

@@ -13,6 +13,9 @@ from cython.cimports.libc.math import exp, floor
 
 from gazelle.array_types import Bytes, Floats, Floats32
 
+if not cython.compiled:
+    LANES = 32  # in a compiled module, what scan_likelihood.pxd says
+
 
 @cython.cclass
 class LikelihoodField:
@@ -25,19 +28,25 @@ class LikelihoodField:
         outside: What an end off the map adds.
     """
 
-    _terms: cython.float[:, ::1]
+    _rows: cython.int
+    _columns: cython.int
+    _terms: cython.float[::1]
+    _above: cython.uchar[::1]
+    _least: cython.double
     _x0: cython.double
     _y0: cython.double
     _cell: cython.double
-    _outside: cython.double
 
     def __init__(
         self, terms: Floats32, origin: tuple[float, float], resolution: float, outside: float
     ) -> None:
-        # A rim of one cell has what is outside, so that a place just off the map needs no case.
-        self._terms = np.pad(np.asarray(terms, np.float32), 1, constant_values=np.float32(outside))
+        # A rim of one cell has what is outside: all ends beyond it are moved onto it.
+        padded = np.pad(np.asarray(terms, np.float32), 1, constant_values=np.float32(outside))
+        self._rows, self._columns = padded.shape
+        self._terms = padded.ravel()
+        self._above = np.zeros(0, np.uint8)
+        self._least = float("nan")
         self._x0, self._y0, self._cell = origin[0], origin[1], resolution
-        self._outside = outside
 
     def scores(self, poses: Floats, points: Floats, first: float) -> Floats:
         """The sum of what the ends of beams add, at each pose, shape (n,).
@@ -52,9 +61,13 @@ class LikelihoodField:
         return result
 
     def count_above(self, poses: Floats, points: Floats, least: float) -> Floats:
-        """At how many poses each beam's end adds more than `least`, shape (m,)."""
+        """At how many poses each beam's end, being on the map, adds more than `least`, shape (m,)."""
+        if self._least != least:
+            above = (np.asarray(self._terms) > least).reshape(self._rows, self._columns)
+            above[[0, -1]] = above[:, [0, -1]] = False
+            self._above, self._least = above.ravel().view(np.uint8), least
         result = np.zeros(len(points))
-        self._count(poses, points, least, result)
+        self._count(poses, points, result)
         return result
 
     @cython.cfunc
@@ -63,28 +76,21 @@ class LikelihoodField:
         self,
         poses: cython.double[:, ::1],
         points: cython.double[:, ::1],
-        least: cython.double,
         result: cython.double[::1],
     ) -> cython.void:
+        block = cython.declare(cython.double[128])
+        cells = cython.declare(cython.int[32])
         n: cython.Py_ssize_t
         i: cython.Py_ssize_t
-        count: cython.Py_ssize_t = poses.shape[0]
-        beams: cython.Py_ssize_t = points.shape[0]
-        rows: cython.int = self._terms.shape[0]
-        columns: cython.int = self._terms.shape[1]
-        scale: cython.double = 1.0 / self._cell
-        for n in range(count):
-            c: cython.double = cos(poses[n, 2]) * scale
-            s: cython.double = sin(poses[n, 2]) * scale
-            x0: cython.double = (poses[n, 0] - self._x0) * scale + 1.0
-            y0: cython.double = (poses[n, 1] - self._y0) * scale + 1.0
-            for i in range(beams):
-                column: cython.int = cython.cast(
-                    cython.int, x0 + c * points[i, 0] - s * points[i, 1]
-                )
-                row: cython.int = cython.cast(cython.int, y0 + s * points[i, 0] + c * points[i, 1])
-                if 0 <= column < columns and 0 <= row < rows and self._terms[row, column] > least:
-                    result[i] += 1.0
+        k: cython.int
+        above: cython.uchar[::1] = self._above
+        for n in range(0, poses.shape[0], LANES):
+            self._place(poses, n, block)
+            used: cython.int = min(LANES, poses.shape[0] - n)
+            for i in range(points.shape[0]):
+                self._find(block, points[i, 0], points[i, 1], cells)
+                for k in range(used):
+                    result[i] += above[cells[k]]
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -95,30 +101,66 @@ class LikelihoodField:
         first: cython.double,
         result: cython.double[::1],
     ) -> cython.void:
+        block = cython.declare(cython.double[128])
+        cells = cython.declare(cython.int[32])
+        totals = cython.declare(cython.double[32])
         n: cython.Py_ssize_t
         i: cython.Py_ssize_t
-        count: cython.Py_ssize_t = poses.shape[0]
-        beams: cython.Py_ssize_t = points.shape[0]
-        rows: cython.int = self._terms.shape[0]
-        columns: cython.int = self._terms.shape[1]
+        k: cython.int
+        terms: cython.float[::1] = self._terms
+        for n in range(0, poses.shape[0], LANES):
+            self._place(poses, n, block)
+            for k in range(LANES):
+                totals[k] = first
+            for i in range(points.shape[0]):
+                self._find(block, points[i, 0], points[i, 1], cells)
+                for k in range(LANES):
+                    totals[k] += cython.cast(cython.double, terms[cells[k]])
+            for k in range(min(LANES, poses.shape[0] - n)):
+                result[n + k] = totals[k]
+
+    @cython.cfunc
+    @cython.inline
+    @cython.exceptval(check=False)
+    def _place(
+        self, poses: cython.double[:, ::1], first: cython.Py_ssize_t, block: cython.p_double
+    ) -> cython.void:
+        """Where some robots are and how they are turned, in cells; the last one stands in for none."""
+        k: cython.int
         scale: cython.double = 1.0 / self._cell
-        for n in range(count):
-            # One cell to the left and below is the rim; a cast rounds down what is not negative.
-            c: cython.double = cos(poses[n, 2]) * scale
-            s: cython.double = sin(poses[n, 2]) * scale
-            x0: cython.double = (poses[n, 0] - self._x0) * scale + 1.0
-            y0: cython.double = (poses[n, 1] - self._y0) * scale + 1.0
-            total: cython.double = first
-            for i in range(beams):
-                x: cython.double = x0 + c * points[i, 0] - s * points[i, 1]
-                y: cython.double = y0 + s * points[i, 0] + c * points[i, 1]
-                column: cython.int = cython.cast(cython.int, x)
-                row: cython.int = cython.cast(cython.int, y)
-                if 0 <= column < columns and 0 <= row < rows:
-                    total += self._terms[row, column]
-                else:
-                    total += self._outside
-            result[n] = total
+        for k in range(LANES):
+            n: cython.Py_ssize_t = min(first + k, poses.shape[0] - 1)
+            block[k] = (poses[n, 0] - self._x0) * scale + 1.0
+            block[LANES + k] = (poses[n, 1] - self._y0) * scale + 1.0
+            block[2 * LANES + k] = cos(poses[n, 2]) * scale
+            block[3 * LANES + k] = sin(poses[n, 2]) * scale
+
+    @cython.cfunc
+    @cython.inline
+    @cython.exceptval(check=False)
+    def _find(
+        self, block: cython.p_double, px: cython.double, py: cython.double, cells: cython.p_int
+    ) -> cython.void:
+        """The cells where the end of a beam is, for each robot of a block.
+
+        Robots are taken together as their sums do not wait for one another, and as this has no
+        branches a compiler makes vectors of it.
+        """
+        k: cython.int
+        columns: cython.int = self._columns
+        right: cython.double = self._columns - 1
+        top: cython.double = self._rows - 1
+        for k in range(LANES):
+            c: cython.double = block[2 * LANES + k]
+            s: cython.double = block[3 * LANES + k]
+            x: cython.double = block[k] + c * px - s * py
+            y: cython.double = block[LANES + k] + s * px + c * py
+            # In this order what is no number comes to the rim, too.
+            x = max(0.0, x)
+            y = max(0.0, y)
+            x = min(right, x)
+            y = min(top, y)
+            cells[k] = cython.cast(cython.int, y) * columns + cython.cast(cython.int, x)
 
 
 @cython.cclass
