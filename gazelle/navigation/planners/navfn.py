@@ -52,7 +52,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         if first is None or last is None:
             return NO_PLAN
         table = self.prices()
-        prices = table[self.costmap.cells]
+        prices = table.take(self.costmap.cells)
         # The robot stands where it stands, whatever the map says.
         prices[first[1], first[0]] = table[0]
         field = self._prepared()

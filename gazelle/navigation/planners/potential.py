@@ -10,12 +10,14 @@ order of blocks of the least price (K. Konolige, "A gradient method for realtime
 
 import cython
 import numpy as np
-from cython.cimports.libc.math import sqrt
+from cython.cimports.libc.math import fabs, sqrt
 
 from gazelle.array_types import Floats, Floats32
 
 NOT_REACHED = 1e10
 """The potential of cells that cannot be reached, or have not been."""
+
+_FAR = cython.declare(cython.float, NOT_REACHED)
 
 
 @cython.cclass
@@ -35,11 +37,6 @@ class PotentialField:
     _value: cython.float[::1]
     _waiting: cython.uchar[::1]
     _lists: cython.int[:, ::1]
-    _next_count: cython.int
-    _over_count: cython.int
-    _next: cython.int
-    _over: cython.int
-    _threshold: cython.float
 
     def __init__(self, rows: int, columns: int) -> None:
         self._rows, self._columns = rows, columns
@@ -74,96 +71,144 @@ class PotentialField:
         Returns:
             Whether the target was reached; with None, True.
         """
-        np.asarray(self._price)[:] = prices.ravel()
-        edges = np.asarray(self._price).reshape(self._rows, self._columns)
-        edges[:: self._rows - 1] = edges[:, :: self._columns - 1] = 0.0
+        price = np.asarray(self._price).reshape(self._rows, self._columns)
+        # No way through a closed cell is cheaper than none, so that it needs no question of its own.
+        np.copyto(price, np.float32(np.inf))
+        inner = slice(1, -1), slice(1, -1)
+        np.copyto(price[inner], prices[inner], where=prices[inner] > 0.0)
         np.asarray(self._value).fill(NOT_REACHED)
         np.asarray(self._waiting).fill(0)
         first: cython.int = source[1] * self._columns + source[0]
         last: cython.int = -1 if target is None else target[1] * self._columns + target[0]
         self._run(first, last, step, quadratic)
-        return bool(last < 0 or self._value[last] < NOT_REACHED)
+        return bool(last < 0 or self._value[last] < _FAR)
 
     @cython.cfunc
     @cython.exceptval(check=False)
     def _run(
         self, first: cython.int, last: cython.int, step: cython.float, quadratic: cython.bint
     ) -> cython.void:
-        n: cython.int
+        # Local, as they then stay in registers: a byte that is written could be part of any attribute.
+        value: cython.float[::1] = self._value
+        price: cython.float[::1] = self._price
+        waiting: cython.uchar[::1] = self._waiting
+        lists: cython.int[:, ::1] = self._lists
+        columns: cython.int = self._columns
         i: cython.int
         count: cython.int
-        now: cython.int = 0
-        self._next, self._over = 1, 2
-        self._next_count = self._over_count = 0
-        self._threshold = step
-        self._value[first] = 0.0
-        self._push(first + 1, 0.0)
-        self._push(first - 1, 0.0)
-        self._push(first + self._columns, 0.0)
-        self._push(first - self._columns, 0.0)
+        # Which lists have the cells of the next round, of the next block, and of this round; how many.
+        use = cython.declare(cython.int[3])
+        counts = cython.declare(cython.int[2])
+        use[0], use[1], use[2] = 0, 1, 2
+        counts[0] = counts[1] = 0
+        threshold: cython.float = step
+        value[first] = 0.0
+        counts[0] = self._begin(first, columns, price, waiting, lists)
         while True:
-            if self._next_count == 0:
-                if self._over_count == 0:
+            if counts[0] == 0:
+                if counts[1] == 0:
                     return
                 # A block is over when all up to its threshold is settled; so is then the target.
-                if last >= 0 and self._value[last] < self._threshold:
+                if last >= 0 and value[last] < threshold:
                     return
-                self._threshold += 16.0 * step
-                self._next, self._over = self._over, self._next
-                self._next_count, self._over_count = self._over_count, 0
-            now, self._next = self._next, now
-            count, self._next_count = self._next_count, 0
+                threshold += 16.0 * step
+                use[0], use[1] = use[1], use[0]
+                counts[0], counts[1] = counts[1], 0
+            use[0], use[2] = use[2], use[0]
+            count, counts[0] = counts[0], 0
             for i in range(count):
-                self._waiting[self._lists[now, i]] = 0
+                waiting[lists[use[2], i]] = 0
             for i in range(count):
-                n = self._lists[now, i]
-                self._settle(n, quadratic)
+                n: cython.int = lists[use[2], i]
+                if self._settle(n, columns, quadratic, value, price):
+                    self._push_around(
+                        n, columns, threshold, value, price, waiting, lists, use, counts
+                    )
 
     @cython.cfunc
     @cython.exceptval(check=False)
-    def _settle(self, n: cython.int, quadratic: cython.bint) -> cython.void:
-        """Lower a cell's potential to what its neighbours make of it, and tell them."""
-        left: cython.float = self._value[n - 1]
-        right: cython.float = self._value[n + 1]
-        up: cython.float = self._value[n + self._columns]
-        down: cython.float = self._value[n - self._columns]
-        a: cython.float = min(right, left)
-        b: cython.float = min(down, up)
-        price: cython.float = self._price[n]
-        low: cython.float = min(b, a)
-        apart: cython.float = b - a if a < b else a - b
-        value: cython.float
-        if not quadratic or apart >= price:
-            value = low + price
+    def _begin(
+        self,
+        first: cython.int,
+        columns: cython.int,
+        price: cython.float[::1],
+        waiting: cython.uchar[::1],
+        lists: cython.int[:, ::1],
+    ) -> cython.int:
+        """Have the neighbours of the source looked at; how many they are."""
+        side: cython.int
+        count: cython.int = 0
+        for side in range(4):
+            move: cython.int = 1 if side < 2 else columns
+            other: cython.int = first + (move if side % 2 else -move)
+            if price[other] < _FAR:
+                lists[0, count] = other
+                waiting[other] = 1
+                count += 1
+        return count
+
+    @cython.cfunc
+    @cython.inline
+    @cython.exceptval(check=False)
+    def _settle(
+        self,
+        n: cython.int,
+        columns: cython.int,
+        quadratic: cython.bint,
+        value: cython.float[::1],
+        price: cython.float[::1],
+    ) -> cython.bint:
+        """Lower a cell's potential to what its neighbours make of it; whether it is lower now."""
+        a: cython.float = min(value[n + 1], value[n - 1])
+        b: cython.float = min(value[n - columns], value[n + columns])
+        own: cython.float = price[n]
+        apart: cython.float = fabs(a - b)
+        found: cython.float
+        if not quadratic or apart >= own:
+            found = min(b, a) + own
         else:
-            value = 0.5 * (a + b + sqrt(2.0 * price * price - apart * apart))
+            found = 0.5 * (a + b + sqrt(2.0 * own * own - apart * apart))
         # Less than that is no better way but rounding.
-        if value >= self._value[n] - 1e-3:
-            return
-        self._value[n] = value
-        if left > value:
-            self._push(n - 1, value)
-        if right > value:
-            self._push(n + 1, value)
-        if up > value:
-            self._push(n + self._columns, value)
-        if down > value:
-            self._push(n - self._columns, value)
+        if found >= value[n] - 1e-3:
+            return False
+        value[n] = found
+        return True
 
     @cython.cfunc
+    @cython.inline
     @cython.exceptval(check=False)
-    def _push(self, n: cython.int, value: cython.float) -> cython.void:
-        """Have a cell looked at, in this block or the next."""
-        price: cython.float = self._price[n]
-        if self._waiting[n] or price <= 0.0 or self._value[n] <= value + 0.7 * price:
-            return
-        self._waiting[n] = 1
-        if value < self._threshold:
-            self._lists[self._next, self._next_count] = n
-            self._next_count += 1
-        else:
-            self._lists[self._over, self._over_count] = n
-            self._over_count += 1
+    def _push_around(
+        self,
+        n: cython.int,
+        columns: cython.int,
+        threshold: cython.float,
+        value: cython.float[::1],
+        price: cython.float[::1],
+        waiting: cython.uchar[::1],
+        lists: cython.int[:, ::1],
+        use: cython.p_int,
+        counts: cython.p_int,
+    ) -> cython.void:
+        """Have the neighbours of a cell looked at, in this block or the next.
+
+        Whether one needs it is a toss, which a processor cannot guess: so each is written to the end of the list,
+        and the end moves on or not.
+        """
+        own: cython.float = value[n]
+        which: cython.int = 0 if own < threshold else 1
+        line: cython.int = use[which]
+        count: cython.int = counts[which]
+        share: cython.float = 0.7
+        side: cython.int
+        for side in range(4):
+            move: cython.int = 1 if side < 2 else columns
+            other: cython.int = n + (move if side % 2 else -move)
+            wanted: cython.int = value[other] > own + share * price[other]
+            wanted &= waiting[other] ^ 1
+            lists[line, count] = other
+            waiting[other] |= wanted
+            count += wanted
+        counts[which] = count
 
     def way_down(self, start: tuple[int, int], source: tuple[int, int], grid: int = 0) -> Floats:
         """The way of steepest descent from a cell to the source.
@@ -238,7 +283,7 @@ class PotentialField:
         column: cython.int
         for row in range(-1, 2):
             for column in range(-1, 2):
-                if self._value[n + row * self._columns + column] >= NOT_REACHED:
+                if self._value[n + row * self._columns + column] >= _FAR:
                     return False
         return True
 
@@ -277,12 +322,12 @@ class PotentialField:
         here: cython.double = self._value[n]
         low: cython.double = self._value[n - move]
         high: cython.double = self._value[n + move]
-        if here >= NOT_REACHED:
+        if here >= _FAR:
             return 0.0
-        if low >= NOT_REACHED and high >= NOT_REACHED:
+        if low >= _FAR and high >= _FAR:
             return 0.0
         # Downhill only a neighbour that is lower counts: a ridge has no slope of its own.
-        if low < here and (low <= high or high >= NOT_REACHED):
+        if low < here and (low <= high or high >= _FAR):
             return here - low
         if high < here:
             return high - here
