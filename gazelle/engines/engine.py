@@ -279,8 +279,22 @@ class Engine(Protocol):
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
 
-    def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
-        """Hold two links together as they are to each other now, until ``detach`` or a reset."""
+    def attach(
+        self,
+        parent: str,
+        child: str,
+        worlds: Worlds | None = None,
+        settling: float | None = None,
+    ) -> None:
+        """Hold two links together as they are to each other now, until ``detach`` or a reset.
+
+        Args:
+            parent: Scoped name of the link that is held to.
+            child: Scoped name of the link that is held.
+            worlds: Which worlds.
+            settling: Time constant with which they come together again [s], critically damped,
+                where something drew them apart; None for as stiff as can be.
+        """
 
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
         """Let go two links that ``attach`` holds together."""

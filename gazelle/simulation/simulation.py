@@ -268,14 +268,30 @@ class Simulation(Closeable):
         given = None if seed is None else seed_of(seed)
         self.requests.call(lambda: self.entities.reset(chosen, seed=given, time=time))
 
-    def attach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
+    def attach(
+        self,
+        parent: LinkHandle,
+        child: LinkHandle,
+        worlds: Worlds | None = None,
+        *,
+        settling: float | None = None,
+    ) -> None:
         """Hold two links together as they are to each other now, until ``detach`` or a reset.
 
+        Args:
+            parent: What is held to. Where it is a model that is only placed, it leads the other.
+            child: What is held.
+            worlds: Which worlds; all if None.
+            settling: Time constant with which they come together again [s], critically damped, as
+                a soft weld of MuJoCo's; None for as stiff as can be.
+
         Raises:
-            EngineError: Neither link moves, or they are the same.
+            EngineError: Neither link moves, they are the same, or the time constant cannot be.
         """
         some = inputs.chosen(worlds, self.nworld)
-        self.requests.call(lambda: self.engine.attach(parent.name, child.name, some))
+        # Without a time constant as it was always called, so that records of runs stay the same.
+        softly = () if settling is None else (settling,)
+        self.requests.call(lambda: self.engine.attach(parent.name, child.name, some, *softly))
 
     def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
         """Let go two links that ``attach`` holds together.

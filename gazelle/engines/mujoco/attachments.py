@@ -21,15 +21,23 @@ class Attachment:
     Attributes:
         parent: Scoped name of the link that is held to.
         child: Scoped name of the link that is held.
+        settling: Time constant with which they come together [s]; None for as stiff as can be.
     """
 
     parent: str
     child: str
+    settling: float | None = None
 
     @property
     def name(self) -> str:
         """The name of the weld."""
         return f"{self.parent}>{self.child}"
+
+    @property
+    def arguments(self) -> tuple[str | float, ...]:
+        """Of which another one is made."""
+        ends = self.parent, self.child
+        return ends if self.settling is None else (*ends, self.settling)
 
     def is_of(self, model: str) -> bool:
         """Whether one of the links is a model's."""
@@ -43,7 +51,8 @@ def add_attachments(
 ) -> None:
     """Put a weld, switched off, into the model for every pair.
 
-    A static link is part of MuJoCo's world body, which is what the other is then held to.
+    One that settles is critically damped: after that time constant a gap is down to 74 %, after
+    three of them to 20 %. A static link is part of MuJoCo's world body, which is what the other is then held to.
     """
     roots = {body.name: body.root for parts in bodies.values() for body in parts}
     for pair in attachments:
@@ -57,5 +66,5 @@ def add_attachments(
             name1=parent,
             name2=child,
             active=False,
-            solref=[WELD_STEPS * spec.option.timestep, 1.0],
+            solref=[pair.settling or WELD_STEPS * spec.option.timestep, 1.0],
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 
 import numpy as np
@@ -119,9 +120,17 @@ class BodyAccess(StateAccess):
 
     # -- holding -----------------------------------------------------------------------
 
-    def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
-        """Hold two links together as they are to each other now."""
-        pair = Attachment(parent, child)
+    def attach(
+        self,
+        parent: str,
+        child: str,
+        worlds: Worlds | None = None,
+        settling: float | None = None,
+    ) -> None:
+        """Hold two links together as they are to each other now; see the protocol."""
+        if settling is not None and not (math.isfinite(settling) and settling > 0.0):
+            raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
+        pair = Attachment(parent, child, settling)
         ends = [self._now().link(link).body for link in (parent, child)]
         if ends[0] == ends[1]:
             raise EngineError(f"'{parent}' and '{child}' cannot move against each other anyway")

@@ -276,8 +276,8 @@ class MujocoEngine(CarryingSteps):
     def _prepare(self, pair: Attachment) -> MujocoLayout:
         """The layout of what runs, in which two links can be held together."""
         if pair not in self._recipe.attachments:
-            pairs = (*self._recipe.attachments, pair)
-            self._change(replace(self._recipe, attachments=pairs))
+            others = (each for each in self._recipe.attachments if each.name != pair.name)
+            self._change(replace(self._recipe, attachments=(*others, pair)))
         return self._layout
 
     # -- parameters --------------------------------------------------------------------
@@ -337,7 +337,7 @@ class MujocoEngine(CarryingSteps):
         recipe = self._recipe
         calls = [Call("make_kinematic", (name,)) for name in sorted(recipe.kinematic)]
         calls += [Call("add_motor", (m.joint, m.max_effort)) for m in recipe.motors.values()]
-        calls += [Call("attach", (pair.parent, pair.child)) for pair in recipe.attachments]
+        calls += [Call("attach", pair.arguments) for pair in recipe.attachments]
         values: Mapping[tuple[str, str], Floats] = self._parameters.values
         return calls + [
             Call("set_parameter", (kind, name, each)) for (kind, name), each in values.items()

@@ -47,7 +47,13 @@ class Refusals:
         """Refused."""
         raise self.refuse("contact points")
 
-    def attach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+    def attach(
+        self,
+        parent: str,
+        child: str,
+        worlds: Worlds | None = None,
+        settling: float | None = None,
+    ) -> None:
         """Refused."""
         raise self.refuse(f"a joint between '{parent}' and '{child}'")
 

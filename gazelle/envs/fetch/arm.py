@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 import numpy as np
 
@@ -30,17 +30,20 @@ _EFFORT = 1000.0  # of the arm's motors, so that they hold what they are told [N
 _TOLERANCE = (1e-4, 1e-4)  # [m], [rad]
 
 
-def held_model(model: Model, moving: Collection[str]) -> Model:
+def held_model(
+    model: Model, moving: Collection[str], changed: Callable[[Joint], Joint] = driven
+) -> Model:
     """A robot that stands fast, of which only some joints move.
 
     Args:
         model: As its file says.
         moving: Names of the joints that go on moving; the others stay at zero.
+        changed: What becomes of those.
     """
     child = {joint.child for joint in model.joints}
     roots = [link.name for link in model.links if link.name not in child]
     joints = [
-        driven(joint)
+        changed(joint)
         if joint.name in moving
         else dataclasses.replace(joint, type="fixed", axes=(), sensors=())
         for joint in model.joints
@@ -73,7 +76,8 @@ class ReachingArm(CarriedGripper):
         *,
         fingers_move: bool,
     ) -> None:
-        model = held_model(fetch_model(), (*ARM, *(FINGERS if fingers_move else ())))
+        moving = *ARM, *(FINGERS if fingers_move else ())
+        model = self._completed(held_model(fetch_model(), moving, self._changed))
         self._base = np.array([*base, 0.0])
         robot = RobotModel(model)
         group = robot.group_of(ARM, "arm")
@@ -85,14 +89,25 @@ class ReachingArm(CarriedGripper):
         spawned = simulation.spawn(model, name="fetch", pose=Pose(*base, 0.0))
         super().__init__(spawned, group.names, fingers_move=fingers_move)
         self._names = group.names
-        for joint in self._joints:
-            joint.add_motor(_EFFORT)
+        self._add_motors()
         seed = self._zero.copy()
         seed[robot.columns(ARM)] = _BENT
         found = self._kinematics.solve_many(self._poses(np.array([start])), seed)
         if not found.found.all():
             raise TaskError(f"Fetch's gripper cannot be at {start}")
         self._start = found.positions[0]
+
+    def _changed(self, joint: Joint) -> Joint:
+        """One of the joints that move, as it is wanted."""
+        return driven(joint)
+
+    def _completed(self, model: Model) -> Model:
+        """The robot with all that it needs."""
+        return model
+
+    def _add_motors(self) -> None:
+        for joint in self._joints:
+            joint.add_motor(_EFFORT)
 
     def begin(self, worlds: Worlds) -> None:
         """Bend the arm."""

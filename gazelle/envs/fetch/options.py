@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from gazelle.envs.options import TaskOptions, TaskSettings, check_name
 
 REWARDS = ("sparse", "dense")
-CONTROLS = ("gripper", "joint")
+CONTROLS = ("gripper", "joint", "original")
 
 
 class FetchOptions(TaskOptions, total=False):
@@ -23,7 +23,8 @@ class FetchSettings(TaskSettings):
 
     Attributes:
         reward_type: ``sparse`` (0 at the goal, else -1) or ``dense`` (minus the distance).
-        control: ``gripper`` (it flies by itself) or ``joint`` (the joints of the arm carry it).
+        control: ``gripper`` (it flies by itself), ``joint`` (the joints of the arm carry it) or
+            ``original`` (a soft weld draws the arm, as in Gymnasium-Robotics).
 
     Raises:
         TaskError: There is no such reward or control.

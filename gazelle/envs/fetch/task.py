@@ -20,10 +20,12 @@ from gazelle.envs.fetch.figures import (
     LARGEST_STEP,
     NEAR,
     SHARE,
+    FetchFigures,
     figures_of,
 )
 from gazelle.envs.fetch.gripper import CarriedGripper, FlyingGripper
 from gazelle.envs.fetch.options import FetchSettings
+from gazelle.envs.fetch.welded import WELDED_STEP, WeldedArm
 from gazelle.envs.goal_task import GoalSimulationTask
 from gazelle.errors import EngineWarning
 from gazelle.sensors import View, look_at
@@ -49,21 +51,18 @@ class FetchTask(GoalSimulationTask):
 
     def __init__(self, task: str, nworld: int, settings: FetchSettings) -> None:
         self.figures = figures = figures_of(task)
+        welded = settings.control == "original"
         simulation = Simulation(
             assets.world(figures.world),
             settings.engine,
             nworld=nworld,
             seed=settings.seed or 0,
-            time_step=settings.time_step,
+            time_step=settings.time_step or (WELDED_STEP if welded else None),
             threads=settings.threads,
         )
-        self._gripper: CarriedGripper = (
-            ReachingArm(
-                simulation, figures.gripper, figures.base, fingers_move=figures.fingers_move
-            )
-            if settings.control == "joint"
-            else FlyingGripper(simulation, figures.gripper, fingers_move=figures.fingers_move)
-        )
+        self._gripper = _gripper_of(settings.control, simulation, figures)
+        # A weld is told the whole way, of which it gets as far in a step as there.
+        self._reach = LARGEST_STEP if welded else SHARE * LARGEST_STEP
         self._object = simulation.robots["object"] if figures.has_object else None
         self._dense = settings.reward_type == "dense"
         observed = (_OBSERVED[figures.has_object],)
@@ -139,7 +138,7 @@ class FetchTask(GoalSimulationTask):
     def act(self, actions: NDArray[Any]) -> None:
         """Let the gripper go a way, and its fingers open or close."""
         told = np.clip(actions, -1.0, 1.0)
-        self._gripper.move(SHARE * LARGEST_STEP * told[:, :3], CONTROL_PERIOD)
+        self._gripper.move(self._reach * told[:, :3], CONTROL_PERIOD)
         self._gripper.move_fingers(FINGER_SPEED * told[:, 3], CONTROL_PERIOD)
 
     def reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> Bools:
@@ -170,6 +169,15 @@ class FetchTask(GoalSimulationTask):
             away[near] = self.draw(-reach, reach, worlds[near], 2)
             near = near[np.linalg.norm(away[near], axis=1) < CLEAR]
         return centre + away
+
+
+def _gripper_of(control: str, simulation: Simulation, figures: FetchFigures) -> CarriedGripper:
+    """What an option says that carries the gripper."""
+    moving = figures.fingers_move
+    if control == "gripper":
+        return FlyingGripper(simulation, figures.gripper, fingers_move=moving)
+    arm = WeldedArm if control == "original" else ReachingArm
+    return arm(simulation, figures.gripper, figures.base, fingers_move=moving)
 
 
 def _distance(first: NDArray[Any], second: NDArray[Any]) -> NDArray[Any]:

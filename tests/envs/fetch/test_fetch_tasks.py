@@ -102,6 +102,54 @@ def test_the_gripper_moves_as_there(envs, task):
     np.testing.assert_allclose(obs["observation"][:, :3], [STARTS[task]] * 64, atol=1e-3)
 
 
+# Measured there, in Reach: three steps with an action of 1 (or -1) along an axis, and three with 0 [m].
+WELDED_WAYS = {
+    (0, 1): (0.0302, 0.0326, 0.0320, 0.0021, -0.0005, -0.0001),
+    (0, -1): (0.0306, 0.0334, 0.0330, 0.0023, -0.0004, -0.0001),
+    (1, 1): (0.0308, 0.0334, 0.0331, 0.0023, -0.0003, 0.0),
+    (1, -1): (0.0308, 0.0334, 0.0331, 0.0023, -0.0003, 0.0),
+    (2, 1): (0.0304, 0.0333, 0.0330, 0.0025, -0.0004, -0.0001),
+    (2, -1): (0.0306, 0.0335, 0.0331, 0.0027, -0.0002, 0.0001),
+}
+
+
+def test_a_weld_draws_the_arm_as_there():
+    env = vector("Reach", 6, control="original", threads=1)
+    obs, _ = env.reset(seed=1)
+    before = obs["observation"][:, :3]
+    np.testing.assert_allclose(before, [STARTS["Reach"]] * 6, atol=3e-4)
+    ways = np.zeros((6, 6, 3))
+    for step in range(6):
+        actions = np.zeros((6, 4))
+        for world, (axis, sign) in enumerate(WELDED_WAYS):
+            actions[world, axis] = sign * (step < 3)
+        obs, *_ = env.step(actions)
+        ways[:, step] = obs["observation"][:, :3] - before
+        before = obs["observation"][:, :3]
+    for world, ((axis, sign), wanted) in enumerate(WELDED_WAYS.items()):
+        np.testing.assert_allclose(sign * ways[world, :, axis], wanted, atol=1e-3)
+        aside = np.delete(ways[world], axis, axis=1)
+        assert np.abs(aside).max() < 1e-3
+    env.close()
+
+
+def test_a_weld_does_the_same_in_any_number_of_worlds_and_after_a_reset():
+    alone, many = (vector("PickAndPlace", count, control="original") for count in (1, 3))
+    rng, seen = np.random.default_rng(4), []
+    for env in (alone, many):
+        env.reset(seed=5)
+    for _ in range(55):
+        actions = rng.uniform(-1, 1, (3, 4))
+        first, second = alone.step(actions[:1])[0], many.step(actions)[0]
+        seen.append(second["observation"][:, :3])
+        np.testing.assert_array_equal(first["observation"][0], second["observation"][0])
+    starts = np.array(seen)[49]  # the next episode has begun
+    np.testing.assert_allclose(starts, [STARTS["PickAndPlace"]] * 3, atol=3e-4)
+    assert np.abs(np.diff(seen, axis=0)).max() > 0.02
+    for env in (alone, many):
+        env.close()
+
+
 @pytest.mark.parametrize("task", TASKS[1:])
 def test_the_observation_is_what_its_table_says(envs, task):
     env = envs[task]
@@ -169,7 +217,7 @@ def test_episodes_have_fifty_steps_and_a_world_does_the_same_among_others():
         env.close()
 
 
-def picked(env, seed):
+def picked(env, seed, reach=0.033):
     """A policy by hand: over the cube, down, close, and to the goal."""
     obs, _ = env.reset(seed=seed)
     held = np.zeros(env.num_envs)
@@ -183,7 +231,7 @@ def picked(env, seed):
         wanted = np.where(above[:, None], cube + np.array([0, 0, 0.08]), cube)
         wanted = np.where((held > 3)[:, None], grip + np.clip(goal - cube, -0.02, 0.02), wanted)
         actions = np.ones((env.num_envs, 4))
-        actions[:, :3] = np.clip((wanted - grip) / 0.033, -1, 1)
+        actions[:, :3] = np.clip((wanted - grip) / reach, -1, 1)
         actions[held > 0, 3] = -1
         obs, _, _, _, info = env.step(actions)
     return info["is_success"], obs
@@ -278,10 +326,16 @@ for task in sys.argv[1:]:
         obs = now
     for _ in range(200):
         goals.append(env.reset()[0]["desired_goal"])
+    rng, path = np.random.default_rng(3), []
+    env.reset(seed=0)
+    for _ in range(20):
+        action = np.append(rng.uniform(-1, 1, 3), 0.0)
+        action[2] = abs(action[2])  # what leans on a table differs more
+        path.append(env.step(action.astype(np.float32))[0]["observation"][:3].tolist())
     achieved = np.random.default_rng(0).uniform(-0.1, 0.1, (50, 3))
     rewards = env.unwrapped.compute_reward(achieved, np.zeros((50, 3)), {})
     size = env.observation_space["observation"].shape
-    out[task] = dict(start=start.tolist(), ways=ways, size=list(size), rewards=rewards.tolist(),
+    out[task] = dict(start=start.tolist(), ways=ways, path=path, size=list(size), rewards=rewards.tolist(),
                      low=np.min(goals, 0).tolist(), high=np.max(goals, 0).tolist(),
                      period=env.unwrapped.dt, steps=env.spec.max_episode_steps)
 print(json.dumps(out))
@@ -312,3 +366,18 @@ def test_it_equals_gymnasium_robotics_itself(envs):
         achieved = np.random.default_rng(0).uniform(-0.1, 0.1, (50, 3))
         told = env.compute_reward(achieved, np.zeros((50, 3)), {})
         np.testing.assert_allclose(told, there["rewards"])
+        check_path(task, there["path"])
+
+
+def check_path(task, there):
+    """Twenty steps of the weld with any actions."""
+    env, rng, path = vector(task, 1, control="original"), np.random.default_rng(3), []
+    env.reset(seed=0)
+    for _ in range(20):
+        action = np.append(rng.uniform(-1, 1, 3), 0.0)
+        action[2] = abs(action[2])
+        path.append(env.step(action[None])[0]["observation"][0, :3])
+    env.close()
+    ways = [np.diff([STARTS[task], *each], axis=0) for each in (path, there)]
+    np.testing.assert_allclose(*ways, atol=3e-3)
+    np.testing.assert_allclose(path, there, atol=0.02)

@@ -1,0 +1,92 @@
+"""Fetch's arm, drawn after a body that nothing moves, as Gymnasium-Robotics has it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import Inertia, Inertial, Joint, Link, Model
+from gazelle.envs.fetch.arm import ARM, ReachingArm
+from gazelle.envs.fetch.gripper import TIP, driven
+from gazelle.simulation import Simulation
+
+WELDED_STEP = 0.002
+"""Of the physics there [s]."""
+
+_SETTLING = 0.02  # time constant of the weld there [s]
+_HELD = "gripper_held"
+_DAMPING = 50.0  # of the arm's joints there [N m s/rad]
+_DOWN = np.array([0.0, 1.0, 0.0, 1.0])  # quaternion (x, y, z, w), not normalised, that is added
+
+
+class WeldedArm(ReachingArm):
+    """The arm without motors, whose gripper a soft weld draws after a body that is only placed.
+
+    That body, which MuJoCo calls mocap, is put where the gripper is wanted, from where it is, and
+    turned as the sum of two quaternions: what the gripper has, and the one for pointing down.
+
+    Args:
+        simulation: See `ReachingArm`.
+        start: Likewise.
+        base: Likewise.
+        fingers_move: Likewise.
+
+    Raises:
+        TaskError: The arm cannot be there.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        start: tuple[float, float, float],
+        base: tuple[float, float],
+        *,
+        fingers_move: bool,
+    ) -> None:
+        leader = Model(name="fetch_leader", static=True, links=(Link(name="leader"),))
+        self._leader = simulation.spawn(leader)
+        super().__init__(simulation, start, base, fingers_move=fingers_move)
+        self._tip = self._robot.links[_HELD]
+
+    def begin(self, worlds: Worlds) -> None:
+        """Bend the arm, and hold the gripper where it is then."""
+        super().begin(worlds)
+        place = self._tip.placement(worlds)
+        self._leader.set_pose(place.position, place.quaternion, worlds=worlds)
+        leader = self._leader.links["leader"]
+        self._robot.simulation.attach(leader, self._tip, worlds, settling=_SETTLING)
+
+    def move(self, way: Floats, period: float) -> None:
+        """Put the leader that far from the gripper."""
+        del period
+        place = self._tip.placement()
+        turned = place.quaternion * np.where(place.quaternion @ _DOWN < 0.0, -1.0, 1.0)[:, None]
+        turned = turned + _DOWN
+        turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+        self._leader.set_pose(place.position + way, turned)
+
+    def _changed(self, joint: Joint) -> Joint:
+        if joint.name not in ARM:
+            return driven(joint)
+        axes = tuple(dataclasses.replace(axis, damping=_DAMPING) for axis in joint.axes)
+        return dataclasses.replace(joint, axes=axes)
+
+    def _completed(self, model: Model) -> Model:
+        """With a link where the gripper's frame is, which the weld holds there."""
+        frame = next(each for each in model.frames if each.name == TIP)
+        wrist = next(link for link in model.links if link.name == frame.attached_to)
+        speck = Inertial(mass=1e-3, inertia=Inertia(1e-6, 1e-6, 1e-6))
+        held = Link(name=_HELD, pose=wrist.pose * frame.pose, inertial=speck)
+        joint = Joint(name=f"{_HELD}_fixed", type="fixed", parent=wrist.name, child=_HELD)
+        return dataclasses.replace(
+            model, links=(*model.links, held), joints=(*model.joints, joint)
+        )
+
+    def _add_motors(self) -> None:
+        pass  # the weld alone moves the arm
+
+    def _stop(self, worlds: Worlds) -> None:
+        for finger in self._fingers[:1]:
+            finger.drive(0.0, worlds)
