@@ -30,6 +30,7 @@ Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 _FORMAT = "gazelle-policy-1"
 _FEATURES = ("angles", "magnitudes", "spans")
 _PICTURE = "picture"
+_OPTIONAL = ("log_std", "low", "high", "limits")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +46,7 @@ class Actor:
         low: Lower bounds of the actions (continuous heads), shape (actions,).
         high: Upper bounds of the actions (continuous heads), shape (actions,).
         first_action: The number of the first discrete action.
+        limits: Where observations are cut first, least and greatest, shape (2, inputs), if they are.
         features: What is added to observations before the first layer, if anything.
         pictures: What makes pictures numbers for the first layer, of a policy that sees.
     """
@@ -57,6 +59,7 @@ class Actor:
     low: Floats32 | None = None
     high: Floats32 | None = None
     first_action: int = 0
+    limits: Floats32 | None = None
     features: Features | None = None
     pictures: PictureLayers | None = None
 
@@ -91,6 +94,8 @@ class Actor:
         Returns:
             Shape (N, outputs), float32.
         """
+        if self.limits is not None:
+            obs = np.clip(obs, *self.limits)
         if self.pictures is not None:
             x = self.pictures.features(obs)
         else:
@@ -185,7 +190,7 @@ class Actor:
         """Write the policy to a ``.npz`` file without Python objects."""
         arrays = {f"weight{i}": weight for i, weight in enumerate(self.weights)}
         arrays |= {f"bias{i}": bias for i, bias in enumerate(self.biases)}
-        for name in ("log_std", "low", "high"):
+        for name in _OPTIONAL:
             if getattr(self, name) is not None:
                 arrays[name] = getattr(self, name)
         if self.features is not None:
@@ -213,9 +218,7 @@ def load_actor(path: Path) -> Actor:
         with np.load(path, allow_pickle=False) as file:
             about = _read_about(str(file["about"]))
             layers = range(about["layers"])
-            extra: dict[str, Any] = {
-                name: file[name] for name in ("log_std", "low", "high") if name in file
-            }
+            extra: dict[str, Any] = {name: file[name] for name in _OPTIONAL if name in file}
             if _FEATURES[0] in file:
                 extra["features"] = Features(*(file[name] for name in _FEATURES))
             if _PICTURE in file:

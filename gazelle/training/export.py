@@ -51,6 +51,7 @@ def export_actor(policy: Any) -> Actor:
         low=space.low.astype(np.float32) if continuous else None,
         high=space.high.astype(np.float32) if continuous else None,
         first_action=int(space.start) if isinstance(space, gym.spaces.Discrete) else 0,
+        limits=_numpy(extractor.limits) if not sees and extractor.cuts else None,
         features=None if sees else extractor.features,
         pictures=extractor.exported() if sees else None,
     )

@@ -145,7 +145,11 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
     rate = recipe.learning_rate
     sees = is_picture(env.observation_space)
-    scale = ObservationScale(env.observation_space, scale=recipe.scale_observations and not sees)
+    scale = ObservationScale(
+        env.observation_space,
+        scale=recipe.scale_observations and not sees,
+        cut=recipe.cut_observations,
+    )
     extractor: dict[str, Any] = {"scale": scale, "features": recipe.features}
     if recipe.goal_differences and not sees:
         extractor["goals"] = _goal_places(env)

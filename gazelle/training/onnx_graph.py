@@ -45,6 +45,9 @@ def onnx_model(actor: Actor, *, metadata: dict[str, str] | None = None) -> onnx.
     """
     graph = _Graph()
     name = "observation"
+    if actor.limits is not None:
+        least, most = (graph.constant(each) for each in actor.limits)
+        name = graph.add("Min", graph.add("Max", name, least), most)
     if actor.pictures is not None:
         name = _add_pictures(graph, actor.pictures, name)
     elif actor.features is not None:

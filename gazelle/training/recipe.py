@@ -127,6 +127,9 @@ class Recipe:
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
+    cut_observations: float | None = None
+    """Entries that are normalised by what was observed are cut so many standard deviations from their
+    mean, so that what flies off once in a while does not make all else look small; None: not cut."""
     hindsight_redraw: float = 0.0
     """Share of those steps that is drawn again, up to twice, where that goal was reached before the
     step already: such steps teach standing still, and are most of all while nothing is learnt yet."""
@@ -155,6 +158,8 @@ class Recipe:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
+        if self.cut_observations is not None and not self.cut_observations > 0:
+            raise TaskError(f"cut_observations must be above 0, not {self.cut_observations}")
         for name in ("hindsight", "hindsight_redraw"):
             if not 0 <= getattr(self, name) <= 1:
                 raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")

@@ -35,20 +35,25 @@ class ObservationScale:
     Args:
         space: A Box.
         scale: False keeps all entries as they are, for good.
+        cut: At how many standard deviations from the mean entries that are normalised end; None for
+            nowhere, and then the farthest that was observed counts for how they are scaled.
 
     Attributes:
         gain: What an entry is multiplied by, shape (entries,).
         offset: What is added then, shape (entries,).
+        limits: Where entries are cut before that, least and greatest, shape (2, entries).
         moments: Of what was observed: mean, squared deviations, least, greatest, and whether the
             entry is normalised by them, shape (5, entries).
         tally: How many observations were seen, and whether it is decided what is normalised.
     """
 
-    def __init__(self, space: gym.spaces.Box, *, scale: bool = True) -> None:
+    def __init__(
+        self, space: gym.spaces.Box, *, scale: bool = True, cut: float | None = None
+    ) -> None:
         low = space.low.reshape(-1).astype(np.float64)
         high = space.high.reshape(-1).astype(np.float64)
         bounded = (np.abs(low) < _LARGEST_BOUND) & (np.abs(high) < _LARGEST_BOUND) & (high > low)
-        self._scale = scale
+        self._scale, self._cut = scale, cut
         self._span = np.where(bounded, high - low, np.inf)
         bounded &= scale
         low, high = np.where(bounded, low, -1.0), np.where(bounded, high, 1.0)
@@ -57,6 +62,8 @@ class ObservationScale:
         self.offset = torch.as_tensor(-2.0 * centre / span, dtype=torch.float32)
         self.moments = torch.zeros((5, len(low)), dtype=torch.float64)
         self.tally = torch.zeros(2, dtype=torch.float64)
+        self.limits = torch.full((2, len(low)), torch.inf)
+        self.limits[0] = -torch.inf
         self.moments[_LOW], self.moments[_HIGH] = torch.inf, -torch.inf
 
     @property
@@ -64,6 +71,11 @@ class ObservationScale:
         """Which entries are normalised by what was observed, shape (entries,)."""
         loose: npt.NDArray[np.bool_] = self.moments[_LOOSE].numpy() != 0.0
         return loose
+
+    @property
+    def cuts(self) -> bool:
+        """Whether anything can be cut."""
+        return self._cut is not None
 
     @property
     def decided(self) -> bool:
@@ -103,10 +115,12 @@ class ObservationScale:
         mean = moments[_MEAN]
         spread = np.sqrt(moments[_SQUARES] / tally[_COUNT])
         reach = np.maximum(moments[_HIGH] - mean, mean - moments[_LOW])
-        size = np.maximum(spread, reach / _FARTHEST)
+        size = spread if self.cuts else np.maximum(spread, reach / _FARTHEST)
         some = self.normalised & (size > _SMALLEST * np.maximum(np.abs(mean), _SMALLEST))
         self.gain.numpy()[some] = 1.0 / size[some]
         self.offset.numpy()[some] = -mean[some] / size[some]
+        if self._cut is not None:
+            self.limits.numpy()[:, some] = (mean + np.outer([-self._cut, self._cut], size))[:, some]
         return first and bool(some.any())
 
 
@@ -138,8 +152,9 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
             added += goals[1].stop - goals[1].start
         super().__init__(observation_space, features_dim=size + added)
         # The very tensors of the scale, which changes them in place.
-        for name in ("gain", "offset", "moments", "tally"):
+        for name in ("gain", "offset", "moments", "tally", *(["limits"] if scale.cuts else [])):
             self.register_buffer(name, getattr(scale, name))
+        self.cuts = scale.cuts
         if self.features is not None:
             for name in ("angles", "magnitudes", "spans"):
                 values = torch.as_tensor(getattr(self.features, name))
@@ -148,6 +163,8 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
         """Shape (N, ...) to (N, entries and those added)."""
         flat = observations.flatten(1)
+        if self.cuts:
+            flat = flat.clamp(*self.limits)
         parts = [flat * self.gain + self.offset]
         if self.features is not None:
             parts.append(self._added(flat))

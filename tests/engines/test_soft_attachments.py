@@ -26,7 +26,7 @@ def pair(step=0.001, nworld=2):
 
 def gap_after(engine, seconds, away=(0.3, -0.2, 0.1)):
     """How much is left of a gap, after the leader was put elsewhere; shape (nworld,)."""
-    there = np.asarray(away) + [0.0, 0.0, 0.5]
+    there = np.add(away, [0.0, 0.0, 0.5])
     engine.set_model_placement("leader", there, (0.0, 0.0, 0.0, 1.0))
     wanted = engine.link_placement("box::link").position + away
     engine.step(round(seconds / engine.time_step))
@@ -49,7 +49,7 @@ def test_without_a_time_constant_it_is_as_stiff_as_can_be():
     engine = pair()
     engine.set_model_placement("leader", (0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
     engine.attach(*PAIR)
-    assert gap_after(engine, 0.015).max() < 0.05
+    assert gap_after(engine, 0.03).max() < 0.01
 
 
 def test_another_time_constant_takes_the_place_of_the_first():
@@ -81,17 +81,16 @@ def test_what_cannot_be_is_refused(settling):
         pair().attach(*PAIR, None, settling)
 
 
-def test_a_simulation_takes_it_and_saves_it(tmp_path):
+def test_a_simulation_takes_it_and_saves_it():
     world = formats.load_string("<sdf version='1.7'><world name='w'/></sdf>")
     sim = gazelle.Simulation(world)
     leader = sim.spawn(scenes.box("leader", pose=Pose(z=3.0)))
     box = sim.spawn(scenes.box("box", pose=Pose(z=5.0)))
     sim.attach(box.links["link"], leader.links["link"], settling=0.2)
     sim.step(50)
-    saved = sim.save()
+    saved = sim.snapshot()
     sim.step(20)
     wanted = box.position.copy()
-    again = gazelle.Simulation(world)
-    again.load(saved)
-    again.step(20)
-    np.testing.assert_array_equal(again.robots["box"].position, wanted)
+    sim.restore(saved)
+    sim.step(20)
+    np.testing.assert_array_equal(box.position, wanted)

@@ -134,15 +134,17 @@ def test_hidden_layers_in_bfloat16_learn_about_the_same(env):
     assert not torch.equal(found[0], found[1])
 
 
+@pytest.mark.parametrize("cut", [None, 1.5])
 @pytest.mark.parametrize("algo", ["ddpg", "td3", "sac"])
-def test_goals_differences_are_part_of_the_exported_first_layer(env, algo):
-    learner = learner_of(env, recipe(algo, goal_differences=True))
+def test_goals_differences_are_part_of_the_exported_first_layer(env, algo, cut):
+    learner = learner_of(env, recipe(algo, goal_differences=True, cut_observations=cut))
     learner.scale.refresh()
     entries = env.observation_space.shape[0]
     assert learner.actor.features_extractor.features_dim == entries + 2
     actor = export_actor(learner.policy)
     assert actor.inputs == entries
     seen = learner.replay_buffer.sample(50).observations.numpy()
+    seen[::5] *= 30.0
     wanted, _ = learner.predict(seen, deterministic=True)
     np.testing.assert_allclose(actor.act(seen), wanted, atol=1e-5)
 

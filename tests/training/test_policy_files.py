@@ -71,6 +71,8 @@ CASES = [
     ("ppo", {"continuous": True, "bound": 1000.0}, {}),  # normalised by what is observed
     ("dqn", {"continuous": False, "bound": 1000.0}, {}),
     ("td3", {"continuous": True}, {"scale_observations": False}),
+    ("ddpg", {"continuous": True, "bound": 1000.0}, {"cut_observations": 0.5}),
+    ("ppo", {"continuous": False, "bound": 1000.0}, {"cut_observations": 1.0}),
 ]
 
 

@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.envs import task_ids
+from gazelle.errors import TaskError
 from gazelle.training import Recipe, train
 from gazelle.training.export import export_actor
 from gazelle.training.learners import ALGORITHMS, build_learner
@@ -180,3 +181,38 @@ def test_a_users_cartpole_is_learnt_whatever_its_bounds(name, tmp_path):
     result = train(task, recipe=recipe, out=tmp_path)
     del gym.registry[task]
     assert result.summary["return"] > 400.0
+
+
+def test_what_flies_off_is_cut_and_does_not_make_the_rest_small():
+    rng = np.random.default_rng(0)
+    seen = rng.normal([1.0, -2.0], [0.1, 3.0], (20_000, 2)).astype(np.float32)
+    seen[::1000, 0] = -50.0
+    scales = [ObservationScale(box(np.inf, np.inf), cut=cut) for cut in (None, 4.0)]
+    for scale in scales:
+        scale.observe(seen)
+        scale.refresh()
+    spread = seen.std(axis=0)
+    assert 1.0 / scales[0].gain[0] > 3.0 * spread[0]
+    np.testing.assert_allclose(1.0 / scales[1].gain, spread, rtol=1e-4)
+    assert not scales[0].cuts
+    assert torch.isinf(scales[0].limits).all()
+    wanted = seen.mean(axis=0) + np.outer([-4.0, 4.0], spread)
+    np.testing.assert_allclose(scales[1].limits, wanted, rtol=1e-3)
+    shown = scaled(box(np.inf, np.inf), scales[1], seen)
+    assert np.abs(shown).max() == pytest.approx(4.0, abs=1e-3)
+    inside = (np.abs(seen - seen.mean(axis=0)) < 4.0 * spread).all(axis=1)
+    plain = (seen - seen.mean(axis=0)) / spread
+    np.testing.assert_allclose(shown[inside], plain[inside], atol=2e-3)
+
+
+def test_entries_with_bounds_that_fit_are_not_cut():
+    scale = ObservationScale(box(1.0, np.inf), cut=2.0)
+    scale.observe(np.random.default_rng(0).uniform(-1, 1, (500, 2)).astype(np.float32))
+    scale.refresh()
+    assert torch.isinf(scale.limits[:, 0]).all()
+    assert torch.isfinite(scale.limits[:, 1]).all()
+
+
+def test_a_cut_below_nothing_is_refused():
+    with pytest.raises(TaskError, match="cut_observations must be above 0"):
+        dataclasses.replace(recipe_for("Corridor"), cut_observations=0.0)

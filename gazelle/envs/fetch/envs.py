@@ -62,9 +62,16 @@ class FetchEnv(TaskGoalEnv):
     Gymnasium-Robotics     30 mm  33 mm  32 mm  32 mm  2 mm   -1 mm
     ``gripper``            29 mm  33 mm  33 mm  33 mm  4 mm   0 mm
     ``joint``              33 mm  33 mm  33 mm  33 mm  0 mm   0 mm
+    ``original``           31 mm  33 mm  32 mm  32 mm  2 mm   -1 mm
     =====================  =====  =====  =====  =====  =====  =====
 
-    The physics step is 0.01 s (there 0.002 s). Fingers open and close at up to 0.5 m/s with 60 N.
+    ``control="original"`` has such a body and such a weld (0.02 s), an arm without motors whose joints
+    are damped as there (50 N m s/rad), and the physics step of there. Its joints lack the armature of
+    there (1 kg m²), for which no file format of ours has a word, so that steps differ by up to 1.3 mm and
+    places after 30 random steps by up to 10 mm; fingers move as below.
+
+    The physics step is 0.01 s, of ``original`` 0.002 s as there. Fingers open and close at up to
+    0.5 m/s with 60 N (there position servos of 30,000 N/m against 1,000 N s/m).
 
     ## Reward
 

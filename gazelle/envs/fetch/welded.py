@@ -80,9 +80,7 @@ class WeldedArm(ReachingArm):
         speck = Inertial(mass=1e-3, inertia=Inertia(1e-6, 1e-6, 1e-6))
         held = Link(name=_HELD, pose=wrist.pose * frame.pose, inertial=speck)
         joint = Joint(name=f"{_HELD}_fixed", type="fixed", parent=wrist.name, child=_HELD)
-        return dataclasses.replace(
-            model, links=(*model.links, held), joints=(*model.joints, joint)
-        )
+        return dataclasses.replace(model, links=(*model.links, held), joints=(*model.joints, joint))
 
     def _add_motors(self) -> None:
         pass  # the weld alone moves the arm
