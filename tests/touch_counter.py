@@ -6,6 +6,8 @@ A file names it as ``filename="touch_counter:TouchCounter"`` where this folder i
 from gazelle.simulation import ModelPlugin, Output
 
 RATE = 50.0
+APART_S = 0.5
+"""What is touched again within this time was touched all the while: contacts rattle."""
 
 WITNESS = """<sdf version="1.6"><model name="witness"><static>1</static><link name="l"/>
 <plugin name="touches" filename="touch_counter:TouchCounter"><model>{model}</model></plugin></model></sdf>"""
@@ -22,12 +24,16 @@ class Touches:
 
     def __init__(self, simulation, model, ground=("ground_plane",)):
         self._simulation, self._model, self._ground = simulation, model, ground
-        self._now = set()
-        self.count = 0
+        self._last = {}
         self.met = []
 
+    @property
+    def count(self):
+        """How often it ran into something."""
+        return len(self.met)
+
     def look(self):
-        """See what is touched now; what was not touched the last time counts."""
+        """See what is touched now; what was not touched for a while counts."""
         robot = self._simulation.robots[self._model]
         own = [
             f"{robot.name}::{link.name}::{collision.name}"
@@ -39,9 +45,9 @@ class Touches:
             for other in self._simulation.engine.contacts(own).others
             if other.partition("::")[0] not in (self._model, *self._ground)
         }
-        self.met += sorted(touched - self._now)
-        self.count += len(touched - self._now)
-        self._now = touched
+        now = self._simulation.time
+        self.met += [each for each in touched if now - self._last.get(each, -APART_S) >= APART_S]
+        self._last |= dict.fromkeys(touched, now)
 
 
 class TouchCounter(ModelPlugin):

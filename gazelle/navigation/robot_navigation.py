@@ -12,6 +12,8 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import SimulationError, did_you_mean
+from gazelle.navigation.exploration import ExploreSettings
+from gazelle.navigation.live_map import LiveMap
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
 from gazelle.navigation.move_base import GoalOutcome, navigation_stack
 from gazelle.navigation.move_base.state_machine import goal_of
@@ -26,7 +28,7 @@ from gazelle.simulation import ModelPlugin, Robot, SensorUnit
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.navigation_control import NavigationPlan
 
-_SOURCES = ("truth", "amcl")
+_SOURCES = ("truth", "amcl", "slam")
 _LOST_SEED = 7
 
 
@@ -73,18 +75,24 @@ class RobotNavigation(ModelPlugin):
 
         Args:
             parameters: As below ``~`` of ``move_base``, nested; what is not there keeps its default for
-                robots of a TurtleBot3's size. ``amcl`` below them has those of ``amcl``.
+                robots of a TurtleBot3's size. ``amcl`` below them has those of ``amcl``, ``gmapping`` those
+                of ``slam_gmapping``.
             grid: The map; by default the true one of the world, without robots.
-            localization: ``truth``, or ``amcl`` by odometry and laser, from the true pose on.
+            localization: ``truth``; ``amcl`` by odometry and laser, from the true pose on; or ``slam``: the
+                map is made on the way, in the frame of the odometry's beginning.
 
         Raises:
-            SimulationError: There is no such way.
+            SimulationError: There is no such way, or a map is given that is to be made.
             Error: A parameter is wrong.
         """
         if localization not in _SOURCES:
             raise SimulationError(
-                f"a robot is localised by truth or amcl, not '{localization}'",
+                f"a robot is localised by truth, amcl or slam, not '{localization}'",
                 hint=did_you_mean(localization, _SOURCES),
+            )
+        if localization == "slam" and grid is not None:
+            raise SimulationError(
+                "a robot that makes its map is given none", hint="leave out 'grid'"
             )
         values = merged(USUAL, parameters or {})
         navigation_stack({**values, **with_outline(values, self._outline())})
@@ -126,6 +134,27 @@ class RobotNavigation(ModelPlugin):
             self._pilot(world).go(goal, self._robot.simulation.time)
         self._listen()
         return GoalTask(self._robot, [self._pilots[world] for world in chosen])
+
+    def explore(
+        self, settings: ExploreSettings | None = None, *, worlds: Worlds | None = None
+    ) -> GoalTask:
+        """Go from frontier to frontier of the map until none is left; the simulation has to run.
+
+        With ``localization="slam"`` that is until the map is whole. The law is that of ``explore_lite``.
+
+        Args:
+            settings: As of ``explore_lite``.
+            worlds: Which worlds; all if None.
+        """
+        chosen = range(self._robot.simulation.nworld) if worlds is None else worlds.tolist()
+        for world in chosen:
+            self._pilot(world).explore(settings or ExploreSettings())
+        self._listen()
+        return GoalTask(self._robot, [self._pilots[world] for world in chosen])
+
+    def map(self, world: int = 0) -> OccupancyMap | None:
+        """The map that a world's robot works on; None before the first scan of one that is made."""
+        return self._pilot(world).grid
 
     def cancel(self, worlds: Worlds | None = None) -> None:
         """Have no goal, and stand."""
@@ -175,14 +204,22 @@ class RobotNavigation(ModelPlugin):
         if world not in self._pilots:
             values = {**self._values, **with_outline(self._values, self._outline())}
             stack = navigation_stack(values)
-            localizer = None
-            if self._source == "amcl":
-                settings = AmclSettings.read(self._values.get("amcl", {}))
-                localizer = Localizer(settings, self._map(), seed=_LOST_SEED + world)
-                x, y, heading = self._robot.planar_pose()[world].tolist()
-                localizer.begin((x, y, heading), np.diag([0.04, 0.04, 0.02]))
-            self._pilots[world] = WorldPilot(stack, self._map(), self._height(), localizer)
+            grid = None if self._source == "slam" else self._map()
+            place = self._localizer(world)
+            self._pilots[world] = WorldPilot(stack, grid, self._height(), place)
         return self._pilots[world]
+
+    def _localizer(self, world: int) -> Localizer | LiveMap | None:
+        """What says where a world's robot is; None for the truth."""
+        if self._source == "slam":
+            return LiveMap(self._values.get("gmapping", {}), _LOST_SEED + world)
+        if self._source == "truth":
+            return None
+        settings = AmclSettings.read(self._values.get("amcl", {}))
+        localizer = Localizer(settings, self._map(), seed=_LOST_SEED + world)
+        x, y, heading = self._robot.planar_pose()[world].tolist()
+        localizer.begin((x, y, heading), np.diag([0.04, 0.04, 0.02]))
+        return localizer
 
     def _outline(self) -> Floats | None:
         return outline_of(self._robot.description)

@@ -50,12 +50,18 @@ class NavigationControl(Protocol):
         grid: OccupancyMap | None = ...,
         localization: str = ...,
     ) -> None:
-        """Use parameters of ``move_base``, a map, and truth or ``amcl`` for the robot's place."""
+        """Use parameters of ``move_base``, a map, and truth, ``amcl`` or ``slam`` for the place."""
 
     def go_to(
         self, x: float, y: float, yaw: float | None = ..., *, worlds: Worlds | None = ...
     ) -> NavigationTask:
         """Go there; the simulation has to run."""
+
+    def explore(self, settings: Any = ..., *, worlds: Worlds | None = ...) -> NavigationTask:
+        """Go from frontier to frontier until the map is whole; the simulation has to run."""
+
+    def map(self, world: int = ...) -> OccupancyMap | None:
+        """The map that a world's robot works on."""
 
     def cancel(self, worlds: Worlds | None = ...) -> None:
         """Have no goal, and stand."""

@@ -5,29 +5,13 @@ import math
 import numpy as np
 import pytest
 from mapping_drives import WORLD, Mapper, drive
+from wall_errors import distances, drawn_walls, seen_walls
 
 from gazelle.errors import Error
-from gazelle.navigation.costmap.distances import squared_distances
 from gazelle.navigation.mapping import HectorSettings, HectorSlam, KartoSettings, KartoSlam
 from gazelle.navigation.planners.planar import between, composed
 
 ROOM = [(0.15, -1.4), (-2.2, -1.15), (-0.35, 1.35), (-0.1, 0.5), (1.8, -1.0), (0.15, -1.4)]
-
-
-def distances(walls, grid):
-    """From walls [m], shape (n, 2), to what is occupied in a grid [cells]."""
-    near = np.sqrt(squared_distances((grid.data == 100).view(np.uint8)))
-    cells = np.floor((walls - [grid.origin.x, grid.origin.y]) / 0.05 + 1e-9).astype(int)
-    inside = ((cells >= 0) & (cells < grid.data.shape[::-1])).all(axis=1)
-    return near[cells[inside, 1], cells[inside, 0]]
-
-
-def seen_walls(true, ideal):
-    """Middles of wall cells that were seen, shape (n, 2) [m]."""
-    faces = (true.data == 100) & (squared_distances((true.data == 0).view(np.uint8)) <= 1)
-    rows, columns = np.nonzero(faces)
-    walls = np.stack((columns, rows), 1) * 0.05 + 0.025 + [true.origin.x, true.origin.y]
-    return walls[distances(walls, ideal) <= 1.0]
 
 
 def check(world, start, goals, slip, least):
@@ -37,9 +21,7 @@ def check(world, start, goals, slip, least):
     walls = seen_walls(true, mapper.ideal.map())
     assert len(walls) > least
     assert np.mean(distances(walls, found) <= 1.0) >= 0.95
-    rows, columns = np.nonzero(found.data == 100)
-    drawn = np.stack((columns, rows), 1) * 0.05 + 0.025 + [found.origin.x, found.origin.y]
-    assert np.mean(distances(drawn, true) <= 1.0) >= 0.95
+    assert np.mean(distances(drawn_walls(found), true) <= 1.0) >= 0.95
     place, heading = np.array(mapper.errors).T
     assert place.mean() < 0.02
     assert heading.mean() < 0.005

@@ -1,0 +1,186 @@
+"""The node ``explore`` of explore_lite: to the frontiers of a map (http://wiki.ros.org/explore_lite)."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Bytes
+from gazelle.bridges.navigation.diagnosis import StartDiagnosis
+from gazelle.bridges.navigation.frames import GraphFrames
+from gazelle.bridges.navigation.messages import stamped
+from gazelle.navigation.costmap.parameters import value_of
+from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
+from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
+from gazelle.navigation.frontiers import Frontier, find_frontiers
+from gazelle.ros.actions import GoalStatus, SimpleActionClient
+from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.clock import Rate
+from gazelle.ros.messages import load_message
+from gazelle.ros.node import Node
+from gazelle.ros.signals import stopping
+from gazelle.ros.time import Time
+
+SECOND = 1_000_000_000
+_LOG = logging.getLogger(__name__)
+_POINTS, _ADD, _DELETE_ALL = 8, 0, 3
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Explore until nothing is left, and stay until it is told to end; returns the exit code."""
+    found = parse_arguments(arguments, "explore")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        ExploreNode(node).run(stop)
+    return 0
+
+
+class ExploreNode:
+    """An `Explorer` on a graph: maps in, goals of ``move_base`` out.
+
+    Args:
+        node: On the graph; parameters are those of ``explore_lite``.
+
+    Attributes:
+        finished: Whether nothing is left to explore.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self.settings = ExploreSettings.read(values)
+        self.finished = False
+        self._node = node
+        self._lock = threading.Lock()
+        self._grid: Any = None
+        self._costs: Bytes = np.zeros((0, 0), np.uint8)
+        self._explorer: Explorer | None = None
+        self._ended: list[tuple[Place, int]] = []
+        self._base = value_of(values, "robot_base_frame", "base_link").strip("/")
+        self.frames = GraphFrames(node)
+        topic = value_of(values, "costmap_topic", "costmap")
+        self._topic = node.resolve(topic)
+        node.subscribe(topic, load_message("nav_msgs/OccupancyGrid"), self._take_map)
+        updates = value_of(values, "costmap_updates_topic", "costmap_updates")
+        node.subscribe(updates, load_message("map_msgs/OccupancyGridUpdate"), self._take_update)
+        self._shown = None
+        if value_of(values, "visualize", False):
+            kind = load_message("visualization_msgs/MarkerArray")
+            self._shown = node.advertise("~frontiers", kind, queue_size=10)
+        action = load_message("move_base_msgs/MoveBaseAction")
+        self._client = SimpleActionClient(node, "move_base", action)
+        self._diagnosis = StartDiagnosis(node, self._missing)
+
+    def run(self, stop: threading.Event) -> None:
+        """Work until told to end."""
+        rate = Rate(self._node.clock, self.settings.planner_frequency, reset=True)
+        while not stop.is_set() and not self._node.closed:
+            self._diagnosis.look(waiting=bool(self._missing()))
+            self.cycle()
+            rate.sleep(stop.is_set)
+        if not self._node.closed and not self.finished:
+            self._client.cancel_all_goals()
+
+    def cycle(self) -> None:
+        """Look where to go, and go there."""
+        with self._lock:
+            grid, costs = self._grid, self._costs.copy()
+            ended, self._ended = self._ended, []
+        if self.finished or grid is None or self._missing():
+            return
+        frame = grid.header.frame_id.strip("/")
+        pose = self.frames.pose(frame, self._base)
+        if pose is None:
+            return
+        resolution, corner = float(grid.info.resolution), grid.info.origin.position
+        if self._explorer is None:
+            self._explorer = Explorer(self.settings, resolution)
+        for place, status in ended:
+            if status == GoalStatus.ABORTED:
+                self._explorer.give_up(place)
+        frontiers = find_frontiers(
+            costs, (corner.x, corner.y), resolution, pose[:2], self.settings.min_frontier_size
+        )
+        now = self._node.clock.now()
+        goal = self._explorer.decide(now / SECOND, frontiers)
+        if self._shown is not None:
+            self._show(frontiers, frame, now)
+        if goal.place is None:
+            self.finished = True
+            self._client.cancel_all_goals()
+            _LOG.info("Exploration stopped.")
+        elif goal.fresh:
+            self._send(goal.place, frame, now)
+
+    def _send(self, place: Place, frame: str, now: int) -> None:
+        goal: Any = load_message("move_base_msgs/MoveBaseGoal")()
+        goal.target_pose = stamped((*place, 0.0), frame, now)
+
+        def end(status: int, result: object) -> None:
+            del result
+            with self._lock:
+                self._ended.append((place, status))
+
+        self._client.send_goal(goal, done_cb=end)
+
+    # What comes ---------------------------------------------------------------------------
+
+    def _take_map(self, message: Any) -> None:
+        cells = np.array(message.data, np.int8)
+        shape = message.info.height, message.info.width
+        if cells.size != shape[0] * shape[1]:
+            _LOG.error("a map of %d x %d cells came with %d", shape[1], shape[0], cells.size)
+            return
+        with self._lock:
+            self._grid, self._costs = message, _costs_of(cells).reshape(shape)
+
+    def _take_update(self, message: Any) -> None:
+        cells = np.array(message.data, np.int8)
+        x, y, wide, high = message.x, message.y, message.width, message.height
+        with self._lock:
+            rows, columns = self._costs.shape
+            if min(x, y) < 0 or x + wide > columns or y + high > rows or cells.size != wide * high:
+                _LOG.error("an update of the map is not within it")
+                return
+            self._costs[y : y + high, x : x + wide] = _costs_of(cells).reshape(high, wide)
+
+    def _missing(self) -> list[str]:
+        """What it waits for."""
+        found = []
+        grid = self._grid
+        if grid is None:
+            found.append(f"a map on {self._topic} (a SLAM node or move_base sends it)")
+        elif self.frames.pose(grid.header.frame_id.strip("/"), self._base) is None:
+            found.append(f"the transform of '{self._base}' to '{grid.header.frame_id}'")
+        if not self._client.wait_for_server(1e-3):
+            found.append(f"the action {self._node.resolve('move_base')} (move_base offers it)")
+        return found
+
+    def _show(self, frontiers: Sequence[Frontier], frame: str, now: int) -> None:
+        """Publish markers: blue where it may go, red where it gave up."""
+        kind: Any = load_message("visualization_msgs/Marker")
+        point: Any = load_message("geometry_msgs/Point")
+        markers = [kind(action=_DELETE_ALL)]
+        for number, frontier in enumerate(frontiers):
+            marker = kind(ns="frontiers", id=number, type=_POINTS, action=_ADD)
+            lost = self._explorer is not None and self._explorer.is_given_up(frontier.centroid)
+            marker.color.r, marker.color.b, marker.color.a = float(lost), float(not lost), 1.0
+            marker.scale.x = marker.scale.y = marker.scale.z = 0.1
+            marker.pose.orientation.w = 1.0
+            marker.points = [point(x=x, y=y) for x, y in frontier.points.tolist()]
+            markers.append(marker)
+        for marker in markers:
+            marker.header.frame_id, marker.header.stamp = frame, Time(nsecs=now)
+        if self._shown is not None:
+            self._shown.publish(load_message("visualization_msgs/MarkerArray")(markers=markers))
+
+
+def _costs_of(cells: Any) -> Bytes:
+    """Costs of a published map: unknown, free, or neither, shape of ``cells``."""
+    return np.where(cells < 0, NO_INFORMATION, np.where(cells == 0, 0, LETHAL)).astype(np.uint8)

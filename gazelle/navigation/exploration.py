@@ -1,0 +1,117 @@
+"""Where to go next in a world that is not known yet: what ``explore_lite`` decides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from gazelle.errors import Error
+from gazelle.navigation.costmap.parameters import Values, fields_of
+from gazelle.navigation.frontiers import Frontier
+
+_SAME_CELLS = 5
+"""Goals that are nearer than this to one that was given up are given up, too."""
+
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ExploreSettings:
+    """Names and defaults are those of ``explore_lite``.
+
+    Attributes:
+        planner_frequency: How often to look where to go [Hz].
+        progress_timeout: A goal that comes no nearer for so long is given up [s].
+        potential_scale: What a metre to a frontier costs.
+        orientation_scale: Without effect, as in the original.
+        gain_scale: What a metre of a frontier is worth.
+        min_frontier_size: Shorter frontiers do not count [m].
+    """
+
+    planner_frequency: float = 1.0
+    progress_timeout: float = 30.0
+    potential_scale: float = 1e-3
+    orientation_scale: float = 0.0
+    gain_scale: float = 1.0
+    min_frontier_size: float = 0.5
+
+    @classmethod
+    def read(cls, values: Values) -> ExploreSettings:
+        """From parameters.
+
+        Raises:
+            Error: One is of the wrong kind, or it would never look.
+        """
+        settings = cls(**fields_of(cls, values))
+        if not settings.planner_frequency > 0.0:
+            raise Error("'planner_frequency' must be greater than zero")
+        return settings
+
+
+@dataclass(frozen=True, slots=True)
+class NextGoal:
+    """What to do now.
+
+    Attributes:
+        place: Where to go (x, y) [m]; None if there is nothing left to explore.
+        fresh: Whether that is another place than before.
+    """
+
+    place: Place | None
+    fresh: bool = False
+
+
+class Explorer:
+    """Goes for the frontier that is worth most, until none is left.
+
+    Args:
+        settings: What they are worth.
+        resolution: Of the map: side of a cell [m].
+    """
+
+    def __init__(self, settings: ExploreSettings, resolution: float) -> None:
+        self.settings = settings
+        self._near = _SAME_CELLS * resolution
+        self._resolution = resolution
+        self.given_up: list[Place] = []
+        self._goal: Place | None = None
+        self._distance = math.inf
+        self._progress = 0.0
+
+    def cost(self, frontier: Frontier) -> float:
+        """What a frontier costs, less is better; as the original, in cells times their side twice."""
+        s, side = self.settings, self._resolution
+        return side * (s.potential_scale * frontier.distance - s.gain_scale * frontier.size)
+
+    def is_given_up(self, place: Place) -> bool:
+        """Whether a place is close to one that was given up."""
+        return any(
+            abs(place[0] - x) < self._near and abs(place[1] - y) < self._near
+            for x, y in self.given_up
+        )
+
+    def give_up(self, place: Place) -> None:
+        """Do not go there any more; there is no way."""
+        self.given_up.append(place)
+
+    def decide(self, time: float, frontiers: Sequence[Frontier]) -> NextGoal:
+        """Where to go.
+
+        Args:
+            time: Now [s].
+            frontiers: All there are.
+        """
+        left = sorted(
+            (each for each in frontiers if not self.is_given_up(each.centroid)), key=self.cost
+        )
+        for best in left:
+            fresh = best.centroid != self._goal
+            if fresh or best.distance < self._distance:
+                self._progress, self._distance = time, best.distance
+            self._goal = best.centroid
+            if time - self._progress <= self.settings.progress_timeout:
+                return NextGoal(best.centroid, fresh)
+            self.give_up(best.centroid)
+        self._goal = None
+        return NextGoal(None)
