@@ -38,20 +38,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     from gazelle.ros.builtin.arguments import spin
-    from gazelle.ros.node import Node
-    from gazelle.ros.rosbridge.nodes import listening_text
-    from gazelle.ros.rosbridge.rosapi import RosApi
-    from gazelle.ros.rosbridge.server import BridgeServer
+    from gazelle.ros.rosbridge.nodes import bridge, listening_text
     from gazelle.ros.rosbridge.settings import settings_from
 
     given = {"port": args.port, "address": args.address, "allowed_origins": args.allow_origin}
     settings = settings_from(given)
-    with (
-        Node("rosbridge_websocket", master_uri=args.master) as node,
-        BridgeServer(node, settings) as server,
-        Node("rosapi", master_uri=args.master) as api,
-        RosApi(api, settings),
-    ):
+    with bridge(settings, args.master) as server:
         sys.stdout.write(f"{listening_text(settings, server.port)}\n")
         sys.stdout.flush()
-        return spin(node)
+        return spin(server.node)

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_float
 from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
+from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
 from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
@@ -66,6 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_view(parser)
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
     add_moveit(parser)
+    add_rosbridge(parser)
     parser.add_argument(
         "--spawn",
         metavar="ROBOT[@X,Y[,YAW]]",
@@ -98,6 +100,8 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
     if args.moveit and not args.ros:
         args.parser.error("--moveit is for a ROS graph; add --ros")
+    if args.rosbridge is not None and not args.ros:
+        args.parser.error("--rosbridge is for a ROS graph; add --ros")
     from gazelle import formats
 
     _listen_to_signals()
@@ -216,12 +220,12 @@ def _serve(sim: Simulation, args: argparse.Namespace) -> int:
     if args.paused:
         sim.pause()
     if sim.stage is not None:
-        with serve_stage(sim, rate=args.rate) as server:
+        with serve_stage(sim, rate=args.rate) as server, rosbridge_beside(server, args):
             if sim.paused:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
             return _attend(sim, server, args)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
-    with serve_ros(sim) as door, moveit_beside(sim, door, args):
+    with serve_ros(sim) as door, moveit_beside(sim, door, args), rosbridge_beside(door, args):
         return _attend(sim, door, args)
 
 

@@ -24,6 +24,5 @@ def follow_clock(node: TopicNode, topic: str = "/clock") -> SimulatedClock:
     def tick(message: Any) -> None:
         clock.set(message.clock.to_nsec())
 
-    # Not raw: the subscription is shared with others of this node, who want messages.
     node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10)
     return clock

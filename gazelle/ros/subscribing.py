@@ -18,6 +18,7 @@ from gazelle.ros.raw import RawMessage
 from gazelle.ros.serial_queue import SerialQueue
 from gazelle.ros.statistics import Statistics
 from gazelle.ros.tcpros import headers
+from gazelle.ros.tcpros.frames import frame
 from gazelle.ros.tcpros.inbound import InboundLink
 
 Callback = Callable[[Any], None]
@@ -131,7 +132,7 @@ class Subscription:
         links: list[InboundLink | LocalLink] = [*self.links.values(), *self.local.values()]
         for link in links:
             if link.latched is not None:
-                call = functools.partial(self._call, subscriber, link.latched)
+                call = functools.partial(self._call, subscriber, link, link.latched)
                 self._loop.submit(call)
 
     def remove(self, subscriber: Subscriber) -> None:
@@ -258,13 +259,13 @@ class Subscription:
         if link.latching:
             link.latched = message  # for subscribers that are added later
         for subscriber in self.subscribers:
-            try:
-                subscriber.callback(message)
-            except Exception as error:  # noqa: BLE001  # a callback must not end its thread
-                report(f"bad callback of {self.topic}", error)
+            self._call(subscriber, link, message)
 
-    def _call(self, subscriber: Subscriber, message: Any) -> None:
+    def _call(self, subscriber: Subscriber, link: Any, message: Any) -> None:
         try:
+            kind = subscriber.message_class
+            if kind is not self.message_class:
+                message = _converted(message, kind, link)
             subscriber.callback(message)
         except Exception as error:  # noqa: BLE001  # a callback must not end its thread
             report(f"bad callback of {self.topic}", error)
@@ -291,11 +292,22 @@ def _maker(message_class: Any) -> Callable[[], Any]:
     return message_class  # type: ignore[no-any-return]
 
 
+def _converted(message: Any, kind: Any, link: Any) -> Any:
+    """A message as one of several subscribers in a node wants it: decoded, or as bytes."""
+    data = message._buff if isinstance(message, RawMessage) else frame(message)[4:]
+    made = _maker(kind)()
+    made.deserialize(data)
+    if hasattr(kind, "_connection_header"):
+        made._connection_header = link.header
+    return made
+
+
 class Subscriber:
     """What `Node.subscribe` returns: a callback that gets the messages of a topic.
 
     Args:
         subscription: What it gets them from.
+        message_class: What it wants them to be.
         callback: Called with each.
         queue_size: Messages kept while callbacks are slow; None for all.
         on_close: Called with itself when it is closed.
@@ -307,6 +319,7 @@ class Subscriber:
     def __init__(
         self,
         subscription: Subscription,
+        message_class: Any,
         callback: Callback,
         queue_size: int | None,
         on_close: Callable[[Subscriber], None],
@@ -314,7 +327,7 @@ class Subscriber:
         self._on_close = on_close
         self.subscription = subscription
         self.name = subscription.topic
-        self.message_class = subscription.message_class
+        self.message_class = message_class
         self.callback = callback
         self.queue_size = queue_size
         self._closed = False

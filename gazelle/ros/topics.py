@@ -112,7 +112,7 @@ class TopicNode(NodeBase):
             if subscription is None:
                 subscription = Subscription(self, name, kind, self.neighbour, self.statistics)
             _check_same(subscription.message_class, kind, name)
-            subscriber = Subscriber(subscription, callback, queue_size, self._unsubscribe)
+            subscriber = Subscriber(subscription, kind, callback, queue_size, self._unsubscribe)
             subscription.add(subscriber, tcp_nodelay=tcp_nodelay)
             self._subscriptions[name] = subscription
         if fresh:

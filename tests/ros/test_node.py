@@ -10,6 +10,7 @@ from ros.graph import Flag, Text, Word, until
 
 from gazelle.ros import Master, Node
 from gazelle.ros.errors import MasterUnreachableError, ServiceFailedError
+from gazelle.ros.raw import RawMessage
 
 
 def test_a_message_reaches_a_subscriber_as_the_same_object(make_node):
@@ -37,6 +38,37 @@ def test_a_message_goes_over_a_socket_when_the_nodes_are_not_neighbours(make_nod
     until(lambda: len(got) == 1000)
     assert [message.data for message in got] == [str(number) for number in range(1000)]
     assert got[0]._connection_header["callerid"] == "/talker"
+
+
+@pytest.mark.parametrize("apart", [False, True])
+@pytest.mark.parametrize("latch", [False, True])
+@pytest.mark.parametrize("raw_first", [False, True])
+def test_subscribers_of_one_node_get_messages_and_bytes_as_each_asks(
+    make_node, request, raw_first, latch, apart
+):
+    if apart:
+        request.getfixturevalue("strangers")
+    talker, listener = make_node("talker"), make_node("listener")
+    publisher = talker.advertise("chatter", Text, latch=latch)
+    got, bytes_, any_ = [], [], []
+    wanted = [(Text, got, {}), (Text, bytes_, {"raw": True}), (RawMessage, any_, {})]
+    for kind, heard, how in reversed(wanted) if raw_first else wanted:
+        listener.subscribe("chatter", kind, heard.append, **how)
+    until(lambda: publisher.num_connections == 1)
+    publisher.publish(Text("hello"))
+    late = []
+    if latch:
+        until(lambda: len(got) == len(bytes_) == len(any_) == 1)
+        listener.subscribe("chatter", Text, late.append, raw=not raw_first)
+    else:
+        late = [None]
+    until(lambda: len(got) == len(bytes_) == len(any_) == len(late) == 1)
+    assert (type(got[0]), got[0].data) == (Text, "hello")
+    assert bytes_[0]._buff == any_[0]._buff == b"\5\0\0\0hello"
+    if latch and raw_first:
+        assert late[0].data == "hello"
+    elif latch:
+        assert late[0]._buff == any_[0]._buff
 
 
 def test_a_service_answers(make_node):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ipaddress
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.arguments import parse_arguments, spin
@@ -28,6 +29,26 @@ def websocket_main(arguments: Sequence[str]) -> int:
             node.set_param("~actual_port", server.port)
             sys.stderr.write(f"{listening_text(settings, server.port)}\n")
             return spin(node)
+
+
+@contextmanager
+def bridge(settings: BridgeSettings, master_uri: str | None = None) -> Iterator[BridgeServer]:
+    """Both nodes in this process, for as long as the block lasts.
+
+    Args:
+        settings: How the server listens.
+        master_uri: Of the graph; ``ROS_MASTER_URI``'s if None.
+
+    Raises:
+        RosError: The port is taken, or no master answers.
+    """
+    with (
+        Node("rosbridge_websocket", master_uri=master_uri) as node,
+        BridgeServer(node, settings) as server,
+        Node("rosapi", master_uri=master_uri) as api,
+        RosApi(api, settings),
+    ):
+        yield server
 
 
 def rosapi_main(arguments: Sequence[str]) -> int:

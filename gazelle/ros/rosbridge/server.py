@@ -44,6 +44,7 @@ class BridgeServer(Closeable):
         settings: Of the server.
 
     Attributes:
+        node: Likewise.
         port: Where it listens.
 
     Raises:
@@ -53,7 +54,7 @@ class BridgeServer(Closeable):
 
     def __init__(self, node: Node, settings: BridgeSettings) -> None:
         _require_packages()
-        self._node, self._settings = node, settings
+        self.node, self._settings = node, settings
         self._context = BridgeContext(node, settings)
         self._clients = ClientList(node)
         self._fragment_numbers = itertools.count(1)
@@ -209,7 +210,7 @@ class BridgeServer(Closeable):
             with contextlib.suppress(RuntimeError):  # the server has ended meanwhile
                 self._loop.call_soon_threadsafe(settle, result, problem)
 
-        self._node.loop.submit(work)
+        self.node.loop.submit(work)
         return await done
 
 

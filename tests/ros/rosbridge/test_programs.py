@@ -74,6 +74,27 @@ def test_the_launch_file_runs(start, tmp_path):
     master.close()
 
 
+@pytest.mark.parametrize("world", ["empty", "fleet"])
+def test_gazelle_run_with_rosbridge(start, graph, world):
+    process = start("run", world, "--ros", "--rosbridge", 0, ROS_MASTER_URI=graph.uri)
+    lines = iter(process.stdout.readline, "")
+    found = next(filter(None, (re.search(r"ws://127\.0\.0\.1:(\d+)", line) for line in lines)))
+    client = JsonClient(int(found.group(1)))
+    client.say("subscribe", topic="/clock")
+    assert client.hear()["topic"] == "/clock"
+    client.socket.close()
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+
+
+def test_rosbridge_needs_a_graph(start):
+    process = start("run", "empty", "--rosbridge")
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "add --ros" in said
+
+
 def test_gazelle_bridge(start, graph):
     process = start("bridge", "--port", 0, ROS_MASTER_URI=graph.uri)
     line = process.stdout.readline()

@@ -1,0 +1,47 @@
+"""The flag ``--rosbridge``: browsers and other WebSocket clients beside a simulation."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gazelle.bridges import RosDoor
+    from gazelle.bridges.stage import StageServer
+
+_PORT = 9090
+
+
+def add_rosbridge(parser: argparse.ArgumentParser) -> None:
+    """Declare the flag."""
+    parser.add_argument(
+        "--rosbridge",
+        metavar="PORT",
+        type=int,
+        nargs="?",
+        const=_PORT,
+        help="with --ros: also let roslibpy, roslib.js and Foxglove on this machine connect, as "
+        f"'gazelle bridge' does (default {_PORT}, 0 for any free port)",
+    )
+
+
+@contextmanager
+def rosbridge_beside(door: RosDoor | StageServer, args: argparse.Namespace) -> Iterator[None]:
+    """Rosbridge and rosapi while the simulation runs, if they are wanted.
+
+    Raises:
+        RosError: The port is taken.
+    """
+    if args.rosbridge is None:
+        yield
+        return
+    from gazelle.ros.rosbridge.nodes import bridge, listening_text
+    from gazelle.ros.rosbridge.settings import settings_from
+
+    settings = settings_from({"port": args.rosbridge})
+    with bridge(settings, door.master_uri) as server:
+        sys.stdout.write(f"{listening_text(settings, server.port)}\n")
+        yield
