@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import socket
 import threading
 from collections.abc import Callable, Sequence
@@ -218,9 +219,19 @@ class Publication:
 
     def _tell(self, peer: str, *, connected: bool) -> None:
         for publisher in self.publishers:
-            hook = publisher.on_connect if connected else publisher.on_disconnect
-            if hook is not None:
-                self._loop.submit(lambda hook=hook: self._call(hook, peer))  # type: ignore[misc]
+            if publisher.introduced:
+                self._tell_one(publisher, peer, connected=connected)
+
+    def introduce(self, publisher: Publisher) -> None:
+        """Tell a further publisher who listens already, as roscpp does; on the loop's thread."""
+        publisher.introduced = True
+        for link in (*self.remote, *self.local):
+            self._tell_one(publisher, link.peer, connected=True)
+
+    def _tell_one(self, publisher: Publisher, peer: str, *, connected: bool) -> None:
+        hook = publisher.on_connect if connected else publisher.on_disconnect
+        if hook is not None:
+            self._loop.submit(functools.partial(self._call, hook, peer))
 
     def _call(self, hook: PeerHook, peer: str) -> None:
         try:
@@ -255,6 +266,7 @@ class Publisher:
         name: The topic's resolved name.
         on_connect: Called with the name of each subscriber that connects, on a worker thread.
         on_disconnect: Called with the name of each that goes.
+        introduced: Whether it was told who listened before it came.
     """
 
     def __init__(
@@ -270,6 +282,7 @@ class Publisher:
         self.message_class = publication.message_class
         self.on_connect = on_connect
         self.on_disconnect = on_disconnect
+        self.introduced = False
         self._closed = False
 
     def publish(self, message: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 import time
 from collections.abc import Mapping
@@ -51,7 +52,8 @@ class TopicNode(NodeBase):
                 None to wait for slow subscribers.
             latch: Send the last message to everybody who connects later.
             tcp_nodelay: Do not let the system collect small packets.
-            on_connect: Called with the name of each subscriber that connects.
+            on_connect: Called with the name of each subscriber that connects, or is connected to
+                another publisher of this node on the topic.
             on_disconnect: Called with the name of each that goes.
             headers: More fields for the connection header that subscribers get.
 
@@ -75,7 +77,10 @@ class TopicNode(NodeBase):
             publication.headers.update(headers or {})
             self._publications[name] = publication
         if fresh:
+            publisher.introduced = True
             self._ask("registerPublisher", name, message_class._type, self.uri)
+        else:
+            self.loop.call_soon(functools.partial(publication.introduce, publisher))
         return publisher
 
     def subscribe(

@@ -71,6 +71,27 @@ def test_subscribers_of_one_node_get_messages_and_bytes_as_each_asks(
         assert late[0]._buff == any_[0]._buff
 
 
+@pytest.mark.parametrize("apart", [False, True])
+def test_a_second_publisher_of_a_node_hears_of_subscribers_that_are_there(
+    make_node, request, apart
+):
+    if apart:
+        request.getfixturevalue("strangers")
+    talker, listener = make_node("talker"), make_node("listener")
+    got, peers, gone = [], [], []
+    subscriber = listener.subscribe("chatter", Text, got.append)
+    first = talker.advertise("chatter", Text, on_connect=peers.append)
+    until(lambda: peers == ["/listener"])
+    second = talker.advertise("chatter", Text, on_connect=peers.append, on_disconnect=gone.append)
+    until(lambda: peers == ["/listener"] * 2)
+    first.publish(Text("one"))
+    second.publish(Text("two"))
+    until(lambda: [message.data for message in got] == ["one", "two"])
+    subscriber.close()
+    until(lambda: gone == ["/listener"])
+    assert len(peers) == 2
+
+
 def test_a_service_answers(make_node):
     server, client = make_node("server"), make_node("client")
     server.serve("flip", Flag, lambda request: (not request.data, "flipped"))
