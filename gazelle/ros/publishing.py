@@ -225,8 +225,9 @@ class Publication:
     def introduce(self, publisher: Publisher) -> None:
         """Tell a further publisher who listens already, as roscpp does; on the loop's thread."""
         publisher.introduced = True
-        for link in (*self.remote, *self.local):
-            self._tell_one(publisher, link.peer, connected=True)
+        peers = [link.peer for link in self.remote] + [link.peer for link in self.local]
+        for peer in peers:
+            self._tell_one(publisher, peer, connected=True)
 
     def _tell_one(self, publisher: Publisher, peer: str, *, connected: bool) -> None:
         hook = publisher.on_connect if connected else publisher.on_disconnect
