@@ -65,25 +65,36 @@ class EntityManager:
         """Make the handles of models that the engine has, and start their plugins.
 
         Those of Stage files are run all together, so that a handle can wait until it is needed.
+        All handles are made before the first plugin is started: plugins ask the engine for motors
+        and the like, which it compiles all together when it is next asked for what it has.
         """
         self._look_for_stage(models)
+        made = []
         for model in models:
             if self._stage is not None and is_plain(model):
                 self._awaited[model.name] = model
                 self.robots.put_off(model.name)
             else:
-                self.adopt(model, "")
+                made.append((model, self._handle(model, "")))
+        for model, robot in made:
+            adopt(self._simulation, model, robot, self._stage_of(model))
 
     def adopt(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model that the engine has, and start its plugins."""
         self._look_for_stage((model,))
-        stage = self._stage if model.stage is not None else None
-        robot = Robot(self._simulation, model, namespace, stage)
+        robot = self._handle(model, namespace)
+        adopt(self._simulation, model, robot, self._stage_of(model))
+        return robot
+
+    def _handle(self, model: Model, namespace: str) -> Robot:
+        robot = Robot(self._simulation, model, namespace, self._stage_of(model))
         self.robots[model.name] = robot
         self.sensors.extend(robot.sensors.values())
         self._simulation.requests.changes += 1
-        adopt(self._simulation, model, robot, stage)
         return robot
+
+    def _stage_of(self, model: Model) -> StageFleet | None:
+        return self._stage if model.stage is not None else None
 
     def _look_for_stage(self, models: Sequence[Model]) -> None:
         """Run models of Stage files as Stage does, if the engine can."""

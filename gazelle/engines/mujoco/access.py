@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Hits, Motion, Placement
+from gazelle.engines.mujoco.compiler import CompilerInput
 from gazelle.engines.mujoco.layout import LinkSlot, ModelSlot, MujocoLayout
 from gazelle.engines.mujoco.link_table import MujocoLinkTable
 from gazelle.engines.mujoco.order import (
@@ -59,6 +60,9 @@ class StateAccess(ABC):
     _state: StateViews
     _nworld: int
     _tables: dict[tuple[str, ...], MujocoLinkTable]
+    _recipe: CompilerInput
+    _pending: CompilerInput | None
+    """What is to be compiled before the next step: motors, and models that become kinematic."""
     _stale: bool
     """Whether the placement of links that are not roots has to be computed."""
     _placed: bool
@@ -87,11 +91,18 @@ class StateAccess(ABC):
     def _forced(self) -> AbstractContextManager[None]:
         """Let the forces of this moment act while it lasts."""
 
+    def _known(self) -> MujocoLayout:
+        """The layout to read states by, which motors that wait for the next step do not change."""
+        pending = self._pending
+        if pending is None or pending.kinematic == self._recipe.kinematic:
+            return self._layout
+        return self._now()
+
     # -- links -------------------------------------------------------------------------
 
     def link_placement(self, link: str, worlds: Worlds | None = None) -> Placement:
         """Where a link is."""
-        slot = self._now().link(link)
+        slot = self._known().link(link)
         rows = rows_of(worlds)
         if slot.free is not None:
             q = self._state.qpos[rows, slot.free.position]
@@ -118,7 +129,7 @@ class StateAccess(ABC):
 
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""
-        slot = self._now().link(link)
+        slot = self._known().link(link)
         rows = rows_of(worlds)
         if slot.free is not None:
             v = self._state.qvel[rows, slot.free.velocity]
@@ -153,7 +164,7 @@ class StateAccess(ABC):
 
     def model_placement(self, model: str, worlds: Worlds | None = None) -> Placement:
         """Where a model's frame is: it moves with the canonical link."""
-        slot = self._now().model(model)
+        slot = self._known().model(model)
         link = self.link_placement(slot.canonical, worlds)
         if slot.back is None:
             return link
@@ -265,12 +276,12 @@ class StateAccess(ABC):
 
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
-        slots = self._now().joint(joint)
+        slots = self._known().joint(joint)
         return joint_from_mujoco(_read(self._state.qpos, [s.position for s in slots], worlds))
 
     def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Velocity [m/s or rad/s], shape (n, axes)."""
-        slots = self._now().joint(joint)
+        slots = self._known().joint(joint)
         return _read(self._state.qvel, [s.velocity for s in slots], worlds)
 
     def set_joint_position(

@@ -227,19 +227,19 @@ class MujocoEngine(CarryingSteps):
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint a motor that holds a velocity with limited effort; see the protocol."""
         self._layout.joint(joint)  # motors do not change the layout of joints
-        motor = motor_of(joint, max_effort, self._compiled.bodies.values())
+        recipe = self._pending or self._recipe
+        motor = motor_of(joint, max_effort, self._compiled.bodies, recipe.kinematic)
         if joint in self._recipe.motors:
             self.set_parameter("motor_effort", joint, motor.max_effort)
             return
-        recipe = self._pending or self._recipe
         self._pending = replace(recipe, motors={**recipe.motors, joint: motor})
 
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
         recipe = self._pending or self._recipe
-        self._now().model(model)
+        self._layout.model(model)
         refuse_motors(model, recipe.motors)
-        self._change(replace(recipe, kinematic=recipe.kinematic | {model}))
+        self._pending = replace(recipe, kinematic=recipe.kinematic | {model})
 
     def update_world(self, world: World) -> None:
         """Take over all of a world but its models: physics, gravity, air, lights, scene."""

@@ -10,7 +10,7 @@ constraint of its own beside it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -69,18 +69,25 @@ class MotorSlot:
     givings: slice
 
 
-def motor_of(joint: str, max_effort: ArrayLike, parts: Iterable[Sequence[TreeLink]]) -> Motor:
+def motor_of(
+    joint: str,
+    max_effort: ArrayLike,
+    parts: Mapping[str, Sequence[TreeLink]],
+    kinematic: Container[str] = (),
+) -> Motor:
     """A motor on a joint of a world.
 
     Args:
         joint: Scoped name.
         max_effort: Of all axes or of each [N or N m], shape () or (axes,).
         parts: Bodies of the models of the world.
+        kinematic: Models that move by placing alone, and have no joints then.
 
     Raises:
         EngineError: The joint cannot have a motor, or an effort cannot be.
     """
-    axes = _AXES.get(_type_of(joint, parts), 0)
+    moving = (bodies for model, bodies in parts.items() if model not in kinematic)
+    axes = _AXES.get(_type_of(joint, moving), 0)
     if not axes:
         raise EngineError(
             f"joint '{joint}' has no axis that a motor could turn",
