@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.control.ackermann_law import AckermannLaw
 from gazelle.control.base_controller import BaseController
 from gazelle.control.interfaces import POSITION, VELOCITY
 from gazelle.control.parameters import ControllerParameters
@@ -39,33 +40,27 @@ class AckermannSteeringController(BaseController):
             raise ControlError(
                 f"wheel_separation_h and wheel_radius must be positive, not {length:g} and {radius:g}"
             )
-        self._radius = radius
-        self._length = length * parameters.number("wheel_separation_h_multiplier", 1.0)
-        self._rolling = radius * parameters.number("wheel_radius_multiplier", 1.0)
-        self._steering = parameters.number("steer_pos_multiplier", 1.0)
+        rolling = radius * parameters.number("wheel_radius_multiplier", 1.0)
+        effective = length * parameters.number("wheel_separation_h_multiplier", 1.0)
+        steering = parameters.number("steer_pos_multiplier", 1.0)
         self._wheel = self.claim(VELOCITY, [rear])
         self._front = self.claim(POSITION, [front])
         self._turned: Floats = np.zeros(self.nworld)
+        sizes = np.array([radius, rolling, effective, steering])
+        self.drive_by(
+            AckermannLaw(
+                self._wheel,
+                self._front,
+                self._turned,
+                sizes,
+                self.law_arguments,
+                open_loop=self.open_loop,
+            )
+        )
 
     def measure_anew(self, rows: Worlds) -> None:
         """Count from here."""
         self._turned[rows] = self._wheel.position[rows, 0]
-
-    def advance(self, period: float) -> bool:
-        """Go on by what the wheel has rolled, in the direction that the front is steered to."""
-        turned, angle = self._wheel.position[:, 0], self._front.position[:, 0]
-        if not (np.isfinite(turned).all() and np.isfinite(angle).all()):
-            return False
-        forward = (turned - self._turned) * self._rolling
-        self._turned = turned
-        turning = np.tan(angle * self._steering) * forward / self._length
-        self.odometry.advance(forward, np.zeros(self.nworld), turning, period)
-        return True
-
-    def drive(self, twist: Floats, period: float) -> None:  # noqa: ARG002  it needs no time
-        """Roll and steer; multipliers count for the odometry alone."""
-        self._wheel.set_command(twist[:, :1] / self._radius)
-        self._front.set_command(twist[:, 2:])
 
     def stand(self, rows: Worlds) -> None:
         """Do not roll, steer straight ahead."""
@@ -79,4 +74,4 @@ class AckermannSteeringController(BaseController):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         super().restore(state)
-        self._turned = np.array(state["turned"])
+        self._turned[:] = state["turned"]

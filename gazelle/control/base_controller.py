@@ -5,16 +5,20 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Ints64, Worlds
+from gazelle.array_types import Floats, Worlds
+from gazelle.control.base_law import BaseLaw, BaseMemory
 from gazelle.control.base_odometry import BaseOdometry
 from gazelle.control.commands import rows_of
+from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller
 from gazelle.control.measurements import Odometry, SixNumbers, Transform, Transforms
 from gazelle.control.parameters import ControllerParameters
+from gazelle.control.ports import StatePort
 from gazelle.control.publishing import PublishingSchedule
 from gazelle.control.speed_limiter import SpeedLimiter
 from gazelle.control.values import BaseTwist, StampedTwist
@@ -23,51 +27,65 @@ from gazelle.rotations import from_yaw
 
 _NANOSECONDS = 1_000_000_000
 AXES = ("linear/x", "linear/y", "angular/z")
+_KEPT = ("wanted", "stamps", "last", "earlier")
 
 
 class BaseController(Controller):
     """Drives a base as it is told, and tells where that leads.
 
-    Subclasses say what their wheels measure (``advance``), and turn a velocity into commands
-    (``drive``). The order of an update is that of the originals: odometry, publishing, command,
-    limits, wheels. A command that is older than ``cmd_vel_timeout`` is one to stand still.
+    The ``BaseLaw`` of a subclass (``drive_by``) knows the wheels: it goes on with the odometry, holds
+    the command within limits, and turns wheels, without Python while nobody listens. A command that is
+    older than ``cmd_vel_timeout`` is one to stand still.
     """
+
+    _law: BaseLaw
 
     def open_base(self, parameters: ControllerParameters) -> None:
         """Read what all bases have, open the ports."""
-        self._timeout_ns = round(parameters.number("cmd_vel_timeout", 0.5) * _NANOSECONDS)
         self._several = parameters.flag("allow_multiple_cmd_vel_publishers", default=True)
-        self._open_loop = parameters.flag("open_loop", default=False)
         self._base = parameters.text("base_frame_id", "base_link")
         self._odom = parameters.text("odom_frame_id", "odom")
         self.framed = parameters.flag("enable_odom_tf", default=True)
         window = parameters.number("velocity_rolling_window_size", 10)
         self._pose_variance = _variance(parameters, "pose_covariance_diagonal")
         self._twist_variance = _variance(parameters, "twist_covariance_diagonal")
-        self._limiters = [SpeedLimiter.read(parameters.part(axis)) for axis in AXES]
+        limiters = [SpeedLimiter.read(parameters.part(axis)) for axis in AXES]
         self.odometry = BaseOdometry(self.nworld, int(window))
         self.schedule = PublishingSchedule(parameters.number("publish_rate", 50.0))
-        zero = np.zeros((self.nworld, 3))
-        self._wanted, self.last, self._earlier = zero.copy(), zero.copy(), zero.copy()
-        self._stamps: Ints64 = np.zeros(self.nworld, np.int64)
-        self._odom_port = self.add_output("odom", Odometry, self._measure, queue_size=100)
+        self.memory = BaseMemory.empty(self.nworld)
+        self.law_arguments = (
+            self.memory,
+            self.odometry.law,
+            np.array([each.bounds for each in limiters]),
+            round(parameters.number("cmd_vel_timeout", 0.5) * _NANOSECONDS),
+        )
+        self.open_loop = parameters.flag("open_loop", default=False)
+        self.period = 0.0
+        odom = self.add_output("odom", Odometry, self._measure, queue_size=100)
+        self._paced: list[StatePort[Any]] = [odom]
+        self._prompt: list[StatePort[Any]] = []
         self._frames_port = self.add_output(
             "tf", Transforms, self._frames, topic="/tf", queue_size=100
         )
         self._command_port = self.add_input("cmd_vel", BaseTwist, self._receive)
-        self._out = None
         if parameters.flag("publish_cmd", default=False):
-            self._out = self.add_output("cmd_vel_out", StampedTwist, self._driven, queue_size=100)
+            self.publish_always(
+                self.add_output("cmd_vel_out", StampedTwist, self._driven, queue_size=100)
+            )
+
+    def drive_by(self, law: BaseLaw) -> None:
+        """Be updated by native code, made of ``law_arguments`` and ``open_loop``."""
+        self._law = law
+
+    def publish_with_odometry(self, port: StatePort[Any]) -> None:
+        """Publish something besides whenever the odometry is."""
+        self._paced.append(port)
+
+    def publish_always(self, port: StatePort[Any]) -> None:
+        """Publish something after every update."""
+        self._prompt.append(port)
 
     # -- for subclasses ----------------------------------------------------------------
-
-    def advance(self, period: float) -> bool:
-        """Measure the wheels and go on with the odometry; whether they could be measured."""
-        raise NotImplementedError
-
-    def drive(self, twist: Floats, period: float) -> None:
-        """Command the wheels for a velocity, forward, sideways and turning, shape (nworld, 3)."""
-        raise NotImplementedError
 
     def stand(self, rows: Worlds) -> None:
         """Command the wheels to stand still in some worlds."""
@@ -76,17 +94,10 @@ class BaseController(Controller):
     def measure_anew(self, rows: Worlds) -> None:
         """Count from where the wheels are now in some worlds."""
 
-    def published(self) -> None:
-        """The odometry is out; publish what goes with it."""
-
     def command_speed(self, speed: float, rows: Worlds) -> None:
         """Be told to go forward at a speed [m/s] from now on."""
-        self._wanted[rows] = (speed, 0.0, 0.0)
-        self._stamps[rows] = self.now_ns
-
-    def too_old(self) -> Bools:
-        """Where the last command is too old, shape (nworld,)."""
-        return self.now_ns - self._stamps > self._timeout_ns
+        self.memory.wanted[rows] = (speed, 0.0, 0.0)
+        self.memory.stamps[rows] = self.now_ns
 
     # -- commands ------------------------------------------------------------------------
 
@@ -108,8 +119,8 @@ class BaseController(Controller):
             text = f"controller '{self.name}' ignores a command that is not finite"
             warnings.warn(ControlWarning(text), stacklevel=3)
             return
-        self._wanted[rows] = wanted
-        self._stamps[rows] = self.now_ns
+        self.memory.wanted[rows] = wanted
+        self.memory.stamps[rows] = self.now_ns
 
     def _brake(self, rows: Worlds) -> None:
         self.stand(rows)
@@ -124,8 +135,8 @@ class BaseController(Controller):
 
     def _begin(self, rows: Worlds) -> None:
         self._brake(rows)
-        self._wanted[rows] = 0.0
-        self._stamps[rows] = self.now_ns
+        self.memory.wanted[rows] = 0.0
+        self.memory.stamps[rows] = self.now_ns
         self.measure_anew(rows)
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
@@ -133,29 +144,35 @@ class BaseController(Controller):
         self._brake(np.arange(self.nworld))
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
-        """Measure, publish, drive."""
-        if self._open_loop:
-            self.odometry.drive(self.last, period)
-        elif not self.advance(period):
+        """Measure, drive, publish; nothing where no wheel could be measured."""
+        self.period = period
+        self._law.act(self.now_ns, period)
+        if self.memory.lost.all():
             return
         if self.schedule.is_due(self.now_ns):
-            self._odom_port.publish()
-            if self.framed:
-                self._frames_port.publish()
-            self.published()
-        self.drive(self._limited(period), period)
-        if self._out is not None:
-            self._out.publish()
+            for port in self._told():
+                port.publish()
+        for port in self._prompt:
+            port.publish()
 
-    def _limited(self, period: float) -> Floats:
-        """What is driven now: commands that are not too old, within limits."""
-        wanted = np.where(self.too_old()[:, None], 0.0, self._wanted)
-        columns = [
-            each.limit(wanted[:, i], self.last[:, i], self._earlier[:, i], period)
-            for i, each in enumerate(self._limiters)
-        ]
-        self._earlier, self.last = self.last, np.stack(columns, axis=1)
-        return self.last
+    def _told(self) -> list[StatePort[Any]]:
+        """What is published at the rate of the odometry."""
+        return [*self._paced, self._frames_port] if self.framed else self._paced
+
+    def law(self) -> ControlLaw:
+        """All but publishing."""
+        return self._law
+
+    def wake_ns(self) -> float:
+        """When it publishes what somebody listens to."""
+        if any(port.wanted for port in self._prompt):
+            return 0.0
+        return self.schedule.next_ns if any(port.wanted for port in self._told()) else math.inf
+
+    def catch_up(self, updates: int, period: float) -> None:
+        """Nobody listened."""
+        self.period = period
+        self.schedule.skip(self.now_ns, updates)
 
     # -- telling -------------------------------------------------------------------------
 
@@ -186,7 +203,8 @@ class BaseController(Controller):
 
     def _driven(self) -> StampedTwist:
         linear, angular = np.zeros((2, self.nworld, 3))
-        linear[:, :2], angular[:, 2] = self.last[:, :2], self.last[:, 2]
+        driven = self.memory.last
+        linear[:, :2], angular[:, 2] = driven[:, :2], driven[:, 2]
         return StampedTwist(self.now_ns, self._base, linear, angular)
 
     # -- beginning anew --------------------------------------------------------------------
@@ -194,7 +212,7 @@ class BaseController(Controller):
     def reset(self, worlds: Worlds | None) -> None:
         """Stand still at the origin of the odometry."""
         rows = self.rows(worlds)
-        self.last[rows] = self._earlier[rows] = 0.0
+        self.memory.last[rows] = self.memory.earlier[rows] = 0.0
         self.odometry.reset(worlds)
         if worlds is None:
             self.schedule.start(self.now_ns, at_once=False)
@@ -203,21 +221,19 @@ class BaseController(Controller):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Odometry and commands."""
+        kept = {name: getattr(self.memory, name).copy() for name in _KEPT}
         return {
-            "wanted": self._wanted.copy(),
-            "last": self.last.copy(),
-            "earlier": self._earlier.copy(),
-            "stamps": self._stamps.copy(),
+            **kept,
             **self.schedule.state(),
             **{f"odometry/{name}": value for name, value in self.odometry.state().items()},
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._wanted, self.last = np.array(state["wanted"]), np.array(state["last"])
-        self._earlier, self._stamps = np.array(state["earlier"]), np.array(state["stamps"])
+        for name in _KEPT:
+            getattr(self.memory, name)[:] = state[name]
         self.schedule.restore(state)
-        names = ("pose", "twist", "recent")
+        names = self.odometry.state()
         self.odometry.restore({name: state[f"odometry/{name}"] for name in names})
 
 

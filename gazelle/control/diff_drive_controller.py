@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.base_controller import BaseController
+from gazelle.control.diff_drive_control_law import DiffDriveControlLaw
 from gazelle.control.parameters import ControllerParameters
-from gazelle.control.ports import StatePort, TunableValue
+from gazelle.control.ports import TunableValue
 from gazelle.control.values import JointSample, TrajectoryState
 from gazelle.control.wheel_geometry import wheel_distance, wheel_radius
 from gazelle.description import Cylinder, Sphere
@@ -44,15 +45,20 @@ class DiffDriveController(BaseController):
                 parameters.number("wheel_separation_multiplier", 1.0),
             ]
         )
-        self._count = len(left)
         self._wheels = self.claim(self.interfaces[0], (*left, *right))
         self._turned: Floats = np.zeros((self.nworld, 2))
-        self._period = 0.0
-        self._states: StatePort[TrajectoryState] | None = None
+        self._effective = self._size * self._multipliers
+        self._sides = DiffDriveControlLaw(
+            self._wheels,
+            self._turned,
+            self._effective,
+            self.law_arguments,
+            open_loop=self.open_loop,
+        )
+        self.drive_by(self._sides)
         if parameters.flag("publish_wheel_joint_controller_state", default=False):
-            self._states = self.add_output(
-                "wheel_joint_controller_state", TrajectoryState, self._tell, queue_size=100
-            )
+            name = "wheel_joint_controller_state"
+            self.publish_always(self.add_output(name, TrajectoryState, self._tell, queue_size=100))
         self.add_tuning("", _TUNABLES, self._tuned, self._tune)
 
     def _read_sizes(self, given: ControllerParameters, left: str, right: str) -> Floats:
@@ -84,46 +90,13 @@ class DiffDriveController(BaseController):
     def _tune(self, values: Mapping[str, Any]) -> None:
         names = [each.name for each in _TUNABLES[:3]]
         self._multipliers = np.array([values[name] for name in names])
+        self._effective[:] = self._size * self._multipliers
         self.schedule.set_rate(values["publish_rate"])
         self.framed = values["enable_odom_tf"]
 
-    def _sides(self) -> Floats:
-        """How far each side has turned [rad], shape (nworld, 2)."""
-        position = self._wheels.position
-        means = (position[:, : self._count], position[:, self._count :])
-        return np.stack([side.mean(axis=1) for side in means], axis=1)
-
     def measure_anew(self, rows: Worlds) -> None:
         """Count from here."""
-        self._turned[rows] = self._sides()[rows]
-
-    def advance(self, period: float) -> bool:
-        """Go on by what both sides have rolled."""
-        turned = self._sides()
-        if not np.isfinite(turned).all():
-            return False
-        radii, separation = (self._size * self._multipliers)[:2], self._separation()
-        rolled = (turned - self._turned) * radii
-        self._turned = turned
-        forward = rolled.sum(axis=1) * 0.5
-        angle = (rolled[:, 1] - rolled[:, 0]) / separation
-        self.odometry.advance(forward, np.zeros(self.nworld), angle, period)
-        return True
-
-    def _separation(self) -> float:
-        return float(self._size[2] * self._multipliers[2])
-
-    def drive(self, twist: Floats, period: float) -> None:
-        """Turn both sides."""
-        self._period = period
-        left, right = (self._size * self._multipliers)[:2]
-        half = twist[:, 2] * self._separation() * 0.5
-        speeds = np.empty((self.nworld, 2 * self._count))
-        speeds[:, : self._count] = ((twist[:, 0] - half) / left)[:, None]
-        speeds[:, self._count :] = ((twist[:, 0] + half) / right)[:, None]
-        self._wheels.set_command(speeds)
-        if self._states is not None:
-            self._states.publish()
+        self._turned[rows] = self._sides.measure()[rows]
 
     def stand(self, rows: Worlds) -> None:
         """Turn no wheel."""
@@ -132,14 +105,14 @@ class DiffDriveController(BaseController):
     def _tell(self) -> TrajectoryState:
         position, velocity = self._wheels.position, self._wheels.velocity
         wanted = self._wheels.command()
-        onward = position + wanted * self._period
+        onward = position + wanted * self.period
         return TrajectoryState(
             self.now_ns,
             self._wheels.names,
             JointSample(onward, wanted),
             JointSample(position, velocity),
             JointSample(onward - position, wanted - velocity),
-            np.full(self.nworld, self._period),
+            np.full(self.nworld, self.period),
         )
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
@@ -149,4 +122,4 @@ class DiffDriveController(BaseController):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         super().restore(state)
-        self._turned = np.array(state["turned"])
+        self._turned[:] = state["turned"]

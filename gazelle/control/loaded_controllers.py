@@ -94,13 +94,14 @@ class LoadedControllers(dict[str, LoadedController]):
             }.items()
         }
 
-    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+    def restore(self, now_ns: int, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``states`` gave; controllers loaded since stay as they are."""
         for name, entry in self.items():
             own = {
                 k.removeprefix(f"{name}/"): v for k, v in state.items() if k.startswith(f"{name}/")
             }
             if own:
+                entry.controller.now_ns = now_ns
                 running = bool(own.pop("running"))
                 entry.controller.running = running
                 if running or entry.state == "running":

@@ -252,7 +252,7 @@ class ControllerManager:
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``states`` gave; controllers loaded since stay as they are."""
-        self._loaded.restore(state)
+        self._loaded.restore(self.now_ns, state)
 
     # -- one thing at a time -----------------------------------------------------------
 

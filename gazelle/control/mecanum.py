@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.base_controller import BaseController
+from gazelle.control.mecanum_law import MecanumLaw
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.wheel_geometry import joint_origin, wheel_radius
 from gazelle.errors import ControlError
@@ -41,30 +42,23 @@ class MecanumDriveController(BaseController):
             raise ControlError(
                 f"distances and wheel_radius must be positive, not {2.0 * lever:g} and {radius:g}"
             )
-        self._radius = radius
-        self._mixing = _MIXING * (1.0, 1.0, lever)
-        self._inverse = _MIXING.T / 4.0 / np.array([[1.0], [1.0], [lever]])
         self._wheels = self.claim(self.interfaces[0], names)
         self._turned: Floats = np.zeros((self.nworld, 4))
+        self.drive_by(
+            MecanumLaw(
+                self._wheels,
+                self._turned,
+                radius,
+                _MIXING * (1.0, 1.0, lever),
+                _MIXING.T / 4.0 / np.array([[1.0], [1.0], [lever]]),
+                self.law_arguments,
+                open_loop=self.open_loop,
+            )
+        )
 
     def measure_anew(self, rows: Worlds) -> None:
         """Count from here."""
         self._turned[rows] = self._wheels.position[rows]
-
-    def advance(self, period: float) -> bool:
-        """Go on by what the wheels have rolled."""
-        turned = self._wheels.position
-        if not np.isfinite(turned).all():
-            return False
-        rolled = (turned - self._turned) * self._radius
-        self._turned = turned
-        forward, sideways, angle = (rolled @ self._inverse.T).T
-        self.odometry.advance(forward, sideways, angle, period)
-        return True
-
-    def drive(self, twist: Floats, period: float) -> None:  # noqa: ARG002  it needs no time
-        """Turn the wheels."""
-        self._wheels.set_command(twist @ self._mixing.T / self._radius)
 
     def stand(self, rows: Worlds) -> None:
         """Turn no wheel."""
@@ -77,4 +71,4 @@ class MecanumDriveController(BaseController):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         super().restore(state)
-        self._turned = np.array(state["turned"])
+        self._turned[:] = state["turned"]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.control.base_law import limit_speeds
 from gazelle.control.parameters import ControllerParameters
 from gazelle.errors import ControlError
 
@@ -46,20 +47,12 @@ class SpeedLimiter:
             earlier: The one before that, likewise.
             dt: Since the last one [s].
         """
-        held = wanted
-        if math.isfinite(self.jerk[0]) or math.isfinite(self.jerk[1]):
-            change, last = held - before, before - earlier
-            square = 2.0 * dt * dt
-            held = before + last + _clip(change - last, self.jerk, square)
-        if math.isfinite(self.acceleration[0]) or math.isfinite(self.acceleration[1]):
-            held = before + _clip(held - before, self.acceleration, dt)
-        return _clip(held, self.velocity, 1.0)
+        return limit_speeds((wanted, before, earlier), dt, np.array(self.bounds))
 
-
-def _clip(values: Floats, bounds: tuple[float, float], factor: float) -> Floats:
-    low, high = (bound * factor if math.isfinite(bound) else bound for bound in bounds)
-    held: Floats = np.minimum(np.maximum(values, low), high)
-    return held
+    @property
+    def bounds(self) -> tuple[float, ...]:
+        """All six, as native code takes them."""
+        return (*self.velocity, *self.acceleration, *self.jerk)
 
 
 def _bounds(given: ControllerParameters, what: str) -> tuple[float, float]:

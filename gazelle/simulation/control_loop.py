@@ -194,6 +194,7 @@ class ControlLoop(ModelPlugin):
         times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
         return {
             "times": np.array(times, np.int64),
+            "now": np.array(self.manager.now_ns),
             "stop": np.stack((self.stopped, self._released)),
             **{f"hardware/{name}": value for name, value in self.hardware.state().items()},
             **{f"controllers/{name}": value for name, value in self.manager.states().items()},
@@ -206,7 +207,7 @@ class ControlLoop(ModelPlugin):
         self.stopped, self._released = (np.array(row, bool) for row in state["stop"])
         self._tell_of_stops()
         self.hardware.restore(_below("hardware/", state))
-        self.manager.now_ns = self._clock.now_ns
+        self.manager.now_ns = int(state["now"])
         self.manager.restore(_below("controllers/", state))
 
 
