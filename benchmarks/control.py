@@ -11,11 +11,12 @@ import argparse
 import os
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import gazelle
 from gazelle import formats
 from gazelle.control import EFFORT, Controller, ControllerParameters, register
-from gazelle.control.values import JointTargets, JointTrajectory, TrajectoryPoint
+from gazelle.control.values import BaseTwist, JointTargets, JointTrajectory, TrajectoryPoint
 from gazelle.description import World
 
 STEP = 0.001
@@ -24,6 +25,7 @@ JOINTS = tuple(f"joint_{number}" for number in range(1, 8))
 TARGETS = (0.3, 0.4, -0.2, 0.3, 0.2, -0.3, 0.1)
 GROUP = "effort_controllers/JointGroupPositionController"
 TRAJECTORY = "effort_controllers/JointTrajectoryController"
+DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
 GAINS = {"p": 200.0, "i": 20.0, "d": 10.0, "i_clamp": 10.0}
 GOALS = {1: 0.15, 256: 0.05}
 
@@ -55,6 +57,7 @@ def main() -> None:
         one_arm(nworld, goal, args.seconds)
     own_class(args.seconds)
     many_arms(args.seconds)
+    many_bases(args.seconds)
 
 
 def arm_text() -> str:
@@ -174,6 +177,63 @@ def many_arms(seconds: float) -> None:
     print(
         f"100 arms with a trajectory controller each: {1000.0 / full:.2f} times real time "
         f"(goal: above 1), {full - free:,.0f} us of {full:,.0f} us a step are control"
+    )
+
+
+def base_text(*, controlled: bool) -> str:
+    """The URDF of a base on two wheels and a caster, whose wheels may be under control."""
+    body = (
+        '<inertial><origin xyz="-0.05 0 0.1"/><mass value="5"/>'
+        '<inertia ixx="0.1" iyy="0.1" izz="0.15" ixy="0" ixz="0" iyz="0"/></inertial>'
+        '<collision><origin xyz="-0.2 0 0.05"/><geometry><sphere radius="0.05"/></geometry></collision>'
+    )
+    parts = [f'<robot name="base"><link name="base">{body}</link>']
+    for side, y in (("left", 0.2), ("right", -0.2)):
+        parts.append(
+            f'<link name="{side}"><inertial><mass value="0.5"/><inertia ixx="0.002" iyy="0.002" izz="0.003" '
+            'ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><cylinder radius="0.1" length="0.04"/>'
+            f'</geometry></collision></link><joint name="{side}_wheel" type="continuous">'
+            f'<parent link="base"/><child link="{side}"/><origin xyz="0 {y} 0.1" rpy="-1.5707963 0 0"/>'
+            '<axis xyz="0 0 1"/><limit effort="20" velocity="50"/></joint>'
+            f'<transmission name="drive_{side}"><type>transmission_interface/SimpleTransmission</type>'
+            f'<joint name="{side}_wheel"><hardwareInterface>hardware_interface/VelocityJointInterface'
+            f'</hardwareInterface></joint><actuator name="motor_{side}"/></transmission>'
+        )
+    parts.append('<gazebo reference="base"><mu1>0</mu1><mu2>0</mu2></gazebo>')
+    if controlled:
+        parts.append('<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>')
+    return "".join([*parts, "</robot>"])
+
+
+def bases(count: int, *, controlled: bool) -> gazelle.Simulation:
+    """Bases that drive circles, by controllers or by motors alone."""
+    model = formats.load_model_string(base_text(controlled=controlled))
+    places = [gazelle.Pose(x=2.0 * (i % 10), y=2.0 * (i // 10)) for i in range(count)]
+    many = [replace(model, name=f"base_{i}", pose=at) for i, at in enumerate(places)]
+    world = formats.load("empty")
+    sim = gazelle.Simulation(replace(world, models=(*world.models, *many)), threads=1)
+    variances = {f"{name}_covariance_diagonal": [0.001] * 6 for name in ("pose", "twist")}
+    given = {"left_wheel": "left_wheel", "right_wheel": "right_wheel", "cmd_vel_timeout": 1e6}
+    for robot in (sim.robots[each.name] for each in many):
+        if controlled:
+            robot.controllers.load("base", {"type": DIFF_DRIVE, **given, **variances})
+            robot.controllers.start("base")
+            twist = BaseTwist((0.3, 0.0, 0.0), (0.0, 0.0, 0.5))
+            robot.controllers["base"].inputs["cmd_vel"].send(twist)
+        else:
+            for side, speed in (("left", 2.0), ("right", 4.0)):
+                robot.joints[f"{side}_wheel"].add_motor(20.0)
+                robot.joints[f"{side}_wheel"].drive(speed)
+    return sim
+
+
+def many_bases(seconds: float) -> None:
+    """100 bases that drive circles, in one process."""
+    sims = [bases(100, controlled=controlled) for controlled in (False, True)]
+    free, full = least([stepping(sim, 20) for sim in sims], seconds)
+    print(
+        f"100 bases with a diff_drive_controller each: {1000.0 / full:.2f} times real time, "
+        f"{full - free:,.0f} us of {full:,.0f} us a step are control"
     )
 
 

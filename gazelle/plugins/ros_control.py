@@ -53,7 +53,6 @@ class RosControl(ControlLoop):
         if "controlPeriod" in parameters:
             self.set_period(parameters.require("controlPeriod", float))
         self._open(robot, parameters)
-        self.hardware.read(robot.simulation.time, 0.0)
         robot.add_manager(_free(namespace, robot.managers), self.manager)
 
     def _open(self, robot: Robot, parameters: Parameters) -> None:
@@ -112,8 +111,6 @@ class RosControl(ControlLoop):
             self.change_hardware(self._make())
         except Error as error:
             warnings.warn(ControlWarning(f"the joints stay as they are: {error}"), stacklevel=3)
-            return
-        self.hardware.read(self._owner.simulation.time, 0.0)
 
     # -- making the robot's side ---------------------------------------------------------
 

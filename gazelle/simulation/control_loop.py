@@ -230,7 +230,6 @@ def add_controllers(robot: Robot) -> ControllerManager:
     setup = HardwareSetup(namespace, joints, robot.description)
     loop = ControlLoop()
     loop.begin(robot, JointHardware(robot, setup), robot.description, namespace)
-    loop.hardware.read(robot.simulation.time, 0.0)
     robot.simulation.plugins.append(make_scheduled(loop, "controllers", robot.name))
     robot.add_manager(namespace, loop.manager)
     return loop.manager

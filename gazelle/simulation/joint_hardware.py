@@ -76,10 +76,13 @@ class JointHardware(SimulatedHardware):
         self._handles = [robot.joints[name] for name in names]
         self._names = [handle.name for handle in self._handles]
         self._loads = robot.simulation.loads
-        for handle in self._handles:
-            if handle.axes != 1:
+        described = [robot.joint_description(name) for name in names]
+        for handle, joint in zip(self._handles, described, strict=True):
+            # The description is asked, not the engine: that would be compiled anew for every robot.
+            if len(joint.axes) != 1:
+                count = handle.axes
                 raise SimulationError(
-                    f"joint '{handle.name}' has {handle.axes} axes and cannot be controlled"
+                    f"joint '{handle.name}' has {count} axes and cannot be controlled"
                 )
         offered = {
             kind: [each.name for each in self._joints if kind in each.interfaces]
@@ -88,7 +91,6 @@ class JointHardware(SimulatedHardware):
         self.states = self.register_joints(names, {k: of for k, of in offered.items() if of})
         for interface in sensor_interfaces(robot):
             self.register(interface)
-        described = [robot.joint_description(name) for name in names]
         lower = np.array([each.limits.lower for each in self._joints])
         upper = np.array([each.limits.upper for each in self._joints])
         turning = np.array([each.type != "prismatic" for each in described], bool)

@@ -115,12 +115,12 @@ class MujocoEngine(CarryingSteps):
     @property
     def link_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::link``."""
-        return tuple(self._now().links)
+        return tuple(self._layout.links)  # what is pending, motors, changes no names
 
     @property
     def joint_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::joint``, of joints that can move."""
-        return tuple(self._now().joints)
+        return tuple(self._layout.joints)
 
     # -- time --------------------------------------------------------------------------
 
