@@ -39,12 +39,20 @@ class Transmission:
         type: Such as ``transmission_interface/SimpleTransmission``.
         joints: Pairs of joint name and its hardware interfaces.
         actuators: Pairs of actuator name and mechanical reduction.
+        offsets: Of the joints' positions [m or rad], one a joint; empty for none.
+        joint_reductions: Mechanical reductions behind the actuators', one a joint; empty for none.
+        joint_roles: Such as ``joint1``, one a joint; empty where none is given.
+        actuator_roles: Such as ``actuator1``, likewise.
     """
 
     name: str
     type: str
     joints: tuple[tuple[str, tuple[str, ...]], ...] = ()
     actuators: tuple[tuple[str, float], ...] = ()
+    offsets: tuple[float, ...] = ()
+    joint_reductions: tuple[float, ...] = ()
+    joint_roles: tuple[str, ...] = ()
+    actuator_roles: tuple[str, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)
 
 

@@ -47,6 +47,7 @@ class RosControl(ControlLoop):
         self._namespace = namespace
         self._gains: Mapping[str, Any] = {}
         self._limits: Mapping[str, Any] = {}
+        self._actuated = False
         self._model = robot.description
         self._owner = robot
         self.begin(robot, self._make(), self._model, namespace)
@@ -69,6 +70,9 @@ class RosControl(ControlLoop):
             (limits, "joint_limits", self.take_limits),
         ):
             robot.settings[_unused(name, full, robot.settings)] = Setting(full, {}, take)
+        full = absolute(self._namespace, "gazebo_ros_control/use_transmissions")
+        name = _unused("use_transmissions", full, robot.settings)
+        robot.settings[name] = Setting(full, False, self.use_transmissions)
         if "robotParam" in parameters or not robot.description.transmissions:
             name = parameters.get("robotParam", "robot_description")
             full = absolute(self._namespace, name)
@@ -90,6 +94,15 @@ class RosControl(ControlLoop):
     def take_limits(self, given: Mapping[str, Any]) -> None:
         """Limits by joint, as ``joint_limits`` holds them."""
         self._limits = given
+        self._make_again()
+
+    def use_transmissions(self, use: bool) -> None:  # noqa: FBT001  the setting's value
+        """Whether transmissions are more than names of joints, as they are in Gazebo.
+
+        Then there are actuators, which turn by reductions and offsets (``ActuatorStateInterface``), and
+        joints of differential and four-bar transmissions are controlled as well.
+        """
+        self._actuated = use
         self._make_again()
 
     def take_description(self, text: str) -> None:
@@ -119,12 +132,14 @@ class RosControl(ControlLoop):
         return model.transmissions
 
     def _make(self) -> SimulatedHardware:
+        used = [each for each in self.transmissions_of(self._model) if self._is_good(each)]
         joints = [
-            self._joint(transmission)
-            for transmission in self.transmissions_of(self._model)
-            if self._is_good(transmission)
+            self._joint(transmission, *joint)
+            for transmission in used
+            for joint in transmission.joints
         ]
-        setup = HardwareSetup(self._namespace, joints, self._model, self._parameters)
+        drives = used if self._actuated else ()
+        setup = HardwareSetup(self._namespace, joints, self._model, self._parameters, drives)
         return self._hardware_class()(self._owner, setup)
 
     def _hardware_class(self) -> type[SimulatedHardware]:
@@ -147,14 +162,15 @@ class RosControl(ControlLoop):
 
     def _is_good(self, transmission: Transmission) -> bool:
         """Whether a transmission is used; says why if it is not."""
-        fault = _fault_of(transmission)
+        fault = _fault_of(transmission, several=self._actuated)
         if fault:
             text = f"transmission '{transmission.name}' of '{self._owner.name}' {fault}; it is left out"
             warnings.warn(ControlWarning(located(text, transmission.source)), stacklevel=4)
         return not fault
 
-    def _joint(self, transmission: Transmission) -> CommandedJoint:
-        name, interfaces = transmission.joints[0]
+    def _joint(
+        self, transmission: Transmission, name: str, interfaces: tuple[str, ...]
+    ) -> CommandedJoint:
         first = interfaces[0]
         kind = first if first.startswith(_PREFIX) else _PREFIX + first
         if kind not in INTERFACES:
@@ -175,15 +191,25 @@ class RosControl(ControlLoop):
         return CommandedJoint(name, (kind,), limits, pid)
 
 
-def _fault_of(transmission: Transmission) -> str:
-    """Why a transmission cannot be used; empty if it can."""
+def _fault_of(transmission: Transmission, *, several: bool) -> str:
+    """Why a transmission cannot be used; empty if it can.
+
+    Args:
+        transmission: Which.
+        several: Whether it may have several joints.
+    """
     if not transmission.name:
         return "has no name"
     if not transmission.type:
         return "has no <type>"
-    if len(transmission.joints) != 1:
-        return f"has {len(transmission.joints)} joints, and the simulation takes those with one"
-    if not transmission.joints[0][1]:
+    if not transmission.joints:
+        return "has no joint"
+    if len(transmission.joints) > 1 and not several:
+        return (
+            f"has {len(transmission.joints)} joints, and the simulation takes those with one, unless "
+            "use_transmissions is set"
+        )
+    if not all(interfaces for _, interfaces in transmission.joints):
         return "has a joint without <hardwareInterface>"
     if not transmission.actuators:
         return "has no <actuator>"

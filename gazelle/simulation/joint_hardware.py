@@ -22,6 +22,7 @@ from gazelle.control import (
     ControllerInfo,
     JointCommandInterface,
 )
+from gazelle.control.actuators import ActuatorStateInterface, drive_of
 from gazelle.control.control_cycle import ControlCycle
 from gazelle.control.interfaces import COMMAND_FIELDS
 from gazelle.control.joint_law import (
@@ -89,6 +90,9 @@ class JointHardware(SimulatedHardware):
             for kind in INTERFACES
         }
         self.states = self.register_joints(names, {k: of for k, of in offered.items() if of})
+        if setup.transmissions:
+            drives = [drive_of(each) for each in setup.transmissions]
+            self.register(ActuatorStateInterface(drives, self.states))
         for interface in sensor_interfaces(robot):
             self.register(interface)
         lower = np.array([each.limits.lower for each in self._joints])

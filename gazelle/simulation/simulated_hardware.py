@@ -10,7 +10,7 @@ from gazelle.array_types import Bools
 from gazelle.control import EFFORT, POSITION, VELOCITY, RobotHardware
 from gazelle.control.limits import JointLimits
 from gazelle.control.pid import PidGains
-from gazelle.description import Model
+from gazelle.description import Model, Transmission
 from gazelle.simulation.robot import Robot
 
 INTERFACES = (EFFORT, POSITION, VELOCITY)
@@ -43,12 +43,14 @@ class HardwareSetup:
         joints: To be commanded.
         model: The robot as its URDF describes it.
         parameters: Of the plugin that asks, as tags; None without one.
+        transmissions: Between the joints and actuators that are known; none where they do not count.
     """
 
     namespace: str
     joints: Sequence[CommandedJoint]
     model: Model
     parameters: Any = None
+    transmissions: Sequence[Transmission] = ()
 
 
 class SimulatedHardware(RobotHardware):

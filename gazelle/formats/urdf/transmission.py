@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from gazelle.description import Parameters, Transmission
 from gazelle.errors import FormatError
 from gazelle.formats import values
@@ -30,8 +32,23 @@ def read_transmission(node: Parameters, reading: Reading) -> Transmission:
             )
             for actuator in node.find_all("actuator")
         ),
+        offsets=_of_joints(node, "offset", 0.0, reading),
+        joint_reductions=_of_joints(node, "mechanicalReduction", 1.0, reading),
+        joint_roles=_roles(node.find_all("joint")),
+        actuator_roles=_roles(node.find_all("actuator")),
         source=node.source,
     )
+
+
+def _of_joints(node: Parameters, tag: str, default: float, reading: Reading) -> tuple[float, ...]:
+    """A number of each joint; none where no joint has another than the default."""
+    numbers = tuple(_number(joint, tag, default, reading) for joint in node.find_all("joint"))
+    return numbers if any(each != default for each in numbers) else ()
+
+
+def _roles(nodes: Sequence[Parameters]) -> tuple[str, ...]:
+    roles = tuple(values.word(each, "role") for each in nodes)
+    return roles if any(roles) else ()
 
 
 def _interfaces(node: Parameters) -> tuple[str, ...]:
@@ -39,9 +56,13 @@ def _interfaces(node: Parameters) -> tuple[str, ...]:
 
 
 def _reduction(node: Parameters, default: float, reading: Reading) -> float:
-    """A reduction; Gazebo reads a URDF with another text, for it reads no transmissions."""
+    return _number(node, "mechanicalReduction", default, reading)
+
+
+def _number(node: Parameters, tag: str, default: float, reading: Reading) -> float:
+    """A number; Gazebo reads a URDF with another text, for it reads no transmissions."""
     try:
-        return values.real(node, "mechanicalReduction", default)
+        return values.real(node, tag, default)
     except FormatError as error:
         reading.tolerate(error, f"{default:g} was taken")
         return default

@@ -95,13 +95,32 @@ def write_frame(frame: Frame) -> Parameters:
 
 def write_transmission(transmission: Transmission, tag: str) -> Parameters:
     """URDF's ``<transmission>``."""
-    joints = (
-        element("joint", *(leaf("hardwareInterface", i) for i in interfaces), name=name)
-        for name, interfaces in transmission.joints
+    count = len(transmission.joints)
+    numbers = zip(
+        transmission.joint_roles or ("",) * count,
+        transmission.offsets or (0.0,) * count,
+        transmission.joint_reductions or (1.0,) * count,
+        strict=True,
     )
+    joints = (
+        element(
+            "joint",
+            leaf("role", role, ""),
+            *(leaf("hardwareInterface", i) for i in interfaces),
+            leaf("offset", offset, 0.0),
+            leaf("mechanicalReduction", reduction, 1.0),
+            name=name,
+        )
+        for (name, interfaces), (role, offset, reduction) in zip(
+            transmission.joints, numbers, strict=True
+        )
+    )
+    roles = transmission.actuator_roles or ("",) * len(transmission.actuators)
     actuators = (
-        element("actuator", leaf("mechanicalReduction", reduction), name=name)
-        for name, reduction in transmission.actuators
+        element(
+            "actuator", leaf("role", role, ""), leaf("mechanicalReduction", reduction), name=name
+        )
+        for (name, reduction), role in zip(transmission.actuators, roles, strict=True)
     )
     return element(
         tag, leaf("type", transmission.type, ""), *joints, *actuators, name=transmission.name
