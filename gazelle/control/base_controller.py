@@ -45,7 +45,6 @@ class BaseController(Controller):
         self._several = parameters.flag("allow_multiple_cmd_vel_publishers", default=True)
         self._base = parameters.text("base_frame_id", "base_link")
         self._odom = parameters.text("odom_frame_id", "odom")
-        self.framed = parameters.flag("enable_odom_tf", default=True)
         window = parameters.number("velocity_rolling_window_size", 10)
         self._pose_variance = _variance(parameters, "pose_covariance_diagonal")
         self._twist_variance = _variance(parameters, "twist_covariance_diagonal")
@@ -62,11 +61,12 @@ class BaseController(Controller):
         self.open_loop = parameters.flag("open_loop", default=False)
         self.period = 0.0
         odom = self.add_output("odom", Odometry, self._measure, queue_size=100)
-        self._paced: list[StatePort[Any]] = [odom]
+        self._told: list[StatePort[Any]] = [odom]
         self._prompt: list[StatePort[Any]] = []
         self._frames_port = self.add_output(
             "tf", Transforms, self._frames, topic="/tf", queue_size=100
         )
+        self.tell_frames(told=parameters.flag("enable_odom_tf", default=True))
         self._command_port = self.add_input("cmd_vel", BaseTwist, self._receive)
         if parameters.flag("publish_cmd", default=False):
             self.publish_always(
@@ -79,7 +79,19 @@ class BaseController(Controller):
 
     def publish_with_odometry(self, port: StatePort[Any]) -> None:
         """Publish something besides whenever the odometry is."""
-        self._paced.append(port)
+        self._told.append(port)
+
+    @property
+    def framed(self) -> bool:
+        """Whether the frame of the odometry is published, too."""
+        return self._frames_port in self._told
+
+    def tell_frames(self, *, told: bool) -> None:
+        """Publish the frame of the odometry with it, or do not."""
+        if told and not self.framed:
+            self._told.append(self._frames_port)
+        elif self.framed and not told:
+            self._told.remove(self._frames_port)
 
     def publish_always(self, port: StatePort[Any]) -> None:
         """Publish something after every update."""
@@ -150,14 +162,10 @@ class BaseController(Controller):
         if self.memory.lost.all():
             return
         if self.schedule.is_due(self.now_ns):
-            for port in self._told():
+            for port in self._told:
                 port.publish()
         for port in self._prompt:
             port.publish()
-
-    def _told(self) -> list[StatePort[Any]]:
-        """What is published at the rate of the odometry."""
-        return [*self._paced, self._frames_port] if self.framed else self._paced
 
     def law(self) -> ControlLaw:
         """All but publishing."""
@@ -165,9 +173,13 @@ class BaseController(Controller):
 
     def wake_ns(self) -> float:
         """When it publishes what somebody listens to."""
-        if any(port.wanted for port in self._prompt):
-            return 0.0
-        return self.schedule.next_ns if any(port.wanted for port in self._told()) else math.inf
+        for port in self._prompt:
+            if port.wanted:
+                return 0.0
+        for port in self._told:
+            if port.wanted:
+                return self.schedule.next_ns
+        return math.inf
 
     def catch_up(self, updates: int, period: float) -> None:
         """Nobody listened."""

@@ -92,7 +92,7 @@ class DiffDriveController(BaseController):
         self._multipliers = np.array([values[name] for name in names])
         self._effective[:] = self._size * self._multipliers
         self.schedule.set_rate(values["publish_rate"])
-        self.framed = values["enable_odom_tf"]
+        self.tell_frames(told=values["enable_odom_tf"])
 
     def measure_anew(self, rows: Worlds) -> None:
         """Count from here."""

@@ -67,8 +67,11 @@ class LoadedControllers(dict[str, LoadedController]):
 
     def wake_ns(self) -> float:
         """When one has to be updated although all are native code [ns]."""
-        running = (e.controller for e in self.values() if e.controller.running)
-        return min((each.wake_ns() for each in running), default=math.inf)
+        soonest = math.inf
+        for entry in self.values():
+            if entry.controller.running:
+                soonest = min(soonest, entry.controller.wake_ns())
+        return soonest
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """They were updated in native code; see ``ControllerManager.catch_up``."""

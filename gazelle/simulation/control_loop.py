@@ -142,11 +142,13 @@ class ControlLoop(ModelPlugin):
     def carried(self) -> tuple[JointSystem, float] | None:
         """All of ``on_update`` in native code, until somebody wants to know."""
         hardware = self.hardware
-        if not isinstance(hardware, JointHardware) or self._restarts or not self.active:
+        if not isinstance(hardware, JointHardware) or self._restarts:
             return None
         laws = self.manager.laws()
-        cycle = None if laws is None else hardware.carried
-        if laws is None or cycle is None:
+        if laws is None or not (laws or self.active):
+            return None
+        cycle = hardware.carried
+        if cycle is None:
             return None
         self._stop_emergency()
         wanted = (cycle, hardware.law, laws, self._control_ns, self._clock.step_ns)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from gazelle.description import Parameters, Transmission
 from gazelle.errors import FormatError
@@ -46,7 +46,7 @@ def _of_joints(node: Parameters, tag: str, default: float, reading: Reading) -> 
     return numbers if any(each != default for each in numbers) else ()
 
 
-def _roles(nodes: Sequence[Parameters]) -> tuple[str, ...]:
+def _roles(nodes: Iterable[Parameters]) -> tuple[str, ...]:
     roles = tuple(values.word(each, "role") for each in nodes)
     return roles if any(roles) else ()
 
