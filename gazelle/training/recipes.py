@@ -126,6 +126,7 @@ GOALS = Recipe(
 )
 """For tasks with goals that have no recipe of their own, see `gazelle.training.recipe_choice`."""
 
+# Not verified, see docs/environments/fetch.md: FetchPush begins to learn within 250,000 steps.
 _FETCH_OBJECT = dataclasses.replace(
     _FETCH_REACH,
     steps=1_000_000,
