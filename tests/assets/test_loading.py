@@ -9,8 +9,8 @@ from gazelle import assets
 from gazelle.builders import office
 from gazelle.formats import load_model
 
-# The office is built, the fleet's hall is of Stage.
-BUILT = {"office", "fleet"}
+# The office is built, the hall of the fleet and the depot are of Stage.
+BUILT = {"office", "fleet", "depot"}
 OF_TASKS = {
     "fetch_table",
     "fetch_cube",

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Send AGVs to goals by the actions of their own move_base, all at once.
+
+gazelle launch fleet_stage depot.launch goals:=true    # starts all, and this script
+gazelle exec fleet_stage send_goals.py --rounds 3      # while depot.launch runs elsewhere
+"""
+
+import argparse
+import sys
+from typing import Any
+
+from gazelle.ros import Node, load_message
+from gazelle.ros.actions import GoalStatus, SimpleActionClient
+
+PLACES = [
+    (-8.5, 2.0),
+    (-4.0, 0.0),
+    (1.5, 4.5),
+    (4.5, 0.5),
+    (8.0, 2.0),
+    (-1.0, -4.2),
+    (5.0, -4.0),
+    (-8.5, -3.0),
+]
+ROBOTS = 4
+PATIENCE = 600.0
+"""How long to wait for a server or a result, by the wall clock [s]."""
+
+
+def goal_at(x: float, y: float) -> Any:
+    """A goal on the map."""
+    goal = load_message("move_base_msgs/MoveBaseGoal")()
+    goal.target_pose.header.frame_id = "map"
+    goal.target_pose.pose.position.x, goal.target_pose.pose.position.y = x, y
+    goal.target_pose.pose.orientation.w = 1.0
+    return goal
+
+
+def main() -> int:
+    """Send them; the exit code is 0 if all goals were reached."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=1)
+    options, _ = parser.parse_known_args()
+    action, failed = load_message("move_base_msgs/MoveBaseAction"), 0
+    with Node("/send_goals") as node:
+        clients = [SimpleActionClient(node, f"/robot_{n}/move_base", action) for n in range(ROBOTS)]
+        for client in clients:
+            if not client.wait_for_server(PATIENCE):
+                sys.exit("a move_base does not come up")
+        for number in range(options.rounds):
+            goals = [PLACES[(2 * n + 3 * number) % len(PLACES)] for n in range(ROBOTS)]
+            for client, goal in zip(clients, goals, strict=True):
+                client.send_goal(goal_at(*goal))
+            for n, (client, goal) in enumerate(zip(clients, goals, strict=True)):
+                client.wait_for_result(PATIENCE)
+                reached = client.get_state() == GoalStatus.SUCCEEDED
+                failed += not reached
+                print(f"robot_{n} to {goal}: {client.get_goal_status_text()}", flush=True)
+    print(
+        f"{options.rounds * ROBOTS - failed} of {options.rounds * ROBOTS} goals reached", flush=True
+    )
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
