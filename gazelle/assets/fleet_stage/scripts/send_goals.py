@@ -29,7 +29,7 @@ PATIENCE = 600.0
 
 def goal_at(x: float, y: float) -> Any:
     """A goal on the map."""
-    goal = load_message("move_base_msgs/MoveBaseGoal")()
+    goal: Any = load_message("move_base_msgs/MoveBaseGoal")()
     goal.target_pose.header.frame_id = "map"
     goal.target_pose.pose.position.x, goal.target_pose.pose.position.y = x, y
     goal.target_pose.pose.orientation.w = 1.0
