@@ -126,7 +126,7 @@ def test_a_planner_of_ones_own_is_used(world):
 
 def test_what_is_wrong_is_named(world):
     robot = burger(world, x=-2.0, y=-0.5)
-    with pytest.raises(SimulationError, match="truth or amcl"):
+    with pytest.raises(SimulationError, match="truth, amcl or slam"):
         robot.navigation.configure(localization="gps")
     with pytest.raises(Error, match="controller_frequency"):
         robot.navigation.configure({"controller_frequency": 0.0})
