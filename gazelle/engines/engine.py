@@ -140,6 +140,15 @@ class Engine(Protocol):
             worlds: Which worlds.
         """
 
+    def set_ground_motion(self, model: str, twist: ArrayLike, worlds: Worlds | None = None) -> None:
+        """The same for a level velocity as the model sees it that looks along its heading.
+
+        Args:
+            model: Name.
+            twist: Forward and to the left [m/s], turning [rad/s], shape (3,) or (n, 3).
+            worlds: Which worlds.
+        """
+
     def set_link_placement(
         self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> None:

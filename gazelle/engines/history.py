@@ -15,6 +15,7 @@ CHANGES = (
     "make_kinematic",
     "reset",
     "restore",
+    "set_ground_motion",
     "set_joint_effort",
     "set_joint_position",
     "set_joint_velocity",

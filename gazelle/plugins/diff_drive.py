@@ -18,7 +18,12 @@ from gazelle.native.system import System
 from gazelle.plugins.dead_reckoning import DeadReckoning
 from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.frames import frames_output, joint_transforms
-from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
+from gazelle.plugins.odometry import (
+    POSE_VARIANCE,
+    OdometryOutputs,
+    TrueOdometry,
+    measure_wanted,
+)
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
     JointStates,
@@ -88,7 +93,7 @@ class DiffDrive(ModelPlugin):
         """Keep commands and speeds in other tables of one drive from now on."""
         tables.take_over(self._tables)
         self._tables = tables
-        self._command.linear, self._command.angular = tables.linear[:, 0], tables.angular[:, 0]
+        self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0])
         self._law = DiffDriveLaw(
             tables,
             separation=self.separation,
@@ -105,9 +110,10 @@ class DiffDrive(ModelPlugin):
         published: list[Published] = []
         sent = parameters.get("publishTf", True)
         framed = sent and parameters.get("publishOdomTF", True)
-        odometry = OdometryOutputs(robot, topic, self._measure, namespace, framed=framed)
+        measure = self._from_wheels if self._from_encoders else self._true_odometry()
+        self.odometry = OdometryOutputs(robot, topic, measure, namespace, framed=framed)
         if sent:
-            published.append(odometry)
+            published.append(self.odometry)
         if parameters.get("publishWheelTF", False):
             self._wheel_joints = [robot.joint_description(name) for name in self.wheel_joints[::-1]]
             robot.outputs["wheel_tf"] = frames_output(self._wheel_frames, namespace)
@@ -120,8 +126,10 @@ class DiffDrive(ModelPlugin):
         self._published = tuple(published)
 
     def kind(self) -> Hashable | None:
-        """All drives whose law alone is to be done."""
-        return "DiffDriveLaw" if self._is_native() else None
+        """All drives that do not count the turns of their wheels."""
+        if self._from_encoders or self._robot.simulation.native is None:
+            return None
+        return "DiffDriveLaw"
 
     @classmethod
     def together(cls, plugins: Sequence[DiffDrive]) -> System:
@@ -137,8 +145,29 @@ class DiffDrive(ModelPlugin):
             acceleration=[each.acceleration for each in plugins],
         )
         motors = [each.motors() for each in plugins]
-        law.send_to(motors[0][0], np.array([columns for _, columns in motors]).T)
+        law.send_to(motors[0][0], [wheels for _, wheels in motors])
         return law
+
+    @property
+    def heard(self) -> bool:
+        """Whether anybody listens to what is published."""
+        for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
+            if output.wanted:
+                return True
+        return False
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[DiffDrive]) -> list[Odometry | None]:
+        """The odometry of all robots that somebody listens to."""
+        return measure_wanted([each.odometry for each in plugins])
+
+    def publish(self, measured: Odometry | None = None) -> None:
+        """Publish, an odometry that was measured already."""
+        for output in self._published:
+            if output is self.odometry:
+                self.odometry.publish(measured)
+            else:
+                output.publish()
 
     @property
     def nworld(self) -> int:
@@ -150,31 +179,23 @@ class DiffDrive(ModelPlugin):
         self._keep_in(tables)
         self._targets[:] = np.nan
 
-    def motors(self) -> tuple[Floats, tuple[int, int]]:
-        """Where the engine keeps motors' velocities, and the columns of left and right wheel."""
+    def motors(self) -> tuple[Floats, list[list[int]]]:
+        """Where the engine keeps motors' velocities, and the columns of left and right wheels."""
         engine = self._robot.simulation.native
         if engine is None:
             raise SimulationError("the engine's motors are not to be driven by systems now")
         names = [f"{self._robot.name}::{name}" for name in self.wheel_joints]
         targets, left = engine.motor_targets(names[0])
-        return targets, (left, engine.motor_targets(names[1])[1])
-
-    def _is_native(self) -> bool:
-        """Whether nobody listens and nothing but the law is to be done."""
-        if self._robot.simulation.native is None or self._from_encoders:
-            return False
-        for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
-            if output.wanted:
-                return False
-        return True
+        return targets, [[left], [engine.motor_targets(names[1])[1]]]
 
     def system(self) -> System | None:
         """The law alone, while nobody listens and nothing else is to be done."""
         engine = self._robot.simulation.native
-        if engine is None or not self._is_native():
+        if engine is None or self._from_encoders or self.heard:
             return None
         if self._bound != engine.revision:
-            self._law.send_to(*self.motors())
+            targets, wheels = self.motors()
+            self._law.send_to(targets, [wheels])
             self._bound = engine.revision
             self._targets[:] = np.nan  # what Python told the motors last is not what they have
         return self._law
@@ -186,12 +207,11 @@ class DiffDrive(ModelPlugin):
             self._reckoning.advance(self._angles(), (now_ns - self._reckoned_ns) / NANOSECONDS)
             self._reckoned_ns = now_ns
         self._drive(now_ns)
-        for output in self._published:
-            output.publish()
+        self.publish()
 
     def _drive(self, now_ns: int) -> None:
         wanted, self._bound = np.empty_like(self._targets), -1
-        self._law.send_to(wanted, (0, 1))
+        self._law.send_to(wanted, [[[0], [1]]])
         self._law.bring(0, len(wanted), now_ns)
         if not np.array_equal(wanted, self._targets):
             self._targets = wanted
@@ -201,10 +221,8 @@ class DiffDrive(ModelPlugin):
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
 
-    def _measure(self) -> Odometry:
-        if self._from_encoders:
-            return self._from_wheels()
-        return true_odometry(self._robot, self._frame, self._base)
+    def _true_odometry(self) -> TrueOdometry:
+        return TrueOdometry(self._robot, self._frame, self._base)
 
     def _from_wheels(self) -> Odometry:
         now = self._robot.simulation.clock.now_ns

@@ -9,6 +9,6 @@ cdef class DiffDriveLaw(System):
     cdef double[:, :, :] linear, angular, speeds
     cdef double[:, ::1] targets
     cdef long long[:, :] last_ns
-    cdef Py_ssize_t[:, ::1] columns
-    @cython.locals(row=Py_ssize_t, w=Py_ssize_t, i=Py_ssize_t, most=double)
+    cdef Py_ssize_t[::1] columns, sides, start
+    @cython.locals(row=Py_ssize_t, w=Py_ssize_t, i=Py_ssize_t, wheel=Py_ssize_t, speed=double, most=double)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

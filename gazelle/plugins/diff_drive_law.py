@@ -1,9 +1,13 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="misc"
-"""What wheel speeds a velocity command comes to: the rule of ``libgazebo_ros_diff_drive.so``."""
+"""What wheel speeds a velocity command comes to: the rule of ``libgazebo_ros_diff_drive.so``.
+
+Drives with more wheels on a side give them all one speed, and have no ramp.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cython
@@ -19,12 +23,12 @@ RAMP_DEADBAND = 0.01
 
 @dataclass(frozen=True, slots=True)
 class WheelTables:
-    """What some drives of two wheels go by and remember, in all worlds; used in place.
+    """What some drives of two sides go by and remember, in all worlds; used in place.
 
     Attributes:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).
         angular: Commanded turning rates [rad/s], likewise.
-        speeds: Of the left and right wheel on the ground [m/s], shape (nworld, n, 2).
+        speeds: Of the left and right wheels on the ground [m/s], shape (nworld, n, 2).
         last_ns: Time of the last update [ns], shape (nworld, n).
     """
 
@@ -60,7 +64,7 @@ class DiffDriveLaw(System):
     Args:
         tables: Commands and speeds.
         separation: Between the wheels [m], shape (n,).
-        radius: Of a wheel [m], shape (n,).
+        radius: Of the wheels [m], shape (n,).
         acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit; (n,).
     """
 
@@ -80,12 +84,23 @@ class DiffDriveLaw(System):
         self.half = np.asarray(separation, np.float64).reshape(count) / 2.0
         self.radius = np.array(radius, np.float64).reshape(count)
         self.acceleration = np.array(acceleration, np.float64).reshape(count)
-        self.send_to(np.zeros((len(tables.speeds), 2 * count)), np.arange(2 * count))
+        wheels = np.arange(2 * count).reshape(count, 2)
+        self.send_to(
+            np.zeros((len(tables.speeds), 2 * count)), [[[left], [right]] for left, right in wheels]
+        )
 
-    def send_to(self, targets: Floats, columns: ArrayLike) -> None:
-        """Write turning rates to columns of an array: all the left wheels', then the right ones'."""
+    def send_to(self, targets: Floats, wheels: Sequence[Sequence[Sequence[int]]]) -> None:
+        """Write turning rates to columns of an array.
+
+        Args:
+            targets: Shape (nworld, columns).
+            wheels: Of each robot the columns of its wheels, those on the left and on the right.
+        """
         self.targets = targets
-        self.columns = np.array(columns, np.intp, order="C").reshape(2, self.rows)
+        flat = [(column, side) for robot in wheels for side in (0, 1) for column in robot[side]]
+        self.columns, self.sides = np.array(flat, np.intp).T.copy().reshape(2, -1)
+        counts = [len(left) + len(right) for left, right in wheels]
+        self.start = np.cumsum([0, *counts], dtype=np.intp)
 
     def update(self, first: int, last: int, time: int) -> None:
         """Change wheel speeds towards what is commanded."""
@@ -101,5 +116,6 @@ class DiffDriveLaw(System):
                 self.speeds[w, i, 1] += min(max(other, -most), most)
             else:
                 self.speeds[w, i, 0], self.speeds[w, i, 1] = left, right
-            self.targets[w, self.columns[0, i]] = self.speeds[w, i, 0] / self.radius[i]
-            self.targets[w, self.columns[1, i]] = self.speeds[w, i, 1] / self.radius[i]
+            for wheel in range(self.start[i], self.start[i + 1]):
+                speed = self.speeds[w, i, self.sides[wheel]] / self.radius[i]
+                self.targets[w, self.columns[wheel]] = speed

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.odometry import OdometryOutputs, true_odometry
+from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry
 from gazelle.plugins.wheels import Side, WheeledDrive
-from gazelle.simulation import Odometry, Robot, absolute, namespace_of
+from gazelle.simulation import Robot, absolute, namespace_of
 
 
 class MultiWheelDrive(WheeledDrive):
@@ -28,14 +28,13 @@ class MultiWheelDrive(WheeledDrive):
         self.update_rate = parameters.get("updateRate", 100.0)
         namespace = namespace_of(robot, parameters)
         self.listen(robot, absolute(namespace, self._command_topic(parameters)))
-        self._frame = parameters.get("odometryFrame", "odom")
-        self._base = parameters.get("robotBaseFrame", "base_footprint")
+        frame = parameters.get("odometryFrame", "odom")
+        base = parameters.get("robotBaseFrame", "base_footprint")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         told = parameters.get("publishOdometryMsg", True)
         framed = parameters.get("publishOdometryTf", True)
-        self.publish(
-            OdometryOutputs(robot, topic, self._measure, namespace, told=told, framed=framed)
-        )
+        measure = TrueOdometry(robot, frame, base)
+        self.tell(OdometryOutputs(robot, topic, measure, namespace, told=told, framed=framed))
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
         """Names of the joints, and their sides."""
@@ -49,9 +48,6 @@ class MultiWheelDrive(WheeledDrive):
 
     def _command_topic(self, parameters: Parameters) -> str:
         return parameters.get("commandTopic", "cmd_vel")
-
-    def _measure(self) -> Odometry:
-        return true_odometry(self._robot, self._frame, self._base)
 
 
 class SixWheelDrive(MultiWheelDrive):

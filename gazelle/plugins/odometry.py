@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.plugins.frames import frames_output
 from gazelle.rotations import seen_on_ground
 from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
@@ -17,26 +19,43 @@ POSE_VARIANCE: SixNumbers = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
 _ABOUT_Z = np.array([0.0, 0.0, 1.0])
 
 
-def true_odometry(
-    robot: Robot,
-    frame: str,
-    child_frame: str,
-    pose_variance: SixNumbers = POSE_VARIANCE,
-    twist_variance: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-) -> Odometry:
-    """The model's pose in the world, and its velocity on the ground as seen from its heading."""
-    place, motion = robot.placement(), robot.motion()
-    return Odometry(
-        robot.simulation.clock.now_ns,
-        frame,
-        child_frame,
-        place.position,
-        place.quaternion,
-        seen_on_ground(place.quaternion, motion.linear),
-        motion.angular * _ABOUT_Z,
-        pose_variance,
-        twist_variance,
-    )
+@dataclass(frozen=True, slots=True)
+class TrueOdometry:
+    """A model's pose in the world, and its velocity on the ground as seen from its heading.
+
+    Args:
+        robot: The model.
+        frame: Of the pose.
+        child_frame: Of the velocity.
+        pose_variance: Of the six directions.
+        twist_variance: Likewise.
+    """
+
+    robot: Robot
+    frame: str
+    child_frame: str
+    pose_variance: SixNumbers = POSE_VARIANCE
+    twist_variance: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def __call__(self) -> Odometry:
+        """The odometry now."""
+        place, motion = self.robot.placement(), self.robot.motion()
+        linear = seen_on_ground(place.quaternion, motion.linear)
+        return self.of(place.position, place.quaternion, linear, motion.angular * _ABOUT_Z)
+
+    def of(self, position: Floats, quaternion: Floats, linear: Floats, angular: Floats) -> Odometry:
+        """The odometry of what was measured."""
+        return Odometry(
+            self.robot.simulation.clock.now_ns,
+            self.frame,
+            self.child_frame,
+            position,
+            quaternion,
+            linear,
+            angular,
+            self.pose_variance,
+            self.twist_variance,
+        )
 
 
 class OdometryOutputs:
@@ -49,6 +68,9 @@ class OdometryOutputs:
         namespace: Whose frame it is.
         told: Whether there is ``odom``.
         framed: Whether there is ``odom_tf``.
+
+    Attributes:
+        source: What measures it, if that is the model's true motion.
     """
 
     def __init__(
@@ -62,6 +84,7 @@ class OdometryOutputs:
         framed: bool = True,
     ) -> None:
         self._measure = measure
+        self.source = measure if isinstance(measure, TrueOdometry) else None
         self._odom: Output[Odometry] | None = None
         self._frame: Output[Transforms] | None = None
         if told:
@@ -79,15 +102,43 @@ class OdometryOutputs:
         odom, frame = self._odom, self._frame
         return (odom is not None and odom.wanted) or (frame is not None and frame.wanted)
 
-    def publish(self) -> None:
-        """Compute the odometry and hand it to all who listen, if anybody does."""
-        if not self.wanted:
-            return
-        odometry = self._measure()
+    def publish(self, measured: Odometry | None = None) -> None:
+        """Hand the odometry to all who listen, if anybody does; it is measured unless given."""
+        if self.wanted:
+            self.hand(measured or self._measure())
+
+    def hand(self, odometry: Odometry) -> None:
+        """Hand an odometry that was measured to all who listen."""
         if self._odom is not None and self._odom.wanted:
             self._odom.hand(odometry)
         if self._frame is not None and self._frame.wanted:
             self._frame.hand(as_transforms(odometry))
+
+
+def measure_wanted(outputs: Sequence[OdometryOutputs]) -> list[Odometry | None]:
+    """What somebody listens to, measured at once as far as it is true motion; else None."""
+    true = {i: each.source for i, each in enumerate(outputs) if each.source and each.wanted}
+    measured = dict(zip(true, _measured_together(list(true.values())), strict=True))
+    return [measured.get(i) for i in range(len(outputs))]
+
+
+def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
+    """The odometry of many robots of one simulation; at once where its engine can."""
+    if not sources:
+        return []
+    native = sources[0].robot.simulation.native
+    table = None if native is None else native.model_table([each.robot.name for each in sources])
+    if table is None or not table.rigid:
+        return [each() for each in sources]
+    place = table.placement()
+    motion = table.motion(place.quaternion)
+    quaternions, linear = place.quaternion.reshape(-1, 4), motion.linear.reshape(-1, 3)
+    seen = seen_on_ground(quaternions, linear).reshape(motion.linear.shape)
+    turning = motion.angular * _ABOUT_Z
+    return [
+        each.of(place.position[:, i], place.quaternion[:, i], seen[:, i], turning[:, i])
+        for i, each in enumerate(sources)
+    ]
 
 
 def as_transforms(odometry: Odometry) -> Transforms:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
-from gazelle.plugins.odometry import OdometryOutputs, true_odometry
-from gazelle.rotations import from_yaw, rotate, yaw_of
+from gazelle.engines.planar.twist_commands import TwistCommands
+from gazelle.errors import SimulationError
+from gazelle.native.system import System
+from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry, measure_wanted
 from gazelle.simulation import (
     ModelPlugin,
     Odometry,
@@ -40,23 +42,79 @@ class PlanarMove(ModelPlugin):
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, topic)
         self._timeout = parameters.get("cmdTimeout", -1.0)
         self._heard, self._silence = self._command.revision, Stopwatch(self._clock)
-        self._frame = parameters.get("odometryFrame", "odom")
-        self._base = parameters.get("robotBaseFrame", "base_footprint")
+        frame = parameters.get("odometryFrame", "odom")
+        base = parameters.get("robotBaseFrame", "base_footprint")
         rate = parameters.get("odometryRate", 20.0)
         self._schedule = Schedule(rate) if rate > 0.0 else None
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        self._odometry = OdometryOutputs(robot, odometry, self._measure, namespace)
+        measure = TrueOdometry(robot, frame, base)
+        self.odometry = OdometryOutputs(robot, odometry, measure, namespace)
+
+    def kind(self) -> Hashable | None:
+        """All that never give up an old command."""
+        if self._robot.simulation.native is None or self._timeout >= 0.0:
+            return None
+        return "TwistCommands"
+
+    @classmethod
+    def together(cls, plugins: Sequence[PlanarMove]) -> System:
+        """The commands of many bases; they are kept in arrays of all from then on."""
+        simulation = plugins[0].robot.simulation
+        engine = simulation.native
+        if engine is None:
+            raise SimulationError("the engine's bodies are not to be moved by systems now")
+        linear, angular = np.zeros((2, simulation.nworld, len(plugins), 3))
+        for part, each in enumerate(plugins):
+            each.keep_in(linear[:, part], angular[:, part])
+        law = TwistCommands(linear, angular)
+        engine.model_table([each.robot.name for each in plugins]).command(law)
+        return law
+
+    @property
+    def robot(self) -> Robot:
+        """What moves."""
+        return self._robot
+
+    def keep_in(self, linear: Floats, angular: Floats) -> None:
+        """Keep commands in other arrays, shape (nworld, 3) each."""
+        self._command.keep_in(linear, angular)
+
+    @property
+    def heard(self) -> bool:
+        """Whether anybody listens to the odometry."""
+        return self._schedule is not None and self.odometry.wanted
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[PlanarMove]) -> list[Odometry | None]:
+        """The odometry of those that publish it now."""
+        due = [each.odometry for each in plugins if each.is_due]
+        measured = iter(measure_wanted(due))
+        return [next(measured) if each.is_due else None for each in plugins]
+
+    @property
+    def is_due(self) -> bool:
+        """Whether the odometry is to be published in this step."""
+        schedule, now_ns = self._schedule, self._clock.now_ns
+        if schedule is None:
+            return False
+        last_ns = now_ns - self._clock.step_ns
+        if schedule.due_ns <= last_ns:  # nobody listened then, and nobody asked
+            schedule.done(last_ns)
+        return schedule.is_due(now_ns)
+
+    def publish(self, measured: Odometry | None = None) -> None:
+        """Publish the odometry when it is time to."""
+        if self._schedule is not None and self.is_due:
+            self._schedule.done(self._clock.now_ns)
+            self.odometry.publish(measured)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Move, and publish when it is time to."""
         self._give_up_old()
-        turn = from_yaw(yaw_of(self._robot.quaternion))
-        planar = self._command.linear * (1.0, 1.0, 0.0)
-        spin = self._command.angular * (0.0, 0.0, 1.0)
-        self._robot.simulation.engine.set_model_motion(self._robot.name, rotate(turn, planar), spin)
-        if self._schedule is not None and self._schedule.is_due(self._clock.now_ns):
-            self._schedule.done(self._clock.now_ns)
-            self._odometry.publish()
+        twist = self._command.linear.copy()
+        twist[:, 2] = self._command.angular[:, 2]
+        self._robot.simulation.engine.set_ground_motion(self._robot.name, twist)
+        self.publish()
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""
@@ -78,13 +136,12 @@ class PlanarMove(ModelPlugin):
 
     def _give_up_old(self) -> None:
         """Stand still when no command came for too long."""
+        if self._timeout < 0.0:
+            return
         if self._command.revision != self._heard:
             self._heard = self._command.revision
             self._silence.restart()
-        elif 0.0 <= self._timeout < self._silence.elapsed:
+        elif self._silence.elapsed > self._timeout:
             self._command.clear()
             self._heard = self._command.revision
             self._silence.restart()
-
-    def _measure(self) -> Odometry:
-        return true_odometry(self._robot, self._frame, self._base)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from gazelle.description import Parameters
-from gazelle.plugins.odometry import OdometryOutputs, true_odometry
+from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry
 from gazelle.plugins.wheels import Side, WheeledDrive
-from gazelle.simulation import Odometry, Robot, absolute, namespace_of
+from gazelle.simulation import Robot, absolute, namespace_of
 
 _CORNERS = (
     ("leftFrontJoint", "left_front_joint", Side.LEFT),
@@ -36,16 +36,14 @@ class SkidSteerDrive(WheeledDrive):
         self.update_rate = parameters.get("updateRate", 100.0)
         namespace = namespace_of(robot, parameters)
         self.listen(robot, absolute(namespace, parameters.get("commandTopic", "cmd_vel")))
-        self._frame = parameters.get("odometryFrame", "odom")
-        self._base = parameters.get("robotBaseFrame", "base_footprint")
+        frame = parameters.get("odometryFrame", "odom")
+        base = parameters.get("robotBaseFrame", "base_footprint")
         x, y, yaw = (
             parameters.get(f"covariance_{name}", default)
             for name, default in (("x", 0.0001), ("y", 0.0001), ("yaw", 0.01))
         )
-        self._variance = (x, y, _UNSURE, _UNSURE, _UNSURE, yaw)
+        variance = (x, y, _UNSURE, _UNSURE, _UNSURE, yaw)
+        measure = TrueOdometry(robot, frame, base, variance, variance)
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         framed = parameters.get("broadcastTF", False)
-        self.publish(OdometryOutputs(robot, topic, self._measure, namespace, framed=framed))
-
-    def _measure(self) -> Odometry:
-        return true_odometry(self._robot, self._frame, self._base, self._variance, self._variance)
+        self.tell(OdometryOutputs(robot, topic, measure, namespace, framed=framed))

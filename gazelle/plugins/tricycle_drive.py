@@ -13,7 +13,7 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.dead_reckoning import DeadReckoning
 from gazelle.plugins.frames import frames_output, joint_transforms
-from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, true_odometry
+from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, TrueOdometry
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
     JointStates,
@@ -136,7 +136,7 @@ class TricycleDrive(ModelPlugin):
 
     def _measure(self) -> Odometry:
         if not self._from_encoders:
-            return true_odometry(self._robot, self._frame, self._base)
+            return TrueOdometry(self._robot, self._frame, self._base)()
         now = self._clock.now_ns
         return self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
 

@@ -21,13 +21,13 @@ from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.joint_hardware import JointHardware
 from gazelle.simulation.plugin import ModelPlugin
 from gazelle.simulation.robot import Robot
+from gazelle.simulation.scheduled_plugin import make_scheduled
 from gazelle.simulation.simulated_hardware import (
     INTERFACES,
     CommandedJoint,
     HardwareSetup,
     SimulatedHardware,
 )
-from gazelle.simulation.stepping import make_scheduled
 
 
 class ControlLoop(ModelPlugin):

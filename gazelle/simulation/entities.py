@@ -11,8 +11,8 @@ from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.loading import adopt, is_plain, run_stage
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.robots import MadeOnDemand
+from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sensors import SensorUnit
-from gazelle.simulation.stepping import ScheduledPlugin
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation

@@ -21,7 +21,7 @@ from gazelle.simulation.plugin import (
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot
-from gazelle.simulation.stepping import make_scheduled, title
+from gazelle.simulation.scheduled_plugin import make_scheduled, title
 
 if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation

@@ -9,7 +9,7 @@ from gazelle.errors import SimulationError
 from gazelle.simulation import registry
 from gazelle.simulation.navigation_control import NavigationControl
 from gazelle.simulation.plugin import ModelPlugin
-from gazelle.simulation.stepping import make_scheduled
+from gazelle.simulation.scheduled_plugin import make_scheduled
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot

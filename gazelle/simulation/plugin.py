@@ -74,6 +74,29 @@ class Plugin:
         """One system for plugins of one kind that are due together, in the place of each one's."""
         raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
 
+    @property
+    def heard(self) -> bool:
+        """Whether somebody listens to what it publishes beside what its system does.
+
+        Then ``publish`` follows the system. Like ``kind`` it may change when somebody subscribed.
+        """
+        return False
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[Any]) -> Sequence[Any]:
+        """What ``publish`` of each plugin is given: measured at once, after the system of all.
+
+        Where it fails, each is given None.
+        """
+        return [None] * len(plugins)
+
+    def publish(self, measured: Any) -> None:
+        """Publish to those who listen, when it is time to.
+
+        Args:
+            measured: Its part of ``measure_together``.
+        """
+
     def on_update(self, time: float) -> None:
         """Act; called at ``update_rate``.
 

@@ -45,6 +45,16 @@ class TwistInput(StatePart):
         self.linear: Floats = np.zeros((nworld, 3))
         self.angular: Floats = np.zeros((nworld, 3))
 
+    def keep_in(self, linear: Floats, angular: Floats) -> None:
+        """Keep commands in other arrays from now on, such as columns of those of a system.
+
+        Args:
+            linear: Shape (nworld, 3).
+            angular: Likewise.
+        """
+        linear[:], angular[:] = self.linear, self.angular
+        self.linear, self.angular = linear, angular
+
     @between_steps
     def send(
         self,

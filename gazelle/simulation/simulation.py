@@ -35,8 +35,9 @@ from gazelle.simulation.recording import Recorder, state_hash
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Named, Robot
 from gazelle.simulation.scene_renderer import SceneRenderer
+from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sharing import shared
-from gazelle.simulation.stepping import ScheduledPlugin, indices_of
+from gazelle.simulation.stepping import indices_of
 from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
 

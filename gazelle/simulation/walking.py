@@ -18,9 +18,9 @@ from gazelle.native.system import System
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
+from gazelle.simulation.plugin_groups import PluginGroup
+from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.stepping import (
-    PluginGroup,
-    ScheduledPlugin,
     StepPlan,
     set_due,
     steps_to_next,
@@ -63,7 +63,7 @@ class StepLoop:
         self._loads = loads
         self._entities = simulation.entities
         self._faults = faults
-        self._plan = StepPlan((), (), native=False)
+        self._plan = StepPlan((), (), native=None)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
         self._carried: list[tuple[ScheduledPlugin, JointSystem, float]] = []
@@ -215,7 +215,7 @@ class StepLoop:
             self._plan = StepPlan(
                 entities.plugins,
                 entities.sensors,
-                native=native is not None,
+                native=native,
                 # What follows moves before sensors measure, so that Python comes between.
                 alone=bool(self.followers),
             )

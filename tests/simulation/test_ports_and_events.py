@@ -14,7 +14,7 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-from gazelle.simulation.stepping import make_scheduled
+from gazelle.simulation.scheduled_plugin import make_scheduled
 
 
 @pytest.fixture

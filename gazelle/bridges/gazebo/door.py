@@ -25,7 +25,7 @@ from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Ports, Robot, Simulation
-from gazelle.simulation.stepping import make_scheduled
+from gazelle.simulation.scheduled_plugin import make_scheduled
 
 _MOVES = {
     *("spawn_sdf_model", "spawn_urdf_model", "set_model_state", "set_link_state"),

@@ -28,7 +28,7 @@ from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.engines.range_rays import RangeRays
 from gazelle.errors import EngineError
-from gazelle.rotations import conjugate, cross, multiply, rotate, turns, yaw_of
+from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, turns, yaw_of
 
 SIDES = ("lower", "upper")
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
@@ -271,6 +271,13 @@ class StateAccess(ABC):
             for each in self._layout.joint(joint):
                 self._state.qvel[rows, each.velocity] = 0.0
         self._stale = True
+
+    def set_ground_motion(self, model: str, twist: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Give all links of a model a level velocity along and across its heading."""
+        heading = from_yaw(yaw_of(self.model_placement(model, worlds).quaternion))
+        wanted = np.atleast_2d(np.asarray(twist, np.float64))
+        level, spin = wanted * (1.0, 1.0, 0.0), wanted * (0.0, 0.0, 1.0)
+        self.set_model_motion(model, rotate(heading, level), spin, worlds)
 
     # -- joints ------------------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -20,7 +20,8 @@ from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.link_table import PlanarLinkTable
-from gazelle.engines.planar.rays import Caster, RayFan, caster_of, fan_of
+from gazelle.engines.planar.model_table import PlanarModelTable
+from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, fan_of
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.system_engine import CastRanges
 from gazelle.errors import EngineError, did_you_mean
@@ -28,30 +29,7 @@ from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, yaw_
 
 T = TypeVar("T")
 
-_MOST = 256  # arrays of rays that are known by where they are
-
-
-@dataclass(frozen=True, slots=True)
-class _Kept:
-    """A caster as long as nothing turns what its rays hang on.
-
-    Attributes:
-        caster: What casts them.
-        columns: Of the joints between its model and its link.
-        angles: Of those joints when it was made, shape (nworld, n).
-        of: Origins of its rays; kept, as it is known by where they are in memory.
-        along: Their directions, likewise.
-    """
-
-    caster: Caster
-    columns: NDArray[np.intp]
-    angles: Floats
-    of: Floats
-    along: Floats
-
-    def holds(self, angles: Floats) -> bool:
-        """Whether the joints are where they were."""
-        return not len(self.columns) or np.array_equal(self.angles, angles[:, self.columns])
+_MOST = 256  # arrays of rays that are known by where they are, and sets of models
 
 
 class PlanarAccess(ABC):
@@ -62,9 +40,10 @@ class PlanarAccess(ABC):
     _angles: Floats
     _rates: Floats
     _targets: Floats
-    _casters: dict[tuple[str, bytes, bytes, float], _Kept]
-    _recent: dict[tuple[str, int, int, float], _Kept]
+    _casters: dict[tuple[str, bytes, bytes, float], KeptCaster]
+    _recent: dict[tuple[str, int, int, float], KeptCaster]
     _tables: dict[tuple[str, ...], PlanarLinkTable]
+    _model_tables: dict[tuple[str, ...], PlanarModelTable]
 
     @abstractmethod
     def make_kinematic(self, model: str) -> None:
@@ -147,11 +126,30 @@ class PlanarAccess(ABC):
         twist[:, 0] = body[:, c.COS] * v[..., 0] + body[:, c.SIN] * v[..., 1]
         twist[:, 1] = body[:, c.COS] * v[..., 1] - body[:, c.SIN] * v[..., 0]
         twist[:, 2] = w[..., 2]
+        self.set_ground_motion(model, twist, worlds)
+
+    def set_ground_motion(self, model: str, twist: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Give a model a velocity along and across its heading, which it keeps, joints at rest."""
+        each = self._model(model)
+        if not each.loose:
+            return
+        rows = self._rows(self._layout.bodies[model], worlds)
         self._fleet.command.reshape(-1, 3)[rows] = twist
         self._fleet.velocity.reshape(-1, 3)[rows] = twist
         self._fleet.stalled.reshape(-1)[rows] = False
         first = self._layout.columns[model]
         self._rates[rows_of(worlds), first : first + each.skeleton.width] = 0.0
+
+    def model_table(self, models: Sequence[str]) -> PlanarModelTable:
+        """Models looked up once, to be read or moved together; good for one ``revision``."""
+        key = tuple(models)
+        table = self._model_tables.get(key)
+        if table is None:
+            if len(self._model_tables) >= _MOST:
+                self._model_tables.clear()
+            table = PlanarModelTable(self._layout, key, self._fleet, self._rates)
+            self._model_tables[key] = table
+        return table
 
     # -- links -------------------------------------------------------------------------
 
@@ -283,7 +281,7 @@ class PlanarAccess(ABC):
         """
         return self._keep(RangeRays(link, origins, directions)).caster
 
-    def _keep(self, rays: RangeRays) -> _Kept:
+    def _keep(self, rays: RangeRays) -> KeptCaster:
         """A caster that is kept, or one that is from now on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         key = (link, origins.tobytes(), directions.tobytes(), rays.reach)
@@ -294,7 +292,7 @@ class PlanarAccess(ABC):
         model = self._owner(link)
         columns = self._layout.columns[model] + self._model(model).skeleton.columns_of(link)
         angles = self._angles[:, columns].copy() if len(columns) else self._angles[:0]
-        kept = self._casters[key] = _Kept(caster, columns, angles, origins, directions)
+        kept = self._casters[key] = KeptCaster(caster, columns, angles, origins, directions)
         return kept
 
     def ranges_kind(self, rays: RangeRays) -> Hashable | None:

@@ -82,7 +82,7 @@ class PlanarEngine(Refusals, PlanarAccess):
         self._targets = np.full(shape, math.nan)
         for joint in recipe.motors:
             self._targets[:, layout.joints[joint][0]] = 0.0
-        self._casters, self._recent, self._tables = {}, {}, {}
+        self._casters, self._recent, self._tables, self._model_tables = {}, {}, {}, {}
         self._steps = SystemSteps(fleet, self._joints, layout.axes)
 
     def _joints(self) -> Joints:

@@ -49,6 +49,29 @@ class Caster:
 
 
 @dataclass(frozen=True, slots=True)
+class KeptCaster:
+    """A caster as long as nothing turns what its rays hang on.
+
+    Attributes:
+        caster: What casts them.
+        columns: Of the joints between its model and its link.
+        angles: Of those joints when it was made, shape (nworld, n).
+        of: Origins of its rays; kept, as it is known by where they are in memory.
+        along: Their directions, likewise.
+    """
+
+    caster: Caster
+    columns: NDArray[np.intp]
+    angles: Floats
+    of: Floats
+    along: Floats
+
+    def holds(self, angles: Floats) -> bool:
+        """Whether the joints are where they were."""
+        return not len(self.columns) or np.array_equal(self.angles, angles[:, self.columns])
+
+
+@dataclass(frozen=True, slots=True)
 class RayFan:
     """Rays that move with a body, as beams of one fan on one or more places.
 
