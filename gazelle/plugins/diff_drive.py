@@ -149,7 +149,7 @@ class DiffDrive(ModelPlugin):
         return law
 
     @property
-    def heard(self) -> bool:
+    def is_heard(self) -> bool:
         """Whether anybody listens to what is published."""
         for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
             if output.wanted:
@@ -161,7 +161,7 @@ class DiffDrive(ModelPlugin):
         """The odometry of all robots that somebody listens to."""
         return measure_wanted([each.odometry for each in plugins])
 
-    def publish(self, measured: Odometry | None = None) -> None:
+    def publish_measured(self, measured: Odometry | None = None) -> None:
         """Publish, an odometry that was measured already."""
         for output in self._published:
             if output is self.odometry:
@@ -191,7 +191,7 @@ class DiffDrive(ModelPlugin):
     def system(self) -> System | None:
         """The law alone, while nobody listens and nothing else is to be done."""
         engine = self._robot.simulation.native
-        if engine is None or self._from_encoders or self.heard:
+        if engine is None or self._from_encoders or self.is_heard:
             return None
         if self._bound != engine.revision:
             targets, wheels = self.motors()
@@ -207,7 +207,7 @@ class DiffDrive(ModelPlugin):
             self._reckoning.advance(self._angles(), (now_ns - self._reckoned_ns) / NANOSECONDS)
             self._reckoned_ns = now_ns
         self._drive(now_ns)
-        self.publish()
+        self.publish_measured()
 
     def _drive(self, now_ns: int) -> None:
         wanted, self._bound = np.empty_like(self._targets), -1

@@ -80,7 +80,7 @@ class PlanarMove(ModelPlugin):
         self._command.keep_in(linear, angular)
 
     @property
-    def heard(self) -> bool:
+    def is_heard(self) -> bool:
         """Whether anybody listens to the odometry."""
         return self._schedule is not None and self.odometry.wanted
 
@@ -102,7 +102,7 @@ class PlanarMove(ModelPlugin):
             schedule.done(last_ns)
         return schedule.is_due(now_ns)
 
-    def publish(self, measured: Odometry | None = None) -> None:
+    def publish_measured(self, measured: Odometry | None = None) -> None:
         """Publish the odometry when it is time to."""
         if self._schedule is not None and self.is_due:
             self._schedule.done(self._clock.now_ns)
@@ -114,7 +114,7 @@ class PlanarMove(ModelPlugin):
         twist = self._command.linear.copy()
         twist[:, 2] = self._command.angular[:, 2]
         self._robot.simulation.engine.set_ground_motion(self._robot.name, twist)
-        self.publish()
+        self.publish_measured()
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""

@@ -85,7 +85,7 @@ class WheeledDrive(ModelPlugin):
     @property
     def active(self) -> bool:
         """Whether it has a rate of its own, there is a new command, or anybody listens."""
-        return bool(self.update_rate) or self._settled != self._command.revision or self.heard
+        return bool(self.update_rate) or self._settled != self._command.revision or self.is_heard
 
     def kind(self) -> Hashable | None:
         """All of them."""
@@ -128,7 +128,7 @@ class WheeledDrive(ModelPlugin):
         return found[0][0][0], sides
 
     @property
-    def heard(self) -> bool:
+    def is_heard(self) -> bool:
         """Whether anybody listens to the odometry."""
         return self.odometry is not None and self.odometry.wanted
 
@@ -137,7 +137,7 @@ class WheeledDrive(ModelPlugin):
         """The odometry of all robots that somebody listens to."""
         return measure_wanted([each.odometry for each in plugins if each.odometry is not None])
 
-    def publish(self, measured: Odometry | None = None) -> None:
+    def publish_measured(self, measured: Odometry | None = None) -> None:
         """Publish the odometry, which may have been measured already."""
         if self.odometry is not None:
             self.odometry.publish(measured)
@@ -149,7 +149,7 @@ class WheeledDrive(ModelPlugin):
             forward, turning = self._command.linear[:, 0], self._command.angular[:, 2]
             for wheel, side in self._wheels:
                 wheel.drive((forward + side.value * turning * self.half) / self.radius)
-        self.publish()
+        self.publish_measured()
 
     def reset(self, worlds: Worlds | None) -> None:
         """The motors forgot their speeds: give them the command anew."""

@@ -75,22 +75,22 @@ class Plugin:
         raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
 
     @property
-    def heard(self) -> bool:
+    def is_heard(self) -> bool:
         """Whether somebody listens to what it publishes beside what its system does.
 
-        Then ``publish`` follows the system. Like ``kind`` it may change when somebody subscribed.
+        Then ``publish_measured`` follows the system. It may change when somebody subscribed.
         """
         return False
 
     @classmethod
     def measure_together(cls, plugins: Sequence[Any]) -> Sequence[Any]:
-        """What ``publish`` of each plugin is given: measured at once, after the system of all.
+        """What each plugin's ``publish_measured`` is given: measured at once, after their system.
 
         Where it fails, each is given None.
         """
         return [None] * len(plugins)
 
-    def publish(self, measured: Any) -> None:
+    def publish_measured(self, measured: Any) -> None:
         """Publish to those who listen, when it is time to.
 
         Args:

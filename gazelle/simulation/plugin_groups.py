@@ -40,7 +40,7 @@ class PluginGroup:
 
     def publishing(self, nworld: int) -> ScheduledPlugin | None:
         """What updates the system and then publishes, from Python; None if nobody listens."""
-        if not any(entry.heard() for entry in self._entries):
+        if not any(entry.is_heard() for entry in self._entries):
             return None
         first = self._entries[0]
         plugin = _PublishingGroup(self._entries, self._system, nworld)
@@ -62,7 +62,7 @@ class _PublishingGroup(Plugin):
     def on_update(self, time: float) -> None:
         """Act and publish."""
         self._system.bring(0, self._nworld * self._system.rows, round(time * NANOSECONDS))
-        heard = [entry for entry in self._entries if entry.heard()]
+        heard = [entry for entry in self._entries if entry.is_heard()]
         if not heard:
             return
         plugins = [entry.plugin for entry in heard]
@@ -71,7 +71,7 @@ class _PublishingGroup(Plugin):
         except Exception:  # noqa: BLE001  each measures by itself, so that it is seen whose fault it is
             measured = [None] * len(plugins)
         for entry, value in zip(heard, measured, strict=True):
-            entry.publish(value)
+            entry.publish_measured(value)
 
 
 def with_groups(

@@ -69,13 +69,13 @@ class ScheduledPlugin:
         """What it has in common with those that are updated together with it."""
         return self._ask(self.plugin.kind, "when asked for its kind")
 
-    def heard(self) -> bool:
+    def is_heard(self) -> bool:
         """Whether somebody listens to what it publishes."""
-        return self._ask(lambda: self.plugin.heard, "when asked") is True
+        return self._ask(lambda: self.plugin.is_heard, "when asked") is True
 
-    def publish(self, measured: Any) -> None:
+    def publish_measured(self, measured: Any) -> None:
         """Publish what was measured for it."""
-        self._ask(lambda: self.plugin.publish(measured), "when publishing")
+        self._ask(lambda: self.plugin.publish_measured(measured), "when publishing")
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Let it begin anew."""

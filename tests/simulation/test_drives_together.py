@@ -146,7 +146,7 @@ def test_python_has_no_part_in_what_nobody_listens_to(kind, monkeypatch):
         sim.run(0.05)
         plugin = type(sim.entities.plugins[0].plugin)
         monkeypatch.setattr(plugin, "on_update", None)
-        monkeypatch.setattr(plugin, "publish", None)
+        monkeypatch.setattr(plugin, "publish_measured", None)
         before = moving(sim)[0].position
         sim.run(0.5)
         assert not np.allclose(moving(sim)[0].position, before, atol=0.05)
