@@ -205,7 +205,6 @@ KNOWN_CIRCLES = (
             "physics",
             "plugin",
             "recording",
-            "registry",
             "retuning",
             "robot",
             "saving",

@@ -6,8 +6,8 @@ from collections.abc import Hashable, Sequence
 
 from gazelle.engines import SystemEngine
 from gazelle.native.system import System
+from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.clock import NANOSECONDS, Schedule
-from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin, title
 

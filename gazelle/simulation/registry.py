@@ -15,8 +15,8 @@ from typing import TypeVar, cast
 from gazelle import description
 from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
+from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.known_plugins import known_plugins
-from gazelle.simulation.plugin import Plugin
 
 P = TypeVar("P", bound=type[Plugin])
 

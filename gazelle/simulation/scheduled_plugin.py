@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
+from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.clock import Schedule
-from gazelle.simulation.plugin import Plugin
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.requests import RequestQueue
 

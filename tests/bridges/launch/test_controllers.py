@@ -208,7 +208,8 @@ def _driven(name, wheel):
     )
 
 
-# Robots that come with Gazelle.
+# Robots that come with Gazelle: one with a drive and one with an arm and a gripper among the quick
+# tests, as each starts four processes.
 BUNDLED = [
     Controlled(
         ("rrbot_control rrbot.launch gui:=false",),
@@ -239,6 +240,7 @@ BUNDLED = [
     _driven("courier", "wheel_left_joint"),
     _driven("ackermann_base", "rear_wheel_joint"),
 ]
+QUICK = ("l_gripper_finger_joint", "rear_wheel_joint")  # what moves in them
 # Its two launch files one after the other, by the names that the tutorials use.
 RRBOT = Controlled(
     ("rrbot_gazebo rrbot_world.launch gui:=false", "rrbot_control rrbot_control.launch"),
@@ -301,7 +303,14 @@ def test_those_of_a_small_package_do_too(tmp_path):
     bring_up(OWN[0], DATA, tmp_path)
 
 
-@pytest.mark.parametrize("case", BUNDLED, ids=str)
+@pytest.mark.parametrize(
+    "case",
+    [
+        each if each.joint in QUICK else pytest.param(each, marks=pytest.mark.slow)
+        for each in BUNDLED
+    ],
+    ids=str,
+)
 def test_those_of_a_bundled_robot_do_too(case, tmp_path):
     bring_up(case, DATA, tmp_path)
 

@@ -1,0 +1,112 @@
+"""What all plugins have in common, whatever they are loaded on."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Worlds
+from gazelle.native.joint_system import JointSystem
+from gazelle.native.system import System
+
+
+class Plugin:
+    """What all plugins have in common.
+
+    Attributes:
+        update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
+            step, None means never. Set it in the class or in ``load``.
+        only_publishes: Whether ``active`` is true exactly while somebody listens to an output, so
+            that it need not be asked at every step.
+    """
+
+    update_rate: float | None = None
+    only_publishes: bool = False
+
+    @property
+    def active(self) -> bool:
+        """Whether it needs its updates now; one that only publishes needs them when heard."""
+        return True
+
+    def system(self) -> System | None:
+        """What does the same as ``on_update`` in native code; None if Python has a say in it.
+
+        It is asked before steps are made, and then updated instead of this plugin. Only engines
+        that run systems ask: ``Simulation.native``.
+        """
+        return None
+
+    def carried(self) -> tuple[JointSystem, float] | None:
+        """What does the same as ``on_update`` within steps, and until when [ns].
+
+        It is asked before steps are made where ``Simulation.carrier`` is an engine; ``on_update`` is
+        called instead where it is None, and from that time on. After the steps follows ``catch_up``.
+        """
+        return None
+
+    def catch_up(self) -> None:
+        """What ``carried`` gave made steps."""
+
+    def kind(self) -> Hashable | None:
+        """Equal for plugins of one class that ``together`` makes one system of; None for none.
+
+        It is asked when somebody subscribed to an output or ended that, and when models came or
+        went, not between. What such plugins do must not depend on each other.
+        """
+        return None
+
+    @classmethod
+    def together(cls, plugins: Sequence[Any]) -> System:
+        """One system for plugins of one kind that are due together, in the place of each one's."""
+        raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether somebody listens to what it publishes beside what its system does.
+
+        Then ``publish_measured`` follows the system. It may change when somebody subscribed.
+        """
+        return False
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[Any]) -> Sequence[Any]:
+        """What each plugin's ``publish_measured`` is given: measured at once, after their system.
+
+        Where it fails, each is given None.
+        """
+        return [None] * len(plugins)
+
+    def publish_measured(self, measured: Any) -> None:
+        """Publish to those who listen, when it is time to.
+
+        Args:
+            measured: Its part of ``measure_together``.
+        """
+
+    def on_update(self, time: float) -> None:
+        """Act; called at ``update_rate``.
+
+        Args:
+            time: Simulated time [s].
+        """
+
+    def reseed(self, seed: int, worlds: Worlds | None) -> None:
+        """Use the random numbers of another seed from now on; a reset follows.
+
+        Args:
+            seed: Any int.
+            worlds: Which worlds; all if None.
+        """
+
+    def reset(self, worlds: Worlds | None) -> None:
+        """Forget everything about these worlds (all if None), as if just loaded."""
+
+    def state(self) -> Mapping[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {}
+
+    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
+        """Put back what ``state`` gave."""
