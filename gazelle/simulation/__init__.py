@@ -1,5 +1,6 @@
 """One running set of worlds: clock, requests, spawn and delete, sensors, plugins and ports."""
 
+from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
 from gazelle.simulation.joints import JointHandle
@@ -9,7 +10,6 @@ from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.plugin import (
     ModelPlugin,
-    Plugin,
     SensorPlugin,
     SystemPlugin,
     VisualPlugin,

@@ -11,9 +11,9 @@ from gazelle.description import Link, Model, StagePlugin
 from gazelle.errors import SimulationWarning, located
 from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
+from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.plugin import (
     ModelPlugin,
-    Plugin,
     SensorPlugin,
     VisualPlugin,
     WorldPlugin,
