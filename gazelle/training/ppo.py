@@ -2,13 +2,12 @@
 
 Acting is done by a numpy copy of the actor, values are computed for the whole
 rollout at once, no Python object is made for each copy of the environment, and
-updates work on whole tensors (`ppo_update`). Steps that an environment spends on
+updates work on whole tensors (`ppo_update`, or `dense_update` where the networks allow it). Steps that an environment spends on
 its reset are left out of the update.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import gymnasium as gym
@@ -21,6 +20,7 @@ from stable_baselines3.common.utils import explained_variance
 
 from gazelle.array_types import Floats32
 from gazelle.training.actor import Actor
+from gazelle.training.dense_update import DenseUpdate, fits_dense_update
 from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, learns_features, loss_of
 from gazelle.training.rollout import CutOff, Rollout
@@ -61,11 +61,9 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
             self._flat(self.returns)[valid],
         )
 
-    def minibatches(self, count: int, size: int) -> Iterator[torch.Tensor]:
-        """Rows of so many transitions in a new random order, so many at a time."""
-        order = torch.as_tensor(self.rng.permutation(count))
-        for start in range(0, count, size):
-            yield order[start : start + size]
+    def new_order(self, count: int) -> torch.Tensor:
+        """So many transitions' numbers in a new random order."""
+        return torch.as_tensor(self.rng.permutation(count))
 
     def _flat(self, array: npt.NDArray[Any]) -> torch.Tensor:
         return torch.as_tensor(array.reshape(array.shape[0] * array.shape[1], *array.shape[2:]))
@@ -144,11 +142,19 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             self.clip_range(self._current_progress_remaining), self.ent_coef, self.vf_coef
         )
         data = self.rollout_buffer.transitions(self.policy)
+        dense = None
+        if fits_dense_update(self.policy):
+            dense = DenseUpdate(self.policy, self.max_grad_norm)
+        learn = self._learn_from if dense is None else dense.learn_from
         told: list[torch.Tensor] = []
         with products(bfloat16=self.bfloat16):
             for _ in range(self.n_epochs):
-                order = self.rollout_buffer.minibatches(len(data.returns), self.batch_size)
-                told += [self._learn_from(data.pick(rows), weights) for rows in order]
+                order = self.rollout_buffer.new_order(len(data.returns))
+                told += [
+                    learn(batch, weights) for batch in data.minibatches(order, self.batch_size)
+                ]
+        if dense is not None:
+            dense.finish()
         self._n_updates += self.n_epochs
         self._record(torch.stack(told).mean(dim=0).tolist(), weights)
         self.scale.refresh()

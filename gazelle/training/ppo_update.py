@@ -6,6 +6,7 @@ features once a rollout, and the networks are called layer by layer.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +14,8 @@ import gymnasium as gym
 import numpy as np
 import torch
 
-_HALF_LOG_2_PI = 0.5 * float(np.log(2.0 * np.pi))
+HALF_LOG_2_PI = 0.5 * float(np.log(2.0 * np.pi))
+"""Of the logarithm of a normal density."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,15 +37,21 @@ class Transitions:
     advantages: torch.Tensor
     returns: torch.Tensor
 
-    def pick(self, rows: torch.Tensor) -> Transitions:
-        """Some of them, in this order."""
+    def pick(self, rows: torch.Tensor | slice) -> Transitions:
+        """Some of them, in this order; those of a slice are not copied."""
         return Transitions(
-            self.features.index_select(0, rows),
-            self.actions.index_select(0, rows),
-            self.log_probs.index_select(0, rows),
-            self.advantages.index_select(0, rows),
-            self.returns.index_select(0, rows),
+            self.features[rows],
+            self.actions[rows],
+            self.log_probs[rows],
+            self.advantages[rows],
+            self.returns[rows],
         )
+
+    def minibatches(self, order: torch.Tensor, size: int) -> Iterator[Transitions]:
+        """All of them in this order, so many at a time."""
+        ordered = self.pick(order)
+        for start in range(0, len(order), size):
+            yield ordered.pick(slice(start, start + size))
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,5 +121,5 @@ def _judged(
         return logs.gather(1, actions[:, None])[:, 0], entropy
     log_std = policy.log_std
     scaled = (actions - outputs) * (-log_std).exp()
-    logs = (-0.5 * scaled.square() - log_std - _HALF_LOG_2_PI).sum(dim=1)
-    return logs, (log_std + 0.5 + _HALF_LOG_2_PI).sum()
+    logs = (-0.5 * scaled.square() - log_std - HALF_LOG_2_PI).sum(dim=1)
+    return logs, (log_std + 0.5 + HALF_LOG_2_PI).sum()

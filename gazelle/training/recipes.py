@@ -151,11 +151,17 @@ _FETCH_OBJECT = dataclasses.replace(
 )
 
 RECIPES: dict[str, Recipe] = {
-    # Values stay near 1 and each rollout is used more often: 89 % of goals; with 4 epochs of 1,024 at 3e-4 58 %.
+    # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently.
     "AGVFleet": Recipe(
-        learning_rate=1e-3,
-        reward_scale=0.1,
-        settings=PPOSettings(batch_size=512, n_epochs=10),
+        steps=1_500_000,
+        num_envs=576,
+        activation="relu",
+        learning_rate=2e-3,
+        gamma=0.98,
+        goal_reward=GoalReward(goal=1.0, collision=3.0, progress=0.2),
+        features=True,
+        training_options={"engine": "planar", "agents": 72},
+        settings=PPOSettings(n_steps=16, n_epochs=3, ent_coef=0.0, bfloat16=True),
     ),
     "CartPole": Recipe(
         steps=250_000,
@@ -203,9 +209,7 @@ RECIPES: dict[str, Recipe] = {
         steps=2_000_000,
         learning_rate=2e-3,
         gamma=0.97,
-        settings=PPOSettings(
-            n_steps=16, batch_size=1024, n_epochs=3, gae_lambda=0.9, bfloat16=True
-        ),
+        settings=PPOSettings(n_steps=16, n_epochs=3, gae_lambda=0.9, ent_coef=0.001, bfloat16=True),
     ),
 }
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""

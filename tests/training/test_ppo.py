@@ -75,8 +75,13 @@ def test_all_modes_teach_the_same(mode):
     buffer = learner.rollout_buffer
     taught = len(buffer.transitions(learner.policy).returns)
     assert taught == int(buffer.valid.sum())
-    rows = torch.cat(list(buffer.minibatches(taught, 32)))
-    assert rows.sort().values.tolist() == list(range(taught))
+    data, order = buffer.transitions(learner.policy), buffer.new_order(taught)
+    assert order.sort().values.tolist() == list(range(taught))
+    batches = list(data.minibatches(order, 32))
+    assert {len(batch.returns) for batch in batches[:-1]} == {32}
+    for name in ("features", "actions", "log_probs", "advantages", "returns"):
+        joined = torch.cat([getattr(batch, name) for batch in batches])
+        assert torch.equal(joined, getattr(data, name)[order])
     assert (taught < 240) == (mode.value == "NextStep")
 
 

@@ -68,8 +68,8 @@ class AGVFleetVectorEnv(TaskVectorEnv):
 
     ## Info
 
-    ``is_success`` (a goal was reached in this step), ``is_collision``, ``goal`` (x, y) [m] (the
-    one to go for next), ``position`` (x, y) [m], ``goals_reached`` (in this episode), and
+    ``is_success`` (a goal was reached in this step), ``is_collision``, ``distance`` [m] (to the
+    goal that was gone for), ``goal`` (x, y) [m] (the one to go for next), ``position`` (x, y) [m], ``goals_reached`` (in this episode), and
     ``is_timeout``; where an episode begins ``scenario``: start (x, y, heading) and goal (x, y).
 
     ## Arguments
@@ -78,7 +78,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     Argument               Default   Meaning
     =====================  ========  =======================================================
     ``num_envs``           1         AGVs in all, a multiple of ``agents`` or less than it
-    ``agents``             8         AGVs in a hall
+    ``agents``             8         AGVs in a hall, 99 or fewer (90 at held-out places)
     ``lidar_samples``      24        rays in the observation, 2 or more
     ``places``             training  where AGVs start and goals are: on a grid of 1.5 m, or
                                      "held-out": in the middles of its squares

@@ -74,8 +74,9 @@ class FleetSettings(TaskSettings):
             )
         if self.time_step is not None:
             raise TaskError(f"AGVFleet has a step of its own, {PERIOD / _STEPS:g} s")
-        if self.agents > len(self.free_places()) // 4:
-            raise TaskError(f"the hall is too small for {self.agents} AGVs")
+        most = len(self.free_places()) // 2
+        if self.agents > most:
+            raise TaskError(f"the hall is too small for {self.agents} AGVs", hint=f"at most {most}")
 
     def free_places(self) -> Floats:
         """Where AGVs start and goals are [m], shape (n, 2)."""
@@ -233,7 +234,7 @@ class AGVFleetTask(BatchedTask):
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         no = np.zeros(len(worlds), np.bool_)
-        return self.observe()[worlds], self._info(worlds, no, no)
+        return self.observe()[worlds], self._info(worlds, self._distance[worlds], no, no)
 
     def observe(self) -> Floats32:
         """What all AGVs see now, shape (nworld, size)."""
@@ -271,17 +272,19 @@ class AGVFleetTask(BatchedTask):
         reward = STEP_REWARD + PROGRESS * (self._distance - distance)
         reward = np.where(arrived, reward + GOAL_REWARD, reward)
         reward = np.where(crashed, COLLISION_REWARD, reward)
-        self._distance = distance
+        self._distance = distance.copy()
         self._reached += arrived
         everywhere = np.arange(self.nworld)
         if arrived.any():
             self._next_goals(everywhere[arrived])
-        return Verdict(self.observe(), reward, crashed, self._info(everywhere, arrived, crashed))
+        info = self._info(everywhere, distance, arrived, crashed)
+        return Verdict(self.observe(), reward, crashed, info)
 
-    def _info(self, worlds: Worlds, arrived: Bools, crashed: Bools) -> Info:
+    def _info(self, worlds: Worlds, distance: Floats, arrived: Bools, crashed: Bools) -> Info:
         return {
             "is_success": arrived.copy(),
             "is_collision": crashed.copy(),
+            "distance": distance,
             "goal": self.goals[worlds],
             "position": self.poses[worlds, :2],
             "goals_reached": self._reached[worlds],

@@ -48,6 +48,45 @@ def test_agvs_start_apart_and_never_overlap():
     assert (away + np.eye(16) * 9.0).min() > hall.APART
 
 
+@pytest.mark.parametrize("places", ["training", "held-out"])
+def test_a_hall_holds_72_agvs_and_says_how_many_it_cannot(places):
+    env = make(72, agents=72, places=places)
+    env.reset(seed=2)
+    for _ in range(20):  # those that bump begin anew among the others
+        poses = env.unwrapped.task.poses[:, :2]
+        away = np.hypot(*(poses[:, None] - poses[None]).transpose(2, 0, 1)) + np.eye(72) * 9.0
+        assert away.min() >= hall.AGV_WIDTH - 1e-9
+        env.step(np.tile([1.0, 0.3], (72, 1)))
+    env.close()
+    with pytest.raises(TaskError, match="too small for 100 AGVs") as caught:
+        make(100, agents=100, places=places)
+    assert "at most 9" in str(caught.value.hint)
+
+
+def test_info_tells_the_distance_to_the_goal_that_was_gone_for():
+    env = make(24, agents=24)
+    _, info = env.reset(seed=4)
+    generator = np.random.default_rng(0)
+    goal, arrived = info["goal"], 0
+    for _ in range(300):
+        before = env.unwrapped.task.poses[:, :2]
+        np.testing.assert_allclose(info["distance"], np.hypot(*(info["goal"] - before).T))
+        goal, begun = info["goal"], info["distance"]
+        observation, _, terminated, truncated, info = env.step(
+            np.column_stack((np.ones(24), generator.uniform(-1.0, 1.0, 24)))
+        )
+        goes_on = ~(terminated | truncated)
+        there = goes_on & info["is_success"]
+        arrived += int(there.sum())
+        assert (info["distance"][there] < 0.5).all()
+        place = env.unwrapped.task.poses[:, :2]
+        away = np.hypot(*(goal - place).T)
+        np.testing.assert_allclose(info["distance"][goes_on], away[goes_on])
+        assert (np.abs(info["distance"] - begun)[goes_on] < 0.21).all()
+        info["distance"] = np.hypot(*(info["goal"] - place).T)
+    assert arrived > 0
+
+
 def test_an_agv_that_bumps_ends_and_begins_anew_while_others_go_on():
     env = make(8)
     env.reset(seed=3)
