@@ -72,7 +72,7 @@ def test_info_tells_the_distance_to_the_goal_that_was_gone_for():
         before = env.unwrapped.task.poses[:, :2]
         np.testing.assert_allclose(info["distance"], np.hypot(*(info["goal"] - before).T))
         goal, begun = info["goal"], info["distance"]
-        observation, _, terminated, truncated, info = env.step(
+        _, _, terminated, truncated, info = env.step(
             np.column_stack((np.ones(24), generator.uniform(-1.0, 1.0, 24)))
         )
         goes_on = ~(terminated | truncated)
