@@ -25,7 +25,7 @@ _WIDTHS = {"SimpleTransmission": 1, "DifferentialTransmission": 2, "FourBarLinka
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class ActuatorDrive:
     """A transmission of a robot.
 
     Attributes:
@@ -39,7 +39,7 @@ class Drive:
     law: LinearTransmission
 
 
-def drive_of(given: Transmission) -> Drive:
+def drive_of(given: Transmission) -> ActuatorDrive:
     """What a ``<transmission>`` does, with its reductions and offsets.
 
     Where there are roles (``joint1``, ``actuator2``), they say which joint and which actuator is which,
@@ -80,7 +80,7 @@ def drive_of(given: Transmission) -> Drive:
         text = f"transmission '{given.name}': {error.message}"
         raise ControlError(text, source=given.source) from None
     names = tuple(given.joints[i][0] for i in joints)
-    return Drive(names, tuple(given.actuators[i][0] for i in motors), law)
+    return ActuatorDrive(names, tuple(given.actuators[i][0] for i in motors), law)
 
 
 def _order(given: Transmission, roles: Sequence[str], what: str, width: int) -> list[int]:
@@ -108,7 +108,7 @@ class ActuatorStateInterface(HardwareInterface):
         ControlError: Two transmissions have an actuator of one name.
     """
 
-    def __init__(self, drives: Sequence[Drive], states: JointStateInterface) -> None:
+    def __init__(self, drives: Sequence[ActuatorDrive], states: JointStateInterface) -> None:
         names = [name for drive in drives for name in drive.actuators]
         for name in names:
             if names.count(name) > 1:
