@@ -1,6 +1,6 @@
 """Find an engine by its name.
 
-MuJoCo and the planar engine come with Gazelle. Any package adds another by an entry point of the group
+MuJoCo and the planar engine come with Gazelle, and MuJoCo Warp where its package is installed. Any package adds another by an entry point of the group
 ``gazelle.engines``, named as in ``Simulation(..., engine="name")``, that gives a class or
 function to be called as ``make_engine`` is, less the name. A program adds its own with
 ``register``. What it gives must do all that ``Engine`` says; nothing else of Gazelle changes.
@@ -74,4 +74,16 @@ def _planar(world: World, nworld: int, *, time_step: float | None, threads: int 
     return PlanarEngine(world, nworld, time_step=time_step, threads=threads)
 
 
-_BUILT_IN: dict[str, EngineFactory] = {"mujoco": _mujoco, "planar": _planar}
+def _mujoco_warp(
+    world: World, nworld: int, *, time_step: float | None, threads: int | None
+) -> Engine:
+    from gazelle.engines.mujoco.warp import WarpEngine
+
+    return WarpEngine(world, nworld, time_step=time_step, threads=threads)
+
+
+_BUILT_IN: dict[str, EngineFactory] = {
+    "mujoco": _mujoco,
+    "mujoco-warp": _mujoco_warp,
+    "planar": _planar,
+}

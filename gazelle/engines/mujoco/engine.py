@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
@@ -76,8 +75,8 @@ class MujocoEngine(CarryingSteps):
     def _run(self, recipe: CompilerInput, compiled: Compiled) -> None:
         """Go on with a compiled model, from its initial state."""
         keep_awake(compiled.model, recipe.world)
-        self._sleepy = bool(compiled.model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
-        batch = Batch(compiled.model, self._nworld, self._threads, persistent=self._sleepy)
+        batch = self._batch_of(compiled.model, recipe.world)
+        self._sleepy = bool(batch.persistent)
         for name in ("xpos", "xquat", "cvel", "subtree_com"):
             batch.bind(name)
         layout = layout_of(compiled, (pair.name for pair in recipe.attachments))

@@ -12,8 +12,9 @@ from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 
+import mujoco
 import numpy as np
-from mujoco.batch import SimulationError
+from mujoco.batch import Batch, SimulationError
 
 from gazelle.array_types import Floats
 from gazelle.description import World
@@ -31,11 +32,18 @@ class ForcedSteps(ForceAccess):
     """Whether it was said that something turns too fast."""
     _holds_back = False
     """Whether efforts are held back within steps."""
+    _threads: int
+    """Native threads."""
 
     @property
     @abstractmethod
     def world(self) -> World:
         """The world that runs."""
+
+    def _batch_of(self, model: mujoco.MjModel, _: World) -> Batch:
+        """The worlds of a compiled model."""
+        sleepy = bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
+        return Batch(model, self._nworld, self._threads, persistent=sleepy)
 
     def _advance(self, count: int) -> set[int]:
         """Step all worlds; returns those in which MuJoCo gave up."""

@@ -1,0 +1,100 @@
+"""MuJoCo's batch of worlds, whose steps and rays are MuJoCo Warp's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+import warp as wp
+from mujoco.batch import MODEL_FIELDS, Batch
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.array_types import Floats
+from gazelle.engines.mujoco.laws.extras import spun
+from gazelle.engines.mujoco.warp.device_worlds import WRITTEN, DeviceWorlds
+
+_BAD_ACCELERATION = mujoco.mjtWarning.mjWARN_BADQACC
+_LARGEST = 1e10  # as MuJoCo judges what is broken
+_ALL = slice(None)
+
+
+class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
+    """Worlds whose states are here, in double precision, between calls of ``step``.
+
+    A step takes them to the device and back, in single precision. What is asked of a state that stands
+    (places of links, contacts, forces of joints) MuJoCo computes on the processor.
+
+    Args:
+        model: Compiled.
+        nworld: Number of worlds.
+        threads: Native threads.
+
+    Raises:
+        EngineError: MuJoCo Warp cannot simulate it.
+    """
+
+    def __init__(self, model: mujoco.MjModel, nworld: int, threads: int) -> None:
+        super().__init__(model, nworld, threads)
+        self._device = DeviceWorlds(model, nworld)
+        self._touched = False
+
+    def expand(self, name: str) -> NDArray[Any]:
+        """A field of the model for each world, to be written; see MuJoCo's."""
+        self._touched = True
+        found: NDArray[Any] = super().expand(name)
+        return found
+
+    def set_const(self, *args: Any, **kwargs: Any) -> None:
+        """Work out what follows from masses; see MuJoCo's."""
+        self._touched = True
+        super().set_const(*args, **kwargs)
+
+    def step(self, ids: Any = None, nstep: int = 1, stage: int = 0) -> None:
+        """Make steps on the device; ``stage`` is computed here after them, as MuJoCo's does."""
+        self._share()
+        rows = _ALL if ids is None else np.asarray(ids)
+        written = self._device.step(self._fields(), nstep)
+        for name in WRITTEN:
+            self.bind(name)[rows] = written[name][rows]
+        for _ in range(nstep):  # as MuJoCo adds it up
+            self.bind("time")[rows] += self.model.opt.timestep
+        bad = [~(np.abs(self.bind(name)) < _LARGEST).all(axis=1) for name in ("qpos", "qvel")]
+        self.warning[bad[0] | bad[1], int(_BAD_ACCELERATION), 1] += 1
+        if self._device.turned_too_far():
+            spun[0] = 1.0
+        if stage:
+            self.forward(ids, stage=stage)
+
+    def ray(
+        self,
+        pnt: ArrayLike,
+        vec: ArrayLike,
+        *,
+        geomgroup: Sequence[int] | NDArray[Any],
+        bodyexclude: int = -1,
+        ids: Any = None,
+        normal: bool = False,
+    ) -> tuple[Any, ...]:
+        """Follow rays on the device: distances, geoms and normals; see MuJoCo's."""
+        self._share()
+        shape = np.broadcast_shapes(np.shape(pnt), np.shape(vec))
+        start, along = np.zeros((2, self.nsim, *shape[1:]))
+        rows = _ALL if ids is None else np.asarray(ids)
+        start[rows], along[rows] = pnt, vec
+        along[~along.any(axis=-1)] = (0.0, 0.0, 1.0)  # in worlds that were not asked for
+        groups = wp.types.vector(length=6, dtype=float)(*(float(each) for each in geomgroup))
+        found = self._device.cast(self._fields(), start, along, groups, bodyexclude)
+        return tuple(each[rows] for each in found[: 3 if normal else 2])
+
+    def _fields(self) -> dict[str, Floats]:
+        names = ("qfrc_applied", "xfrc_applied", "eq_active", "mocap_pos", "mocap_quat")
+        return {name: self.bind(name) for name in (*WRITTEN, *names)}
+
+    def _share(self) -> None:
+        """Tell the device what worlds have of their own, if that was touched."""
+        if self._touched:
+            fields = {name: self.expanded(name) for name in MODEL_FIELDS}
+            self._device.share({n: v for n, v in fields.items() if v is not None})
+            self._touched = False
