@@ -88,6 +88,11 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         found = self._device.cast(self._fields(), start, along, groups, bodyexclude)
         return tuple(each[rows] for each in found[: 3 if normal else 2])
 
+    def on_device(self, name: str) -> Any:
+        """A field of the state as the device has it, float32, shape (nworld, n)."""
+        self._share()
+        return self._device.field(self._fields(), name)
+
     def _fields(self) -> dict[str, Floats]:
         names = ("qfrc_applied", "xfrc_applied", "eq_active", "mocap_pos", "mocap_quat")
         return {name: self.bind(name) for name in (*WRITTEN, *names)}

@@ -4,8 +4,6 @@ A row has its Jacobian (dense, or the columns that ``column_index`` lists), its 
 acceleration that it is to have (``reference``). ``before`` has the joints' accelerations of the step before.
 """
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 wp.set_module_options({"enable_backward": False})
@@ -51,7 +49,7 @@ def row_entry(rows: ConstraintRows, world: int, row: int, place: int) -> float:
 
 
 @wp.func
-def set_row_entry(rows: ConstraintRows, world: int, row: int, place: int, value: float):  # noqa: ANN201  # Warp's
+def set_row_entry(rows: ConstraintRows, world: int, row: int, place: int, value: float) -> None:
     """Write a number of a row's Jacobian."""
     if rows.sparse != 0:
         rows.jacobian[world, 0, rows.address[world, row] + place] = value
@@ -70,7 +68,9 @@ def last_acceleration(rows: ConstraintRows, world: int, row: int) -> float:
 
 
 @wp.func
-def turn_rows(rows: ConstraintRows, world: int, first: int, second: int, one: float, two: float):  # noqa: ANN201  # Warp's
+def turn_rows(
+    rows: ConstraintRows, world: int, first: int, second: int, one: float, two: float
+) -> None:
     """Turn two directions of a cone by the cosine ``one`` and the sine ``two``."""
     _turn_pair(rows.velocity, world, first, second, one, two)
     _turn_pair(rows.reference, world, first, second, one, two)
@@ -82,7 +82,9 @@ def turn_rows(rows: ConstraintRows, world: int, first: int, second: int, one: fl
 
 
 @wp.func
-def _turn_pair(array: wp.array2d[float], world: int, first: int, second: int, one: float, two: float):  # noqa: ANN202  # Warp's
+def _turn_pair(
+    array: wp.array2d[float], world: int, first: int, second: int, one: float, two: float
+) -> None:
     a = float(array[world, first])
     b = float(array[world, second])
     array[world, first] = one * a + two * b
@@ -101,7 +103,7 @@ def turn_edges(edges: wp.vec4, one: float, two: float) -> wp.vec4:
 
 
 @wp.func
-def turn_pyramid(rows: ConstraintRows, world: int, row: wp.vec4i, one: float, two: float):  # noqa: ANN201  # Warp's
+def turn_pyramid(rows: ConstraintRows, world: int, row: wp.vec4i, one: float, two: float) -> None:
     """Turn a pyramid's first direction, with all that is known of its four edges."""
     turned = turn_edges(_four(rows.velocity, world, row), one, two)
     wanted = turn_edges(_four(rows.reference, world, row), one, two)

@@ -1,7 +1,5 @@
 """What laws of contacts know on the device: the contacts, and what holds for each geom."""
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 wp.set_module_options({"enable_backward": False})
@@ -76,13 +74,12 @@ class ContactLaws:
 
 
 @wp.func
-def damping_of(laws: ContactLaws, solref: wp.vec2, solimp: vec5, step: float) -> float:
-    """The damping B of a contact's reference, -B v - K d, as MuJoCo has it [1/s]."""
-    most = wp.clamp(solimp[1], 1.0e-4, 0.9999)
+def damping_of(laws: ContactLaws, solref: wp.vec2, share: float, step: float) -> float:
+    """The damping B of a contact's reference, -B v - K d, by the largest share of its force [1/s]."""
+    most = wp.clamp(share, 1.0e-4, 0.9999)
     if solref[1] <= 0.0:
         return -solref[1] / most
     constant = solref[0]
     if (laws.disabled & REFSAFE) == 0:
         constant = wp.max(constant, 2.0 * step)
     return 2.0 / (most * constant)
-

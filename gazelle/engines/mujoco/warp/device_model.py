@@ -25,20 +25,24 @@ _LEAVE = "gazelle.Simulation(..., engine='mujoco') has it"
 # What Warp looks for in none of the worlds where the shared model has none: there it has the most of all.
 _BY_PRESENCE = ("body_gravcomp", "dof_damping", "dof_frictionloss", "jnt_limited")
 
-# Fields that no step on the device reads.
-_UNUSED = frozenset({"body_sameframe", "geom_sameframe", "numeric_data"})
+# What only sleeping is judged by.
+_UNUSED = frozenset({"dof_length"})
 
 
 @cache
-def _per_world() -> frozenset[str]:
-    """Names of the fields that MuJoCo Warp keeps for each world."""
-    found = set()
+def _fields() -> Mapping[str, bool]:
+    """Names of the fields of a model that MuJoCo Warp has, and whether it keeps them for each world."""
+    found = {}
     for prefix, kind in (("", mujoco_warp.Model), ("opt.", mujoco_warp.Option)):
         for field in dataclasses.fields(kind):
-            shape = getattr(field.type, "shape", ())
-            if shape and shape[0] == "*":
-                found.add(prefix + field.name)
-    return frozenset(found)
+            shape: Any = getattr(field.type, "shape", ())
+            found[prefix + field.name] = bool(shape) and shape[0] == "*"
+    return found
+
+
+def _is_read(name: str) -> bool:
+    """Whether steps on the device depend on a field of the model."""
+    return name in _BY_PRESENCE or (name in _fields() and name not in _UNUSED)
 
 
 def put_model(host: mujoco.MjModel, own: Mapping[str, Floats]) -> Any:
@@ -54,7 +58,7 @@ def put_model(host: mujoco.MjModel, own: Mapping[str, Floats]) -> Any:
     """
     shared = copy.copy(host)
     for name, values in own.items():
-        if name not in _UNUSED:
+        if _is_read(name):
             _write(shared, name, _common(host, name, values))
     try:
         model = mujoco_warp.put_model(shared)
@@ -64,13 +68,15 @@ def put_model(host: mujoco.MjModel, own: Mapping[str, Floats]) -> Any:
         ) from error
     model.opt.warn_overflow = 0  # what overflows is enlarged
     for name, values in own.items():
-        if name in _per_world():
+        if _fields().get(name, False):
             share_field(model, name, values)
     return model
 
 
 def share_field(model: Any, name: str, values: Floats) -> None:
     """Let worlds have their own values of a field, shape (nworld, ...)."""
+    if name not in _fields():
+        return
     holder, _, attribute = name.rpartition(".")
     target = model.opt if holder else model
     old = getattr(target, attribute)
@@ -79,7 +85,7 @@ def share_field(model: Any, name: str, values: Floats) -> None:
 
 def can_share(name: str) -> bool:
     """Whether a field can be changed on the device without making the model anew."""
-    return name in _per_world() and name not in _BY_PRESENCE
+    return not _is_read(name) or (_fields().get(name, False) and name not in _BY_PRESENCE)
 
 
 def _common(host: mujoco.MjModel, name: str, values: Floats) -> Floats:
@@ -92,12 +98,13 @@ def _common(host: mujoco.MjModel, name: str, values: Floats) -> Floats:
         most: Floats = values.max(axis=0)
         return most
     first: Floats = values[0]
-    if name in _per_world() or (values == first).all():
+    if _fields().get(name, False) or (values == first).all():
         return first
     if name == "geom_priority":
         ranks = np.stack([np.unique(row, return_inverse=True)[1] for row in values])
         if (ranks == ranks[0]).all():
-            return ranks[0].astype(first.dtype)
+            order: Floats = ranks[0].astype(first.dtype)
+            return order
         raise EngineError(
             "worlds differ in which of two surfaces is the more slippery ('collision_friction'), which "
             "the engine 'mujoco-warp' cannot",
@@ -115,7 +122,7 @@ def _common(host: mujoco.MjModel, name: str, values: Floats) -> Floats:
 def _element(host: mujoco.MjModel, name: str, row: int) -> str:
     """What a row of a field is of, by its name in the model."""
     kinds = {"geom": host.geom, "body": host.body, "jnt": host.joint, "pair": host.pair}
-    named = kinds.get(name.split("_")[0])
+    named = kinds.get(name.split("_", maxsplit=1)[0])
     return f"'{named(row).name}'" if named is not None else f"row {row}"
 
 

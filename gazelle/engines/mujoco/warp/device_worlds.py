@@ -114,6 +114,11 @@ class DeviceWorlds:
             self._laws.told.zero_()
         return found
 
+    def field(self, state: Mapping[str, Floats], name: str) -> Any:
+        """A field of a state on the device."""
+        self._put(state)
+        return getattr(self._data, name)
+
     def _put(self, state: Mapping[str, Floats]) -> None:
         for name in _READ:
             target = getattr(self._data, name)

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
+from typing import Any
 
 import mujoco
+import warp as wp
 
 from gazelle.description import World
 from gazelle.engines.mujoco.engine import MujocoEngine
 from gazelle.engines.mujoco.warp.batch import WarpBatch
-from gazelle.errors import EngineError, EngineWarning
+from gazelle.engines.mujoco.warp.single_precision import soften
+from gazelle.errors import EngineError, EngineWarning, did_you_mean
 
 _SLEEP, _SPECULATIVE = mujoco.mjtEnableBit.mjENBL_SLEEP, mujoco.mjtEnableBit.mjENBL_SPECULATIVE
+
+# What of joints can be had on the device, and MuJoCo's names for it.
+_ON_DEVICE = {"joint_position": "qpos", "joint_velocity": "qvel"}
 
 
 class WarpEngine(MujocoEngine):
@@ -29,12 +36,47 @@ class WarpEngine(MujocoEngine):
         """No: controllers of joints are not on the device, and are brought between steps."""
         return False
 
+    def on_device(self, kind: str, joint: str) -> Any:
+        """A joint's positions or velocities in all worlds where the device has them, without a copy.
+
+        Args:
+            kind: ``joint_position`` or ``joint_velocity``.
+            joint: Scoped name.
+
+        Returns:
+            An array of Warp's for ``torch.from_dlpack``, ``numpy.from_dlpack`` and so on, float32, shape
+            (nworld, axes), as the protocol has it but for quaternions, which are (w, x, y, z). It is
+            good until the next step, and not to be written to.
+
+        Raises:
+            EngineError: There is no such joint or kind.
+        """
+        if kind not in _ON_DEVICE:
+            raise EngineError(
+                f"there is no '{kind}' on the device", hint=did_you_mean(kind, _ON_DEVICE)
+            )
+        slots = self._now().joint(joint)
+        columns = [slot.position if kind == "joint_position" else slot.velocity for slot in slots]
+        whole = self._batch.on_device(_ON_DEVICE[kind])
+        return whole[:, columns[0].start : columns[-1].stop]
+
     def _batch_of(self, model: mujoco.MjModel, world: World) -> WarpBatch:
         """The worlds of a compiled model; nothing sleeps in them, and contacts are not foreseen."""
+        _say_if_slow()
         if model.opt.enableflags & _SPECULATIVE:
             self._miss_foresight(world)
         model.opt.enableflags &= ~(int(_SLEEP) | int(_SPECULATIVE))
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_AUTO_NEVER)
+        profile = world.profile
+        if profile.contacts == "fast" or profile.ode.friction_model not in (None, "cone_model"):
+            warnings.warn(
+                EngineWarning(
+                    "the engine 'mujoco-warp' has friction as a cone only, not as the pyramid that the world "
+                    "asks for"
+                ),
+                stacklevel=5,
+            )
+        soften(model)
         return WarpBatch(model, self._nworld, self._threads)
 
     def _miss_foresight(self, world: World) -> None:
@@ -53,6 +95,19 @@ class WarpEngine(MujocoEngine):
             EngineWarning(
                 "the engine 'mujoco-warp' seeks no contacts on the way of a step: a small body that is "
                 "faster than 20 m/s may pass through something. Take a smaller step, or engine='mujoco'"
+            ),
+            stacklevel=5,
+        )
+
+
+@functools.cache
+def _say_if_slow() -> None:
+    """Say, once in a process, that there is no graphics card."""
+    if not wp.is_cuda_available():
+        warnings.warn(
+            EngineWarning(
+                "the engine 'mujoco-warp' finds no graphics card and steps on the processor, many times "
+                "slower than engine='mujoco'"
             ),
             stacklevel=5,
         )

@@ -1,7 +1,5 @@
 """Motors that hold a velocity: ``laws.motors`` on the device, where its source is told."""
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 wp.set_module_options({"enable_backward": False})
@@ -10,7 +8,7 @@ FRICTION_OF_TENDON = wp.constant(2)  # mjCNSTR_FRICTION_TENDON
 
 
 @wp.kernel
-def drive_motors(  # noqa: ANN201  # Warp's
+def drive_motors(
     count: int,
     timestep: wp.array[float],
     used: wp.array[int],
@@ -21,7 +19,7 @@ def drive_motors(  # noqa: ANN201  # Warp's
     effort: wp.array2d[float],
     wanted: wp.array2d[float],
     reference: wp.array2d[float],
-):
+) -> None:
     """Let motors hold their velocities rather than stand still; the model's tendons are theirs."""
     world, row = wp.tid()
     if row >= used[world] or kind[world, row] != FRICTION_OF_TENDON:

@@ -1,7 +1,5 @@
 """Contacts that slide do not part: ``laws.sliding`` on the device, where its source is told."""
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 from gazelle.engines.mujoco.warp.constraint_rows import (
@@ -24,7 +22,7 @@ DAMPED = wp.constant(0.25)
 
 
 @wp.func
-def stay_down(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN201  # Warp's
+def stay_down(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
     """Let a contact that slides want no other normal velocity than one that holds."""
     if found.dim[contact] >= 3:
         if laws.cone != 0:
@@ -34,7 +32,7 @@ def stay_down(rows: ConstraintRows, found: ContactList, laws: ContactLaws, conta
 
 
 @wp.func
-def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
     world = found.world[contact]
     friction = found.friction[contact]
     first = found.address[contact, 1]
@@ -58,7 +56,9 @@ def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, cont
 
 
 @wp.func
-def _on_a_pyramid(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _on_a_pyramid(
+    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+) -> None:
     """The same for the edges n ± mu t, turned so that one direction is that of the slip."""
     world = found.world[contact]
     mu = found.friction[contact][0]
@@ -95,7 +95,7 @@ def _on_a_pyramid(rows: ConstraintRows, found: ContactList, laws: ContactLaws, c
 
 
 @wp.func
-def _turn_frame(found: ContactList, contact: int, one: float, two: float):  # noqa: ANN202  # Warp's
+def _turn_frame(found: ContactList, contact: int, one: float, two: float) -> None:
     frame = found.frame[contact]
     along = one * frame[1] + two * frame[2]
     across = one * frame[2] - two * frame[1]

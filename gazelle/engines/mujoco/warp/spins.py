@@ -3,8 +3,6 @@
 Their sources are told there and in ``laws.kernel``.
 """
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 wp.set_module_options({"enable_backward": False})
@@ -17,7 +15,7 @@ TUMBLING_ROUNDS = wp.constant(8)
 
 
 @wp.kernel
-def find_swings(  # noqa: ANN201  # Warp's
+def find_swings(
     hinges: int,
     watched: wp.array[int],
     timestep: wp.array[float],
@@ -25,7 +23,7 @@ def find_swings(  # noqa: ANN201  # Warp's
     kept: wp.array2d[float],
     swings: wp.array[int],
     told: wp.array[int],
-):
+) -> None:
     """Find the worlds in which something swings fast enough to matter, and keep all velocities."""
     world = wp.tid()
     step = timestep[world % timestep.shape[0]]
@@ -47,25 +45,25 @@ def find_swings(  # noqa: ANN201  # Warp's
 
 
 @wp.kernel
-def sum_forces(  # noqa: ANN201  # Warp's
+def sum_forces(
     passive: wp.array2d[float],
     applied: wp.array2d[float],
     bias: wp.array2d[float],
     force: wp.array2d[float],
-):
+) -> None:
     """All that accelerates joints but contacts and constraints."""
     world, dof = wp.tid()
     force[world, dof] = passive[world, dof] + applied[world, dof] - bias[world, dof]
 
 
 @wp.kernel
-def go_half_way(  # noqa: ANN201  # Warp's
+def go_half_way(
     timestep: wp.array[float],
     swings: wp.array[int],
     kept: wp.array2d[float],
     gained: wp.array2d[float],
     qvel: wp.array2d[float],
-):
+) -> None:
     """Velocities of the middle of the step where something swings."""
     world, dof = wp.tid()
     if swings[world] != 0:
@@ -74,7 +72,7 @@ def go_half_way(  # noqa: ANN201  # Warp's
 
 
 @wp.kernel
-def keep_turning(  # noqa: ANN201  # Warp's
+def keep_turning(
     bodies: wp.array[wp.vec2i],
     timestep: wp.array[float],
     body_inertia: wp.array2d[wp.vec3],
@@ -83,7 +81,7 @@ def keep_turning(  # noqa: ANN201  # Warp's
     qvel: wp.array2d[float],
     passive: wp.array2d[float],
     told: wp.array[int],
-):
+) -> None:
     """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
     world, place = wp.tid()
     body = bodies[place][0]

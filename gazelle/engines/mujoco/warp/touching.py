@@ -3,8 +3,6 @@
 The laws are those of ``gazelle.engines.mujoco.laws``, where their sources and limits are told.
 """
 
-# mypy: disallow-untyped-decorators=False
-
 import warp as wp
 
 from gazelle.engines.mujoco.warp.constraint_rows import (
@@ -36,7 +34,7 @@ SLIDING = wp.constant(3)  # directions of a contact with friction
 
 
 @wp.kernel
-def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws):  # noqa: ANN201  # Warp's
+def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws) -> None:
     """Change the rows of contacts before MuJoCo Warp solves for their forces."""
     contact = wp.tid()
     if contact >= found.total[0]:
@@ -59,7 +57,7 @@ def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws
 
 
 @wp.func
-def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
     """Turn the two directions in which a contact rubs to those that its surfaces have."""
     if found.dim[contact] >= SLIDING and laws.cone != 0:
         world = found.world[contact]
@@ -106,7 +104,9 @@ def _first_direction(found: ContactList, laws: ContactLaws, contact: int) -> wp.
 
 
 @wp.func
-def _stand_in_the_middle(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _stand_in_the_middle(
+    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+) -> None:
     """Move a contact with a wheel to the middle of its tread."""
     world = found.world[contact]
     geoms = found.geom[contact]
@@ -130,7 +130,7 @@ def _stand_in_the_middle(rows: ConstraintRows, found: ContactList, laws: Contact
 @wp.func
 def _move(
     rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int, shift: wp.vec3
-):  # noqa: ANN202  # Warp's
+) -> None:
     """Move where a contact acts: what turns a body about an axis w changes by w x shift."""
     world = found.world[contact]
     frame = found.frame[contact]
@@ -153,13 +153,13 @@ def _move(
             dof = laws.dof_parentid[dof]
     parts = _by_rows(found, laws, contact, change)
     step = laws.step[world % laws.step.shape[0]]
-    solimp = found.solimp[contact]
-    normal = damping_of(laws, found.solref[contact], solimp, step)
+    share = found.solimp[contact][1]
+    normal = damping_of(laws, found.solref[contact], share, step)
     friction = normal
     if laws.cone != 0:
         own = found.solreffriction[contact]
         if own[0] != 0.0 or own[1] != 0.0:
-            friction = damping_of(laws, own, solimp, step)
+            friction = damping_of(laws, own, share, step)
     for edge in range(_sliding_rows(laws)):
         row = found.address[contact, edge]
         damping = normal if edge == 0 else friction
@@ -198,7 +198,9 @@ def _last_dof(laws: ContactLaws, body: int) -> int:
 
 
 @wp.func
-def _leave_slowly(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _leave_slowly(
+    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+) -> None:
     """Bound the velocity at which a contact pushes out what overlapped (``laws.exits``)."""
     if found.margin[contact] < 0.0 and found.solref[contact][0] > 0.0:
         world = found.world[contact]
@@ -214,7 +216,7 @@ def _leave_slowly(rows: ConstraintRows, found: ContactList, laws: ContactLaws, c
             parting = 0.5 * (parting + rows.velocity[world, other])
             count = 2 * (found.dim[contact] - 1)
         step = laws.step[world % laws.step.shape[0]]
-        damping = damping_of(laws, found.solref[contact], found.solimp[contact], step)
+        damping = damping_of(laws, found.solref[contact], found.solimp[contact][1], step)
         excess = wanted + damping * (parting - most)
         if excess > 0.0:
             for edge in range(count):
@@ -223,7 +225,7 @@ def _leave_slowly(rows: ConstraintRows, found: ContactList, laws: ContactLaws, c
 
 
 @wp.func
-def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int):  # noqa: ANN202  # Warp's
+def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
     world = found.world[contact]
     row = found.address[contact, 0]
