@@ -20,6 +20,8 @@ DEVELOPERS = {"test", "lint", "oracle", "bench"}
 NOT_OURS = {
     "cv2": "cv_bridge hands images to the user's OpenCV, and says so where there is none",
     "onnxruntime": "whoever deploys ONNX policies chooses one of its builds; it is in `test`",
+    "mujoco_warp": "it would bring another MuJoCo over Gazelle's; the engine says the commands",
+    "warp": "is warp-lang, of the extra `warp`",
     "cython": "what is compiled needs it no more; it is in the extra `test`",
 }
 """Libraries that nobody can declare, and why."""

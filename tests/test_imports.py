@@ -63,13 +63,15 @@ STRANGERS = {
 }
 """Rooms that are lower in the order, and yet unknown to a room."""
 
-HEAVY = {"gymnasium", "mujoco", "stable_baselines3", "torch", "trimesh"}
+HEAVY = {"gymnasium", "mujoco", "mujoco_warp", "stable_baselines3", "torch", "trimesh", "warp"}
 OWNERS = {
     "gymnasium": ("gazelle.compat", "gazelle.envs", "gazelle.training"),
     "mujoco": ("gazelle.engines.mujoco", "gazelle.formats.mujoco_geometry"),
+    "mujoco_warp": ("gazelle.engines.mujoco.warp",),
     "pettingzoo": ("gazelle.envs",),
     "stable_baselines3": ("gazelle.compat.frobs_rl", "gazelle.training"),
     "torch": ("gazelle.compat.frobs_rl", "gazelle.training"),
+    "warp": ("gazelle.engines.mujoco.warp",),
 }
 """Libraries that only these packages know, so that another can take their place."""
 
