@@ -6,8 +6,8 @@ from typing import NoReturn
 import pytest
 
 
-def skip_or_fail(reason: str) -> NoReturn:
-    """Skip the test; in CI fail it, for there everything has been installed."""
+def skip_or_fail(reason: str, *, whole_file: bool = False) -> NoReturn:
+    """Skip the test, or the file that is being imported; in CI fail it, for there everything has been installed."""
     if os.environ.get("CI"):
         pytest.fail(f"{reason}; in CI it must be", pytrace=False)
-    pytest.skip(reason)
+    pytest.skip(reason, allow_module_level=whole_file)

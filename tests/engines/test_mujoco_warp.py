@@ -31,17 +31,14 @@ from gazelle.description.surface import Bounce
 from gazelle.engines import DivergenceError, make_engine
 from gazelle.errors import EngineError, EngineWarning
 
+if importlib.util.find_spec("mujoco_warp") is None:
+    skip_or_fail("MuJoCo Warp is not here (docs/scale.md has the two commands)", whole_file=True)
+
 pytestmark = pytest.mark.filterwarnings("ignore:the engine 'mujoco-warp' finds no graphics card")
 
 STILL = (0.0, 0.0, 0.0)
 # How far single precision lets a scene come apart in 0.2 s [m or rad], and why where it is more than rounding.
 TOLERANCES = {"burger": 5e-5, "four-bar": 2e-5, "tilting block": 2e-5}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _warp():
-    if importlib.util.find_spec("mujoco_warp") is None:
-        skip_or_fail("MuJoCo Warp is not here (docs/scale.md has the two commands)")
 
 
 def pair(world, nworld=1):
