@@ -9,6 +9,7 @@ from control.arms import JOINTS, arm_text
 from ros.graph import until
 
 from gazelle.builders import add_transmissions
+from gazelle.control.actuators import ACTUATOR_STATE
 from gazelle.errors import ControlWarning
 from gazelle.formats import load_model_string, load_string
 from gazelle.ros import load_message, load_service
@@ -84,6 +85,15 @@ def test_gains_and_limits_come_from_the_parameter_server():
         settings = graph.sim.robots["two_link_arm"].settings
         assert settings["pid_gains"].value["elbow"]["p"] == 1.0
         assert settings["joint_limits"].value["elbow"]["max_effort"] == 0.25
+
+
+@pytest.mark.parametrize("use", [True, False])
+def test_whether_transmissions_count_comes_from_the_parameter_server(use):
+    given = {"/arm/gazebo_ros_control/use_transmissions": use}
+    with robot_graph(arm_text("Effort"), parameters=given, start=False) as graph:
+        robot = graph.sim.robots["two_link_arm"]
+        assert robot.settings["use_transmissions"].value is use
+        assert (ACTUATOR_STATE in robot.controllers.hardware.interfaces) is use
 
 
 BARE = re.compile("<transmission.*</transmission>", re.DOTALL)
