@@ -185,17 +185,18 @@ def test_seconds_and_rates_go_on_over_a_break(tmp_path, tiny):
     """The clock of a run stands still between its parts, and never goes back."""
     recipe = dataclasses.replace(tiny, steps=2048)
     first = train("test/Corridor-v0", recipe=recipe, out=tmp_path, progress=StopAt(700))
-    time.sleep(0.5)
+    time.sleep(1.0)
     second = resume(first.run.folder)
     with (second.run.folder / "progress.csv").open() as file:
         rows = list(csv.DictReader(file))
     seconds = [float(row["time/seconds"]) for row in rows]
-    assert all(early < late for early, late in itertools.pairwise(seconds))
+    assert all(early <= late for early, late in itertools.pairwise(seconds))
     spent = first.wall_seconds + second.wall_seconds
-    assert seconds[-1] <= spent + 0.1
-    for row in rows:
-        rate = int(row["time/steps"]) / float(row["time/seconds"])
-        assert float(row["time/steps_per_second"]) == pytest.approx(rate, rel=0.05)
+    assert seconds[-1] <= spent + 0.8  # less than the break
+    for row, told in zip(rows, seconds, strict=True):
+        # the seconds of an update are few and stand there to the millisecond
+        took = int(row["time/steps"]) / float(row["time/steps_per_second"])
+        assert took == pytest.approx(told, rel=0.05, abs=0.001)
 
 
 def tensorboard_steps(folder):
