@@ -2,6 +2,7 @@ cimport cython
 
 from gazelle.rendering.lighting cimport Lighting
 from gazelle.rendering.rasterizer cimport Rasterizer
+from gazelle.rendering.sunlight cimport Sunlight
 
 
 @cython.final
@@ -16,10 +17,9 @@ cdef class Shader:
     cdef unsigned char[:, ::1] flat
     cdef double[:, ::1] corners, bends, shares
     cdef double[::1] light, normal, base, behind
-    cdef Rasterizer shadow
-    cdef double[:, ::1] turns
-    cdef double pixel
-    cdef bint shadowed
+    cdef Sunlight sun
+    cdef double[:, ::1] even
+    cdef bint shadowed, distant
     cdef Py_ssize_t slots
 
     cdef void draw_one(self, Py_ssize_t n) noexcept nogil
@@ -33,6 +33,9 @@ cdef class Shader:
     cdef void put_clear(self, Py_ssize_t n) noexcept nogil
     cdef void shade(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t t) noexcept nogil
+    @cython.locals(x=double, y=double, z=double, share=double, k=int)
+    cdef void shade_evenly(
+        self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s) noexcept nogil
     @cython.locals(z=cython.float, value=cython.float, x=int)
     cdef void shade_smoothly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s) noexcept nogil
@@ -47,15 +50,14 @@ cdef class Shader:
     @cython.locals(x=double, y=double, z=double, size=double, p=Py_ssize_t, b=double)
     cdef void shade_exactly(
         self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c, Py_ssize_t s, Py_ssize_t t) noexcept nogil
-    @cython.locals(u=double, v=double, w=double, a=double, b=double, c=double, lit=double,
-                   lift=double, i=Py_ssize_t, j=Py_ssize_t)
-    cdef double sunlit(self, Py_ssize_t n, double x, double y, double z) noexcept nogil
     @cython.locals(x=double, y=double, up=double)
     cdef void put_backdrop(self, Py_ssize_t n, Py_ssize_t r, Py_ssize_t c) noexcept nogil
     @cython.locals(s=Py_ssize_t, k=int, j=int)
     cdef Py_ssize_t prepare(self, Py_ssize_t t) noexcept nogil
     @cython.locals(flat=cython.bint, worn=cython.bint, i=int, k=int)
     cdef bint light_corners(self, Py_ssize_t p) noexcept nogil
+    @cython.locals(i=int, j=int, k=int, value=double)
+    cdef void light_evenly(self, Py_ssize_t s, Py_ssize_t p) noexcept nogil
     @cython.locals(v=Py_ssize_t, first=Py_ssize_t, x=double, y=double, z=double, i=int, k=int,
                    facing=double)
     cdef void find_corners(self, Py_ssize_t t) noexcept nogil

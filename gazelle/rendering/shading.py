@@ -20,15 +20,21 @@ from gazelle.array_types import Bytes, Floats32, Ints32
 from gazelle.rendering.lighting import Lighting
 from gazelle.rendering.rasterizer import Rasterizer
 from gazelle.rendering.shadow_maps import ShadowMaps
+from gazelle.rendering.sunlight import Sunlight
 
 NOTHING = cython.declare(cython.float, float("inf"))
+# How a triangle looks: different everywhere, alike all over, or alike but for shadows.
+VARIED = cython.declare(cython.uchar, 0)
+ALIKE = cython.declare(cython.uchar, 1)
+EVEN = cython.declare(cython.uchar, 2)
 
 
 class Shader:
     """Draws pictures, and fills in what is asked for.
 
     Lamps that are far away light corners of triangles, and what is between them is interpolated;
-    as soon as a lamp has a place, every pixel is lit by itself.
+    as soon as a lamp has a place, every pixel is lit by itself, and so it is where there are shadows
+    on what is not flat and of one colour.
 
     Args:
         seen: What finds the triangles.
@@ -37,8 +43,7 @@ class Shader:
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width);
             with n = 0 none.
         labels: Numbers of what is seen, -1 where nothing is, likewise.
-        maps: Where a lamp sees the world from, for shadows; None for no shadows. Every pixel is
-            lit by itself then.
+        maps: Where a lamp sees the world from, for shadows; None for no shadows.
     """
 
     def __init__(
@@ -67,12 +72,13 @@ class Shader:
         self.shares = np.empty((3, 3))
         self.light, self.normal, self.base = np.empty(3), np.empty(3), np.empty(3)
         self.behind = np.empty(3)
-        self.shadowed = maps is not None and self.colored
-        self.turns, self.pixel = np.empty((0, 12)), 0.0
+        self.sun = Sunlight(seen, maps)
+        self.shadowed = self.sun.there and self.colored
+        # Of a triangle that looks the same all over but for shadows: how it looks in shadow, what
+        # the lamp adds, and its normal.
+        self.even = np.empty((size + 1 if self.shadowed else 0, 9))
+        self.distant = not lighting.local
         if maps is not None:
-            square = maps.side, maps.side
-            self.shadow = Rasterizer(seen.shapes, seen.links, maps.cameras, maps.lens, square)
-            self.turns, self.pixel = maps.turns, maps.pixel
             self.lighting.caster, self.lighting.local = maps.lamp, True
 
     def draw(self, first: int, last: int) -> None:
@@ -89,7 +95,7 @@ class Shader:
         """Draw the picture of camera n."""
         self.seen.draw(n)
         if self.shadowed:
-            self.shadow.draw(n)
+            self.sun.draw(n)
         if self.colored:
             self.lighting.look(self.seen.cameras, n)
             self.put_color(n)
@@ -122,7 +128,7 @@ class Shader:
                     continue
                 if t != last:
                     s, last = self.prepare(t), t
-                    constant = self.flat[s, 3] != 0
+                    constant = self.flat[s, 3] == ALIKE
                     red, green, blue = self.flat[s, 0], self.flat[s, 1], self.flat[s, 2]
                 if constant:
                     color[n, r, c, 0], color[n, r, c, 1], color[n, r, c, 2] = red, green, blue
@@ -141,7 +147,7 @@ class Shader:
                 for k in range(3):
                     self.behind[k] = self.color[n, r, c, k]
                     self.color[n, r, c, k] = self.flat[s, k]
-                if self.flat[s, 3] == 0:
+                if self.flat[s, 3] != ALIKE:
                     self.shade(n, r, c, s, t)
                 alpha = self.seen.shapes.alpha[p]
                 for k in range(3):
@@ -150,12 +156,25 @@ class Shader:
 
     def shade(self, n: int, r: int, c: int, s: int, t: int) -> None:
         """Colour a pixel of a triangle that does not look the same all over."""
-        if self.lighting.local:
+        if self.flat[s, 3] == EVEN:
+            self.shade_evenly(n, r, c, s)
+        elif self.lighting.local:
             self.shade_exactly(n, r, c, s, t)
         elif self.seen.shapes.parts[self.seen.part_of[t], TEXTURE_OF_PART] >= 0:
             self.shade_picture(n, r, c, s, self.seen.part_of[t])
         else:
             self.shade_smoothly(n, r, c, s)
+
+    def shade_evenly(self, n: int, r: int, c: int, s: int) -> None:
+        """Colour a pixel of a triangle that looks the same all over but for shadows."""
+        z = 1.0 / self.seen.inverse[r, c]
+        x = (c + 0.5 - self.seen.cx) / self.seen.fx * z
+        y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
+        share = self.sun.share(n, x, y, z, self.even[s, 6], self.even[s, 7], self.even[s, 8])
+        for k in range(3):
+            self.color[n, r, c, k] = self.lighting.tone(
+                self.even[s, k] + share * self.even[s, 3 + k]
+            )
 
     def shade_smoothly(self, n: int, r: int, c: int, s: int) -> None:
         """Colour a pixel by what lies between the corners of its triangle."""
@@ -230,44 +249,15 @@ class Shader:
         x = (c + 0.5 - self.seen.cx) / self.seen.fx * z
         y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
         if self.shadowed:
-            self.lighting.share = self.sunlit(n, x, y, z)
+            self.lighting.share = self.sun.share(
+                n, x, y, z, self.normal[0], self.normal[1], self.normal[2]
+            )
         self.lighting.light_up(x, y, z, self.normal, self.light)
         p = self.seen.part_of[t]
         self.find_base(s, p, r, c, z)
         for k in range(3):
             b = self.seen.shapes.glow[p, k]
             self.color[n, r, c, k] = self.lighting.tone(self.base[k] * self.light[k] + b)
-
-    def sunlit(self, n: int, x: float, y: float, z: float) -> float:
-        """The share of the lamp that falls on a place in the frame of camera n: 0 in shadow.
-
-        The place is lifted off its surface by one and a half pixels of the lamp's picture, so that it
-        is not in the shadow of itself.
-        """
-        lift = 1.5 * self.pixel
-        a, b, c = x + lift * self.normal[0], y + lift * self.normal[1], z + lift * self.normal[2]
-        u = self.turns[n, 0] * a + self.turns[n, 1] * b + self.turns[n, 2] * c + self.turns[n, 9]
-        v = self.turns[n, 3] * a + self.turns[n, 4] * b + self.turns[n, 5] * c + self.turns[n, 10]
-        w = self.turns[n, 6] * a + self.turns[n, 7] * b + self.turns[n, 8] * c + self.turns[n, 11]
-        if w < self.shadow.near:
-            return 1.0
-        u = self.shadow.cx + self.shadow.fx * u / w - 0.5
-        v = self.shadow.cy + self.shadow.fy * v / w - 0.5
-        if u < 0.0 or v < 0.0 or u >= self.shadow.width - 1 or v >= self.shadow.height - 1:
-            return 1.0  # beyond what has shadows
-        i, j = cython.cast(cython.Py_ssize_t, floor(u)), cython.cast(cython.Py_ssize_t, floor(v))
-        u, v = u - i, v - j
-        a, b = 1.0 - u, 1.0 - v
-        c, lit = 1.0 / (w - 0.5 * self.pixel), 0.0
-        if self.shadow.inverse[j, i] <= c:
-            lit += a * b
-        if self.shadow.inverse[j, i + 1] <= c:
-            lit += u * b
-        if self.shadow.inverse[j + 1, i] <= c:
-            lit += a * v
-        if self.shadow.inverse[j + 1, i + 1] <= c:
-            lit += u * v
-        return lit
 
     def put_backdrop(self, n: int, r: int, c: int) -> None:
         """Colour a pixel that shows nothing."""
@@ -292,9 +282,12 @@ class Shader:
         self.seen.slot_of[t] = s
         self.find_corners(t)
         self.find_shares()
-        self.flat[s, 3] = 0
+        self.flat[s, 3] = VARIED
         if not self.lighting.local:
-            self.flat[s, 3] = self.light_corners(self.seen.part_of[t])
+            if self.light_corners(self.seen.part_of[t]):
+                self.flat[s, 3] = ALIKE
+        elif self.shadowed and self.distant:
+            self.light_evenly(s, self.seen.part_of[t])
         for k in range(3):
             self.flat[s, k] = self.lighting.tone(self.bends[0, k])
         for k in range(5):
@@ -324,6 +317,31 @@ class Shader:
                 self.bends[i, k] = self.light[k]
                 flat = flat and self.bends[i, k] == self.bends[0, k]
         return flat
+
+    def light_evenly(self, s: int, p: int) -> None:
+        """Find how a flat triangle of one colour looks in shadow, and what the lamp adds."""
+        if self.seen.shapes.parts[p, TEXTURE_OF_PART] >= 0:
+            return
+        for i in range(1, 3):
+            for k in range(3):
+                if self.bends[i, k] != self.bends[0, k]:
+                    return
+        for k in range(3):
+            self.normal[k] = self.bends[0, k]
+            self.even[s, 6 + k] = self.normal[k]
+        self.flat[s, 3] = ALIKE
+        for j in range(2):
+            self.lighting.share = j
+            self.lighting.light_up(0.0, 0.0, 0.0, self.normal, self.light)
+            for k in range(3):
+                value = self.light[k] * self.seen.shapes.color[p, k]
+                if j == 0:
+                    self.even[s, k] = value + self.seen.shapes.glow[p, k]
+                    self.bends[0, k] = self.even[s, k]
+                else:
+                    self.even[s, 3 + k] = value + self.seen.shapes.glow[p, k] - self.even[s, k]
+                    if self.even[s, 3 + k] != 0.0:
+                        self.flat[s, 3] = EVEN
 
     def find_corners(self, t: int) -> None:
         """Find corners of a triangle in the camera's frame, with normals and places in a picture."""
