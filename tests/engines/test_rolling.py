@@ -45,6 +45,44 @@ def test_the_solver_finds_the_forces_below_a_robot_that_drives_at_once(robot, st
     assert searched / steps < 12.0  # a wheel that pulls against another takes 40 to 150
 
 
+@pytest.mark.parametrize("mu", [0.1, 0.4, 1.0])
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_wheels_that_start_at_once_rub_by_coulombs_law_beside_loose_things(robot, mu):
+    """MuJoCo's solver has rows of its own for each of several islands of contacts."""
+    path = []
+    for loose in (
+        (),
+        (scenes.box(pose=Pose(1.0, 2.0, 0.1)), scenes.box("b", pose=Pose(2.0, 2.0, 0.1))),
+    ):
+        model = load(assets.robot(robot)).models[0]
+        world = scenes.world(scenes.ground(mu), model, *loose)
+        engine = make_engine(
+            "mujoco", with_profile(world, replace(world.profile, contacts="exact"))
+        )
+        wheels = [each for each in engine.joint_names if "wheel" in each]
+        for wheel in wheels:
+            engine.add_motor(wheel, 10.0)
+        engine.step(200)
+        for wheel in wheels:
+            engine.set_motor_velocity(wheel, 30.0)
+        path.append(_rubbed(engine))
+    (alone, _), (beside, islands) = path
+    assert islands > 0
+    assert beside == pytest.approx(alone, abs=1e-9)
+
+
+def _rubbed(engine):
+    """Where the first body is after steps in which no contact rubs too much, and islands."""
+    compiled, data, force = engine._batch.model, engine._batch.get_data(0), np.zeros(6)
+    for _ in range(40):
+        mujoco.mj_step(compiled, data)
+        for index, contact in enumerate(data.contact):
+            mujoco.mj_contactForce(compiled, data, index, force)
+            most = contact.friction[0] * force[0]
+            assert math.hypot(force[1], force[2]) <= most * (1.0 + 1e-9) + 1e-9
+    return data.qpos[:7].copy(), data.nisland
+
+
 @pytest.mark.parametrize("robot", ["turtlebot3_burger", "turtlebot3_waffle"])
 def test_the_wheels_of_a_robot_that_drives_do_not_pull_against_each_other(robot):
     engine, name = driven(robot, 0.001, 6.0, 4.0)

@@ -49,6 +49,10 @@ class Offsets(NamedTuple):
     stiffness: int
     frictionloss: int
     userdata: int
+    nisland: int
+    to_island: int
+    island_softness: int
+    island_stiffness: int
     bias: int
     applied: int
     constraint: int
@@ -130,6 +134,10 @@ def offsets() -> Offsets:
         stiffness=data.efc_D.offset,
         frictionloss=data.efc_frictionloss.offset,
         userdata=data.userdata.offset,
+        nisland=data.nisland.offset,
+        to_island=data.map_efc2iefc.offset,
+        island_softness=data.iefc_R.offset,
+        island_stiffness=data.iefc_D.offset,
         bias=data.qfrc_bias.offset,
         applied=data.qfrc_applied.offset,
         constraint=data.qfrc_constraint.offset,
@@ -250,6 +258,9 @@ def _verify(found: Offsets) -> None:
         (there + found.owner, data.efc_id),
         (there + found.softness, data.efc_R),
         (there + found.stiffness, data.efc_D),
+        (there + found.to_island, data.map_efc2iefc),
+        (there + found.island_softness, data.iefc_R),
+        (there + found.island_stiffness, data.iefc_D),
         (there + found.cvel, data.cvel),
         (there + found.frictionloss, data.efc_frictionloss),
         (there + found.userdata, data.userdata),
@@ -277,7 +288,9 @@ def _verify(found: Offsets) -> None:
     )
     step = ctypes.c_double.from_address(here + found.model_timestep).value
     count = ctypes.c_int.from_address(there + found.ncon).value
-    if not (right and step == model.opt.timestep and count == data.ncon == 1):
+    islands = ctypes.c_int.from_address(there + found.nisland).value
+    counted = count == data.ncon == 1 and islands == data.nisland == 1
+    if not (right and step == model.opt.timestep and counted):
         raise EngineError(
             f"MuJoCo {mujoco.__version__} is not laid out as it says",
             hint="motors, bounces, turning friction and tumbling bodies need a release from PyPI",

@@ -43,6 +43,29 @@ def hold_loosely(touch: cython.pointer[Touch]) -> cython.void:
         softness[way] *= softer
         stiffness[way] /= softer
     floats(touch.contact + AT.contact_mu)[0] *= sqrt(softer)
+    if integers(touch.data + AT.nisland)[0] > 0:
+        _tell_the_island(touch)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _tell_the_island(touch: cython.pointer[Touch]) -> cython.void:
+    """Copy what was changed for the solver, which has its own rows where it works by islands.
+
+    MuJoCo fills those before any law acts. A cone whose ``mu`` does not fit its rows would rub with
+    more than Coulomb's force.
+    """
+    places = integers(word(touch.data + AT.to_island) + 4 * touch.row)
+    for way in range(1, touch.dim):
+        row = 8 * (touch.row + way)
+        there = 8 * cython.cast(cython.size_t, places[way])
+        floats(word(touch.data + AT.island_softness) + there)[0] = floats(
+            word(touch.data + AT.softness) + row
+        )[0]
+        floats(word(touch.data + AT.island_stiffness) + there)[0] = floats(
+            word(touch.data + AT.stiffness) + row
+        )[0]
 
 
 @cython.cfunc
