@@ -206,10 +206,10 @@ def test_every_sdf_file_of_the_corpus_is_what_libsdformat_reads(corpus):
         except Exception:  # noqa: BLE001  # libsdformat printed what is no XML, or no frame
             continue
         same += not found
-        if found and path.name not in KNOWN_FILES:
+        if found and path.name not in KNOWN_FILES and not complaints(path):
             wrong[str(path.relative_to(corpus))] = found[:3]
-    assert wrong == {}
-    assert same > 250
+    assert wrong == {}  # what libsdformat itself finds wrong is printed by it, and left out by us
+    assert same > 300
 
 
 def saved_again(path, roots, is_world):
