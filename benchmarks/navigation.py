@@ -14,8 +14,10 @@ import math
 import time
 
 import numpy as np
+import yaml
 
 import gazelle
+from gazelle import assets
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import SimulationError
@@ -27,6 +29,7 @@ from gazelle.navigation.planners import NavfnPlanner
 from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.wavefront import grid_distances
 from gazelle.navigation.true_map import true_map
+from gazelle.simulation.navigation_control import NavigationTask
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 2.0))
 BURGER = footprint_of([[-0.105, -0.105], [-0.105, 0.105], [0.041, 0.105], [0.041, -0.105]])
@@ -166,15 +169,39 @@ def measure_stack(robots: int) -> None:
                 )
                 robot.navigation.configure(localization="amcl")
                 tasks.append(robot.navigation.go_to(0.55, 0.55 if number % 2 else -0.55))
-            wall, begin = time.perf_counter(), time.process_time()
-            while sim.time < 10.0 and not all(task.done for task in tasks):
-                sim.run(seconds=0.5)
-            used, wall = time.process_time() - begin, time.perf_counter() - wall
-            goal = 30.0 if count == 1 else 1.0
-            print(
-                f"whole stack, {count} robot{'s' * (count > 1)}: {sim.time / used:.1f} times real time "
-                f"of processor, {sim.time / wall:.1f} of the wall; goal {goal:g}"
-            )
+            what = f"whole stack, {count} robot{'s' * (count > 1)}"
+            pace(what, sim, tasks, 30.0 if count == 1 else 1.0)
+
+
+def measure_fleet(robots: int) -> None:
+    """The whole stack in the Stage world ``fleet``, with amcl, for some of its AGVs."""
+    config = assets.root() / "fleet_stage" / "config"
+    read = {
+        name: yaml.safe_load((config / f"{name}.yaml").read_text())
+        for name in ("move_base", "amcl", "scanner")
+    }
+    values = {**read["move_base"], "amcl": read["amcl"]}
+    for name in ("global_costmap", "local_costmap"):
+        values[name] = {**values[name], "obstacle_layer": read["scanner"]}
+    with gazelle.Simulation("fleet", engine="planar", seed=0) as sim:
+        tasks = []
+        for number in range(robots):
+            robot = sim.robots[f"agv_{number}"]
+            robot.navigation.configure(values, localization="amcl")
+            tasks.append(robot.navigation.go_to(robot.pose.x + 1.5, robot.pose.y + 1.5))
+        pace(f"whole stack, {robots} AGVs of a Stage world", sim, tasks, 1.0)
+
+
+def pace(what: str, sim: gazelle.Simulation, tasks: list[NavigationTask], goal: float) -> None:
+    """Run until all are at their goals, 10 s at most, and print how fast that was."""
+    wall, begin = time.perf_counter(), time.process_time()
+    while sim.time < 10.0 and not all(task.done for task in tasks):
+        sim.run(seconds=0.5)
+    used, wall = time.process_time() - begin, time.perf_counter() - wall
+    print(
+        f"{what}: {sim.time / used:.1f} times real time "
+        f"of processor, {sim.time / wall:.1f} of the wall; goal {goal:g}"
+    )
 
 
 def measure_stages(goals: int) -> None:
@@ -219,6 +246,7 @@ def main() -> None:
     measure_plans(grid)
     measure_costmap(grid)
     measure_stack(options.robots)
+    measure_fleet(min(options.robots, 72))
     if options.stages:
         measure_stages(options.goals)
 

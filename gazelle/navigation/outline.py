@@ -16,6 +16,7 @@ from gazelle.description import (
     Link,
     Mesh,
     Model,
+    Polyline,
     Pose,
     Sphere,
 )
@@ -64,6 +65,8 @@ def _corners(collision: Collision) -> list[tuple[float, float, float]]:
             for turn in turns
             for z in (-half, half)
         ]
+    if isinstance(shape, Polyline):
+        return [(x, y, z) for ring in shape.outlines for x, y in ring for z in (0.0, shape.height)]
     if isinstance(shape, Mesh):
         low, high = bounds(shape)
         (x0, y0, z0), (x1, y1, z1) = low, high

@@ -18,7 +18,7 @@ from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.seeker import GoalSeeker
 from gazelle.navigation.values import GoalPose, Path
 from gazelle.rotations import conjugate, rotate, yaw_of
-from gazelle.sensors import LaserScan, LidarModel
+from gazelle.sensors import LaserScan, ScanningModel
 from gazelle.simulation import (
     Input,
     ModelPlugin,
@@ -42,7 +42,7 @@ class GoToGoal(ModelPlugin):
     only those with a goal: right for some worlds, not for thousands.
 
     Tags and defaults: ``goalTopic`` move_base_simple/goal, ``pathTopic`` path, ``laser`` (name
-    of the sensor; the first lidar), ``updateRate`` 20 Hz, ``robotRadius`` 0.2 m, ``clearance``
+    of the sensor; the one with the most rays side by side), ``updateRate`` 20 Hz, ``robotRadius`` 0.2 m, ``clearance``
     0.05 m, ``maxSpeed`` 0.6 m/s, ``maxTurn`` 1.5 rad/s, ``maxAcceleration`` 0.8 m/s²,
     ``tolerance`` 0.1 m, ``yawTolerance`` 0.1 rad, ``resolution`` 0.05 m,
     ``globalFrame`` map (another name for the odometry's frame, as there is no drift to mend).
@@ -149,7 +149,7 @@ class GoToGoal(ModelPlugin):
         scan = self._scan
         if scan is None:
             return None
-        rows = self._unit.model.vertical_angles.size
+        rows = self._unit.model.rows
         ranges = scan.ranges[world].reshape(rows, -1)[rows // 2]
         return LaserScan(
             scan.stamp,
@@ -255,20 +255,21 @@ def _limits(parameters: Parameters) -> BaseLimits:
 def laser_of(robot: Robot, parameters: Parameters) -> tuple[Any, Pose2]:
     """The laser to use, and its pose in the model.
 
+    Of several it is the one with the most rays side by side, so that it is no sonar; of equals the first.
+
     Raises:
         SimulationError: The model has none of that name, or none at all.
     """
     wished = parameters.get("laser", "")
-    lasers = [unit for unit in robot.sensors.values() if isinstance(unit.model, LidarModel)]
-    if wished:
-        lasers = [robot.sensors[wished]]
-    if not lasers or not isinstance(lasers[0].model, LidarModel):
+    units = [robot.sensors[wished]] if wished else list(robot.sensors.values())
+    scanning = [(unit, model) for unit in units if isinstance(model := unit.model, ScanningModel)]
+    if not scanning:
         raise SimulationError(
             f"'{robot.name}' has no laser to see obstacles with",
-            source=parameters.source,
-            hint="add a sensor of type 'ray'",
+            source=parameters.source or robot.description.source,
+            hint="add a sensor of type 'ray', or to a model of Stage a 'ranger'",
         )
-    unit = lasers[0]
+    unit, _ = max(scanning, key=lambda each: each[1].samples // max(each[1].rows, 1))
     link = next(
         link for link in robot.links.values() if unit.description in link.description.sensors
     )

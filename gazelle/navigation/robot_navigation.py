@@ -53,6 +53,12 @@ class RobotNavigation(ModelPlugin):
                 f"'{robot.name}' has no drive to navigate with",
                 hint="add a plugin with cmd_vel and odom, such as libgazebo_ros_diff_drive.so",
             )
+        if robot.inputs["cmd_vel"].steers:
+            raise SimulationError(
+                f"'{robot.name}' is steered like a car, which no planner here can do",
+                source=robot.description.source,
+                hint="use a drive that can turn on the spot, 'diff' or 'omni'",
+            )
         self._robot = robot
         self._unit, self._laser = laser_of(robot, parameters)
         self._values: Mapping[str, Any] = USUAL
@@ -241,7 +247,7 @@ class RobotNavigation(ModelPlugin):
 
     def _planar(self, scan: LaserScan, world: int) -> PlanarScan:
         """One world's scan: the middle row, if there are several."""
-        rows = self._unit.model.vertical_angles.size
+        rows = self._unit.model.rows
         ranges = np.array(scan.ranges[world].reshape(rows, -1)[rows // 2], np.float64)
         count = np.arange(len(ranges), dtype=np.float64)
         angles: Floats = np.asarray(scan.angle_min + scan.angle_increment * count, np.float64)

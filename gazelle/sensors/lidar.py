@@ -84,6 +84,11 @@ class LidarModel:
         """Rays a measurement has, all rows together."""
         return len(self.directions)
 
+    @property
+    def rows(self) -> int:
+        """Fans of rays above each other."""
+        return len(self.vertical_angles)
+
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,19 @@ class SensorModel(Protocol):
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
+
+
+@runtime_checkable
+class ScanningModel(SensorModel, Protocol):
+    """Measures one fan of rays, or several above each other; its readings are ``LaserScan``."""
+
+    @property
+    def rows(self) -> int:
+        """Fans above each other."""
+
+    @property
+    def samples(self) -> int:
+        """Rays a measurement has, all rows together."""
 
 
 class NoisySensor:

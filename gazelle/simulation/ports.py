@@ -37,7 +37,10 @@ class TwistInput(StatePart):
 
     Attributes:
         revision: Counts commands, so that a drive sees that there is a new one.
+        steers: Whether it takes turning for the angle of steered wheels [rad], not for a rate.
     """
+
+    steers = False
 
     def __init__(self, nworld: int, topic: str) -> None:
         self.topic = topic

@@ -19,10 +19,12 @@ class DriveInput(TwistInput):
     Args:
         nworld: Number of worlds.
         commands: The robot's commands now, to be written, shape (nworld, 3).
+        steers: Whether it is a car.
     """
 
-    def __init__(self, nworld: int, commands: Callable[[], Floats]) -> None:
+    def __init__(self, nworld: int, commands: Callable[[], Floats], *, steers: bool) -> None:
         super().__init__(nworld, "cmd_vel")
+        self.steers = steers
         self._commands = commands
 
     @between_steps

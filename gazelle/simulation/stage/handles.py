@@ -45,9 +45,16 @@ def sensor_models(fleet: StageFleet, model: Model) -> list[tuple[Sensor, SensorM
 
 def inputs_of(fleet: StageFleet, name: str) -> dict[str, TwistInput]:
     """The inputs of a model: ``cmd_vel`` of a robot."""
-    if name not in fleet.named:
+    robot = fleet.named.get(name)
+    if robot is None:
         return {}
-    return {"cmd_vel": DriveInput(fleet.nworld, lambda: fleet.commands[:, fleet.robot(name).index])}
+
+    def commands() -> Floats:  # other models may have come or gone
+        own: Floats = fleet.commands[:, fleet.robot(name).index]
+        return own
+
+    steers = robot.position.drive == "car"
+    return {"cmd_vel": DriveInput(fleet.nworld, commands, steers=steers)}
 
 
 def open_outputs(fleet: StageFleet, robot: Robot) -> None:

@@ -25,6 +25,16 @@ class RangerModel:
     def __init__(self, sensor: StageSensor, ranges: Callable[[], Floats]) -> None:
         self._sensor, self._ranges = sensor, ranges
 
+    @property
+    def samples(self) -> int:
+        """Rays a measurement has."""
+        return self._sensor.samples
+
+    @property
+    def rows(self) -> int:
+        """Fans of rays above each other: one."""
+        return 1
+
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  Stage's noise does not drift
         """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``."""
         ranges = self._ranges()[slice(None) if worlds is None else worlds]
