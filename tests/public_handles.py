@@ -60,7 +60,7 @@ CHANGING = {
         *("join", "kind", "leave", "reseed", "reset", "restore", "slow_to", "subscribe"),
         "update",
     },
-    TwistInput: {"bind", "clear", "send"},
+    TwistInput: {"bind", "clear", "keep_in", "send"},
     Input: {"bind", "clear", "send"},
     Output: {"bind", "forget", "hand", "publish", "subscribe"},
     Service: {"bind", "call"},

@@ -119,7 +119,7 @@ class MujocoEngine(CarryingSteps):
     @property
     def joint_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::joint``, of joints that can move."""
-        return tuple(self._layout.joints)
+        return tuple(self._known().joints)
 
     # -- time --------------------------------------------------------------------------
 
