@@ -18,7 +18,7 @@ from importlib.metadata import requires
 from pathlib import Path
 
 BIN = Path(sys.executable).parent
-OTHER_NAMES = {"google": "protobuf"}
+OTHER_NAMES = {"google": "protobuf", "warp": "warp_lang"}
 """Distributions whose module is called otherwise."""
 ROBOT = """<robot name="arm"><link name="base"/><link name="hand"/>
 <joint name="elbow" type="revolute"><parent link="base"/><child link="hand"/>
