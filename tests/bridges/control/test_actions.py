@@ -7,6 +7,7 @@ import pytest
 from bridges.control.control_graph import control_graph
 from ros.graph import until
 
+from gazelle.bridges.control.hardware_loop import LiveGraph
 from gazelle.control import ActionPort, Controller, GoalState, register
 from gazelle.control.values import (
     GripperGoal,
@@ -114,8 +115,10 @@ def state_of(handle):
     return handle.get_goal_status()
 
 
-def test_a_goal_arrives_whole(following):
+def test_a_goal_arrives_whole(following, monkeypatch):
     _graph, client, arm = following
+    # A loop that is late shifts stamps (test_late_loop.py), and a busy machine makes loops late.
+    monkeypatch.setattr(LiveGraph, "own_ns", lambda _graph, time: time.to_nsec())
     goal = trajectory(1.0, 2.5)
     goal.trajectory.header.stamp = Time(7, 5)
     tolerance = load_message(f"{CONTROL}JointTolerance")
@@ -126,8 +129,7 @@ def test_a_goal_arrives_whole(following):
     until(lambda: state_of(handle) == GoalState.ACTIVE, 30)
     value = arm.taken[0].value
     assert value.trajectory.names == ("hip",)
-    # As controllers count it, which may be late on a busy machine.
-    assert 0 <= 7_000_000_005 - value.trajectory.stamp < 5_000_000_000
+    assert value.trajectory.stamp == 7_000_000_005
     first, second = value.trajectory.points
     assert (first.time, second.time) == (1.0, 2.5)
     assert second.positions == (2.5,)
