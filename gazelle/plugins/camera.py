@@ -231,30 +231,24 @@ class MultiCameraPlugin(SensorPlugin):
                 image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
                 return image
 
-            self.open(sensor, camera, settings, look)
+            may_tell = self.trigger(sensor, settings, side)
+            PublishedCamera(sensor, camera, settings, look, may_tell).open()
 
-    def open(
+    def trigger(
         self,
-        sensor: SensorUnit,
-        camera: Camera,
-        settings: CameraSettings,
-        look: Callable[[], CameraImage],
-    ) -> None:
-        """Open the ports of one of them."""
-        PublishedCamera(sensor, camera, settings, look).open()
+        sensor: SensorUnit,  # noqa: ARG002
+        settings: CameraSettings,  # noqa: ARG002
+        side: str,  # noqa: ARG002
+    ) -> Callable[[], bool] | None:
+        """What says whether a measurement of one of them is told; None if each is."""
+        return None
 
 
 class TriggeredMultiCameraPlugin(MultiCameraPlugin):
     """The same, each with the topic of a trigger of its own."""
 
-    def open(
-        self,
-        sensor: SensorUnit,
-        camera: Camera,
-        settings: CameraSettings,
-        look: Callable[[], CameraImage],
-    ) -> None:
-        """Open the ports of one of them."""
-        side = settings.prefix.rpartition("/")[2]
-        trigger = PictureTrigger(sensor, settings, f"{side}/")
-        PublishedCamera(sensor, camera, settings, look, trigger.is_pulled).open()
+    def trigger(
+        self, sensor: SensorUnit, settings: CameraSettings, side: str
+    ) -> Callable[[], bool] | None:
+        """A message on the topic of the trigger, for each picture."""
+        return PictureTrigger(sensor, settings, f"{side}/").is_pulled

@@ -14,22 +14,10 @@ from gazelle.rendering.bilinear import PixelMeans
 from gazelle.rendering.lens import PinholeLens
 from gazelle.rendering.live_scene import LiveScene
 from gazelle.rendering.wide_lens import WideLens
-from gazelle.rotations import multiply
+from gazelle.rotations import multiply, rotate
 
-# Forward, left and up of each face in the camera's frame.
-_FACES = np.array(
-    [
-        [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-        [[-1, 0, 0], [0, -1, 0], [0, 0, 1]],
-        [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
-        [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
-        [[0, 0, 1], [0, 1, 0], [-1, 0, 0]],
-        [[0, 0, -1], [0, 1, 0], [1, 0, 0]],
-    ],
-    float,
-)
 _HALF = math.sqrt(0.5)
-_TURNS = np.array(  # x, y, z, w
+_TURNS = np.array(  # of each face: x, y, z, w
     [
         [0.0, 0.0, 0.0, 1.0],
         [0.0, 0.0, 1.0, 0.0],
@@ -39,6 +27,8 @@ _TURNS = np.array(  # x, y, z, w
         [0.0, _HALF, 0.0, _HALF],
     ]
 )
+# Forward, left and up of each face in the camera's frame, shape (6, 3, 3).
+_FACES = np.rint(rotate(_TURNS[:, None], np.eye(3)))
 _BORDER = 1  # pixels around a face that its neighbours show too, so that there are no seams
 _DARK = 0.2  # of the light beyond the cutoff, as in Gazebo's shader
 

@@ -99,6 +99,19 @@ _FETCH_REACH = Recipe(
     ),
 )
 
+_GOAL_SETTINGS = OffPolicySettings(
+    buffer_size=1_000_000,
+    batch_size=256,
+    learning_starts=1_600,
+    gradient_steps=4,
+    tau=0.05,
+    action_noise=0.2,
+    random_actions=0.3,
+    action_penalty=1.0,
+    bound_values=True,
+    bfloat16=True,
+)
+
 # For goals of anybody: what is reached grows slowly at first, so all that makes it grow is used.
 GOALS = Recipe(
     algo="ddpg",
@@ -111,43 +124,26 @@ GOALS = Recipe(
     cut_observations=5.0,
     hindsight_redraw=0.9,
     goal_differences=True,
-    settings=OffPolicySettings(
-        buffer_size=1_000_000,
-        batch_size=256,
-        learning_starts=1_600,
-        gradient_steps=4,
-        tau=0.05,
-        action_noise=0.2,
-        random_actions=0.3,
-        action_penalty=1.0,
-        bound_values=True,
-        bfloat16=True,
-    ),
+    settings=_GOAL_SETTINGS,
 )
 """For tasks with goals that have no recipe of their own, see `gazelle.training.recipe_choice`."""
 
 # Without cuts, redrawn steps and the price of actions FetchPush does not begin to learn; see
 # docs/environments/fetch.md. PickAndPlace and Slide are not verified.
 _FETCH_OBJECT = dataclasses.replace(
-    _FETCH_REACH,
+    GOALS,
     steps=900_000,
     num_envs=64,
     net_arch=(256, 256, 256),
-    cut_observations=5.0,
-    hindsight_redraw=0.9,
-    goal_differences=True,
-    settings=OffPolicySettings(
-        buffer_size=1_000_000,
+    learning_rate_decay=_FETCH_REACH.learning_rate_decay,
+    training_options=_FETCH_REACH.training_options,
+    settings=dataclasses.replace(
+        _GOAL_SETTINGS,
         batch_size=512,
         learning_starts=3_200,
         gradient_steps=2,
         tau=0.1,
-        action_noise=0.2,
-        random_actions=0.3,
-        action_penalty=1.0,
-        bound_values=True,
         policy_delay=2,
-        bfloat16=True,
     ),
 )
 
