@@ -9,18 +9,28 @@ add up to, large actions have a price, and some actions are drawn evenly.
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 import torch
 from stable_baselines3 import DDPG, TD3
-from torch import nn
 
+from gazelle.training.demonstrations import Demonstrator, shown_actions
+from gazelle.training.layer_stack import LayerStack
 from gazelle.training.recipe import OffPolicySettings
 from gazelle.training.scaling import ObservationScale
+
+
+_IMITATED = 4  # of a minibatch one in so many is what was shown, besides
+_STEADY = 0.5  # of the noise that a demonstrator's actions get
+
+
+class _Shown(NamedTuple):
+    """What a demonstrator saw, shape (n, entries), and did, shape (n, actions)."""
+
+    features: torch.Tensor
+    actions: torch.Tensor
 
 
 class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
@@ -29,21 +39,26 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
     Attributes:
         scale: Of observations.
         ways: How it learns, beyond what Stable-Baselines3 knows.
+        demonstrator: Acts before the first update, if set.
         least_reward: The least that was learnt from so far, 0 at most.
         greatest_reward: The greatest, 0 at least.
     """
 
     scale: ObservationScale
     ways: OffPolicySettings = OffPolicySettings()
+    demonstrator: Demonstrator | None = None
+    _nets: _Networks
     least_reward: float = 0.0
     greatest_reward: float = 0.0
 
+    @torch.no_grad()
     def train(self, gradient_steps: int, batch_size: int = 100) -> None:
         """Learn from so many minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)
         self._update_learning_rate([self.actor.optimizer, self.critic.optimizer])
+        self._nets = _Networks(self.policy, bfloat16=self.ways.bfloat16)
         critic_loss = actor_loss = torch.zeros(())
         for _ in range(gradient_steps):
             self._n_updates += 1
@@ -51,7 +66,7 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
             features = self.actor.features_extractor(batch.observations)
             critic_loss = self._improve_critic(features, batch)
             if self._n_updates % self.policy_delay == 0:
-                actor_loss = self._improve_actor(features)
+                actor_loss = self._improve_actor(features, self._shown(batch_size))
                 self._follow()
         self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
         self.logger.record("train/actor_loss", actor_loss.item())
@@ -61,24 +76,26 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         """One step of the critics' optimiser; their loss."""
         target = self._target(batch)
         known = torch.cat((features, batch.actions), dim=1)
-        errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
-        loss = torch.stack([error.square().mean() for error in errors]).sum()
-        self.critic.optimizer.zero_grad()
-        torch.autograd.backward(loss)
+        loss = torch.zeros(())
+        for net in self._nets.critics:
+            errors = net.forward(known) - target
+            net.backward(errors * (2.0 / len(errors)))
+            loss = loss + errors.square().mean()
         self.critic.optimizer.step()
-        return loss.detach()
+        for net in self._nets.critics:
+            net.refresh()
+        return loss
 
-    @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
         """What the critics should say, shape (n, 1)."""
         following = self.actor.features_extractor(batch.next_observations)
-        actions = self._outputs(self.actor_target.mu, following)
+        actions = self._nets.actor_target.forward(following)
         if self.target_policy_noise:
             noise = torch.randn_like(actions) * self.target_policy_noise
             noise = noise.clamp(-self.target_noise_clip, self.target_noise_clip)
             actions = (actions + noise).clamp(-1.0, 1.0)
         known = torch.cat((following, actions), dim=1)
-        values = [self._outputs(net, known) for net in self.critic_target.q_networks]
+        values = [net.forward(known) for net in self._nets.critic_targets]
         value = torch.stack(values).amin(dim=0)
         target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
         if not self.ways.bound_values or self.gamma >= 1.0:
@@ -88,38 +105,62 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         horizon = 1.0 / (1.0 - self.gamma)
         return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
 
-    def _improve_actor(self, features: torch.Tensor) -> torch.Tensor:
-        """One step of the actor's optimiser; its loss."""
-        actions = self._outputs(self.actor.mu, features)
-        critic = self.critic.q_networks[0]
-        with _frozen(critic.parameters()):
-            value = self._outputs(critic, torch.cat((features, actions), dim=1)).mean()
-        loss = self.ways.action_penalty * actions.square().mean() - value
-        self.actor.optimizer.zero_grad()
-        torch.autograd.backward(loss)
-        self.actor.optimizer.step()
-        return loss.detach()
+    def _improve_actor(self, features: torch.Tensor, shown: _Shown | None) -> torch.Tensor:
+        """One step of the actor's optimiser; its loss, without what imitating adds.
 
-    @torch.no_grad()
+        Args:
+            features: Of the minibatch, shape (n, entries).
+            shown: What is imitated, if anything.
+        """
+        actor, critic, price = self._nets.actor, self._nets.critics[0], self.ways.action_penalty
+        seen = features if shown is None else torch.cat((features, shown.features))
+        outputs = actor.forward(seen)
+        values = critic.forward(torch.cat((seen, outputs), dim=1))
+        count = len(features)
+        actions = outputs[:count]
+        worth = torch.full_like(values, -1.0 / count)
+        worth[count:] = 0.0
+        slope = critic.slopes(worth, _last(actions.shape[1]))
+        slope[:count] += actions * (2.0 * price / actions.numel())
+        if shown is not None:
+            better = critic.forward(torch.cat((shown.features, shown.actions), dim=1))
+            missed = (outputs[count:] - shown.actions) * (better > values[count:])
+            slope[count:] = missed * (2.0 * self.ways.imitation / missed.numel())
+        actor.backward(slope)
+        self.actor.optimizer.step()
+        actor.refresh()
+        return price * actions.square().mean() - values[:count].mean()
+
+    def _shown(self, batch_size: int) -> _Shown | None:
+        """A share of what a demonstrator did, as far as it is remembered."""
+        if self.demonstrator is None or not self.ways.imitation:
+            return None
+        rows = -(-self.learning_starts // self.n_envs)
+        batch = self.replay_buffer.sample_first(batch_size // _IMITATED, rows)
+        if batch is None:
+            return None
+        return _Shown(self.actor.features_extractor(batch.observations), batch.actions)
+
     def _follow(self) -> None:
         """Let the targets come nearer."""
         pairs = (self.critic, self.critic_target), (self.actor, self.actor_target)
         for learnt, target in pairs:
             old, new = list(target.parameters()), list(learnt.parameters())
             torch._foreach_lerp_(old, new, self.tau)
-
-    def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
-        """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
-        last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
-        with torch.autocast("cpu", torch.bfloat16, enabled=self.ways.bfloat16):
-            hidden = net[:last](inputs)
-        outputs: torch.Tensor = net[last:](hidden.float())
-        return outputs
+        for net in (self._nets.actor_target, *self._nets.critic_targets):
+            net.refresh()
 
     def _sample_action(
         self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
     ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-        """Actions for the environment, and as the memory keeps them: some drawn evenly."""
+        """Actions for the environment, and as the memory keeps them: shown, or some drawn evenly."""
+        if self.num_timesteps < learning_starts and self.demonstrator is not None:
+            shape = n_envs, *self.action_space.shape
+            shown = shown_actions(self.demonstrator, self._last_obs, shape)
+            kept = self.policy.scale_action(shown)
+            noise = self.ways.action_noise * np.random.standard_normal(shape)  # noqa: NPY002
+            kept = np.clip(kept + _STEADY * noise, -1.0, 1.0).astype(np.float32)
+            return self.policy.unscale_action(kept), kept
         actions, kept = super()._sample_action(learning_starts, action_noise, n_envs)
         if self.ways.random_actions and self.num_timesteps >= learning_starts:
             anyhow = np.random.random_sample(n_envs) < self.ways.random_actions  # noqa: NPY002
@@ -136,14 +177,19 @@ class FastTD3(_Deterministic):
     """TD3; likewise."""
 
 
-@contextlib.contextmanager
-def _frozen(parameters: Iterable[nn.Parameter]) -> Any:
-    """Ask for no gradients of these meanwhile."""
-    held = list(parameters)
-    for each in held:
-        each.requires_grad_(False)
-    try:
-        yield
-    finally:
-        for each in held:
-            each.requires_grad_(True)
+class _Networks:
+    """All networks of a policy, with their weights as they are now."""
+
+    def __init__(self, policy: Any, *, bfloat16: bool) -> None:
+        self.actor, self.actor_target = (
+            LayerStack(actor.mu, bfloat16=bfloat16) for actor in (policy.actor, policy.actor_target)
+        )
+        self.critics, self.critic_targets = (
+            [LayerStack(net, bfloat16=bfloat16) for net in critic.q_networks]
+            for critic in (policy.critic, policy.critic_target)
+        )
+
+
+def _last(count: int) -> slice:
+    """So many entries at the end."""
+    return slice(-count, None)

@@ -12,6 +12,7 @@ from stable_baselines3.common.noise import NormalActionNoise
 from torch import nn
 
 from gazelle.errors import TaskError
+from gazelle.training.demonstrations import find_demonstrator
 from gazelle.training.deterministic import FastDDPG, FastTD3
 from gazelle.training.library import build_library_learner
 from gazelle.training.memories import replay_options
@@ -125,6 +126,8 @@ def _build_ddpg(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 def _settled(learner: FastTD3 | FastDDPG, recipe: Recipe) -> Learner:
     """The learner, with what Stable-Baselines3's own does not take."""
     learner.ways = settings = _off_policy(recipe)
+    if settings.demonstrator is not None:
+        learner.demonstrator = find_demonstrator(settings.demonstrator)
     if settings.policy_delay is not None:
         learner.policy_delay = settings.policy_delay
     return learner
@@ -143,7 +146,6 @@ ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
 def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     """What all algorithms take."""
     activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
-    rate = recipe.learning_rate
     sees = is_picture(env.observation_space)
     scale = ObservationScale(
         env.observation_space,
@@ -154,7 +156,7 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     if recipe.goal_differences and not sees:
         extractor["goals"] = _goal_places(env)
     return {
-        "learning_rate": (lambda left: left * rate) if recipe.learning_rate_decay else rate,
+        "learning_rate": _step_size(recipe),
         "gamma": recipe.gamma,
         "seed": seed,
         "device": "cpu",
@@ -166,6 +168,14 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
             "normalize_images": False,  # as the features extractor does it
         },
     }
+
+
+def _step_size(recipe: Recipe) -> float | Callable[[float], float]:
+    """Of the optimiser: a number, or what gives it for the share of the training that is left."""
+    rate, falling = recipe.learning_rate, 1.0 - recipe.learning_rate_hold
+    if not recipe.learning_rate_decay:
+        return rate
+    return lambda left: rate * min(left / falling, 1.0)
 
 
 def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:

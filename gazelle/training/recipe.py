@@ -58,7 +58,7 @@ class OffPolicySettings:
     batch_size: int = 256
     """Transitions in a minibatch."""
     learning_starts: int = 5_000
-    """Random transitions before the first update."""
+    """Transitions before the first update, random or shown."""
     train_freq: int = 1
     """Control steps of all copies between two updates."""
     gradient_steps: int = 1
@@ -75,6 +75,12 @@ class OffPolicySettings:
     """Whether targets stay within what the rewards seen so far can add up to (DDPG, TD3)."""
     policy_delay: int | None = None
     """Minibatches for each update of DDPG's and TD3's policy; by default 1 and 2."""
+    demonstrator: str | None = None
+    """``module:function`` that acts before the first update (DDPG, TD3), in place of chance: it takes
+    observations in rows and gives actions; see `gazelle.training.demonstrations`."""
+    imitation: float = 0.0
+    """Price of the mean square by which the policy misses actions that were shown (DDPG, TD3), where
+    they are worth more than its own."""
     bfloat16: bool = False
     """Whether hidden layers multiply in bfloat16 (DDPG, TD3), where the processor can far faster."""
     exploration_fraction: float = 0.2
@@ -114,6 +120,8 @@ class Recipe:
     """Step size of Adam at the start."""
     learning_rate_decay: bool = True
     """Whether the step size falls in a straight line to 0 at the end."""
+    learning_rate_hold: float = 0.0
+    """Share of the training before it begins to fall."""
     gamma: float = 0.98
     """Discount of one control step."""
     reward_scale: float = 1.0
@@ -160,6 +168,8 @@ class Recipe:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
         if self.cut_observations is not None and not self.cut_observations > 0:
             raise TaskError(f"cut_observations must be above 0, not {self.cut_observations}")
+        if not 0 <= self.learning_rate_hold < 1:
+            raise TaskError(f"learning_rate_hold must be below 1, not {self.learning_rate_hold}")
         for name in ("hindsight", "hindsight_redraw"):
             if not 0 <= getattr(self, name) <= 1:
                 raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")

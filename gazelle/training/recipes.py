@@ -128,24 +128,31 @@ GOALS = Recipe(
 )
 """For tasks with goals that have no recipe of their own, see `gazelle.training.recipe_choice`."""
 
-# Without cuts, redrawn steps and the price of actions FetchPush does not begin to learn; see
-# docs/environments/fetch.md. PickAndPlace and Slide are not verified.
-_FETCH_OBJECT = dataclasses.replace(
-    GOALS,
-    steps=900_000,
-    num_envs=64,
-    net_arch=(256, 256, 256),
-    learning_rate_decay=_FETCH_REACH.learning_rate_decay,
-    training_options=_FETCH_REACH.training_options,
-    settings=dataclasses.replace(
+
+def _shown_fetch(task: str, steps: int) -> Recipe:
+    """Of a task whose object chance moves too rarely: 256 episodes show how."""
+    settings = dataclasses.replace(
         _GOAL_SETTINGS,
         batch_size=512,
-        learning_starts=3_200,
+        learning_starts=12_800,
         gradient_steps=2,
         tau=0.1,
         policy_delay=2,
-    ),
-)
+        action_noise=0.1,
+        random_actions=0.1,
+        demonstrator=f"gazelle.envs.fetch.demonstrators:{task}",
+        imitation=5.0,
+    )
+    return dataclasses.replace(
+        GOALS,
+        steps=steps,
+        num_envs=64,
+        net_arch=(256, 256, 256),
+        learning_rate_hold=0.6,
+        training_options=_FETCH_REACH.training_options,
+        settings=settings,
+    )
+
 
 RECIPES: dict[str, Recipe] = {
     # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently.
@@ -193,8 +200,12 @@ RECIPES: dict[str, Recipe] = {
     ),
     **{f"FetchReach{reward}": _FETCH_REACH for reward in ("", "Dense")},
     **{
-        f"Fetch{task}{reward}": _FETCH_OBJECT
-        for task in ("Push", "PickAndPlace", "Slide")
+        f"Fetch{task}{reward}": recipe
+        for task, recipe in (
+            ("Push", _shown_fetch("push", 300_000)),
+            ("PickAndPlace", _shown_fetch("pick_and_place", 200_000)),
+            ("Slide", _shown_fetch("push", 300_000)),
+        )
         for reward in ("", "Dense")
     },
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),

@@ -35,6 +35,19 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         del env
         return self._gather(*self._draw(batch_size))
 
+    def sample_first(self, batch_size: int, rows: int) -> Any:
+        """Draw transitions of the first so many control steps, just as they were.
+
+        Once the memory is full the oldest are overwritten, these before others.
+        """
+        if self.full and self.pos >= rows:
+            return None
+        at = np.random.randint(self.pos if self.full else 0, rows, size=batch_size)  # noqa: NPY002
+        slots = np.random.randint(0, self.n_envs, size=batch_size)  # noqa: NPY002
+        kept = self.valid[at, slots]
+        parts = MaskedReplayBuffer._parts(self, at[kept], slots[kept])
+        return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
+
     def _draw(self, count: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
         """Rows and slots of so many valid transitions."""
         filled = self.buffer_size if self.full else self.pos

@@ -1,0 +1,60 @@
+"""What a learner is shown: a function that acts before the first update, whose steps it imitates.
+
+A. Nair et al., "Overcoming Exploration in Reinforcement Learning with Demonstrations", 2018, arXiv
+1709.10089: demonstrations are in the memory, the policy is drawn towards their actions, and only
+where the critic holds these for better than its own.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats32
+from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.importing import load_all
+
+Demonstrator = Callable[[Floats32], NDArray[Any]]
+"""Takes observations in rows, shape (n, entries), and gives actions of the task, (n, ...)."""
+
+
+def find_demonstrator(text: str) -> Demonstrator:
+    """A demonstrator by its name.
+
+    Args:
+        text: ``module:function``, or ``file.py:function``.
+
+    Raises:
+        TaskError: It is of another form, or is not there.
+    """
+    module, colon, name = text.rpartition(":")
+    if not colon:
+        raise TaskError(f"'{text}' is no demonstrator", hint="expected module:function")
+    (found,) = load_all([module])
+    home = importlib.import_module(found.name)
+    function: Demonstrator | None = getattr(home, name, None)
+    if not callable(function):
+        hint = did_you_mean(name, [each for each in vars(home) if not each.startswith("_")])
+        raise TaskError(f"{module} has no function '{name}'", hint=hint)
+    return function
+
+
+def shown_actions(
+    demonstrator: Demonstrator, rows: Floats32, shape: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """Actions of a demonstrator.
+
+    Raises:
+        TaskError: They are not of this shape, or not finite.
+    """
+    actions = np.asarray(demonstrator(rows), np.float32)
+    if actions.shape != shape or not np.isfinite(actions).all():
+        raise TaskError(
+            f"the demonstrator gave an array of shape {actions.shape}, not finite ones of {shape}",
+            hint="it takes observations in rows and gives a row of actions for each",
+        )
+    return actions
