@@ -7,6 +7,7 @@ where the critic holds these for better than its own.
 
 from __future__ import annotations
 
+import dataclasses
 import importlib
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +17,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats32
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.training.importing import load_all
+from gazelle.training.importing import TaskModule, load_all
+from gazelle.training.recipe import OffPolicySettings, Recipe
 
 Demonstrator = Callable[[Floats32], NDArray[Any]]
 """Takes observations in rows, shape (n, entries), and gives actions of the task, (n, ...)."""
@@ -31,16 +33,38 @@ def find_demonstrator(text: str) -> Demonstrator:
     Raises:
         TaskError: It is of another form, or is not there.
     """
-    module, colon, name = text.rpartition(":")
-    if not colon:
-        raise TaskError(f"'{text}' is no demonstrator", hint="expected module:function")
-    (found,) = load_all([module])
+    found, name = _parted(text)
     home = importlib.import_module(found.name)
     function: Demonstrator | None = getattr(home, name, None)
     if not callable(function):
         hint = did_you_mean(name, [each for each in vars(home) if not each.startswith("_")])
-        raise TaskError(f"{module} has no function '{name}'", hint=hint)
+        raise TaskError(f"{found.name} has no function '{name}'", hint=hint)
     return function
+
+
+def with_demonstrator_found(recipe: Recipe) -> tuple[Recipe, tuple[TaskModule, ...]]:
+    """The recipe as a run remembers it, and where its demonstrator is, if it has one.
+
+    Raises:
+        TaskError: See `find_demonstrator`.
+    """
+    settings = recipe.settings
+    if not isinstance(settings, OffPolicySettings) or settings.demonstrator is None:
+        return recipe, ()
+    find_demonstrator(settings.demonstrator)
+    found, name = _parted(settings.demonstrator)
+    settings = dataclasses.replace(settings, demonstrator=f"{found.name}:{name}")
+    own = found.folder is None or found.name.startswith("gazelle.")
+    return dataclasses.replace(recipe, settings=settings), () if own else (found,)
+
+
+def _parted(text: str) -> tuple[TaskModule, str]:
+    """The module, imported, and the name in it."""
+    module, colon, name = text.rpartition(":")
+    if not colon:
+        raise TaskError(f"'{text}' is no demonstrator", hint="expected module:function")
+    (found,) = load_all([module])
+    return found, name
 
 
 def shown_actions(

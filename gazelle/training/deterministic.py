@@ -4,7 +4,8 @@ What Stable-Baselines3 computes (T. P. Lillicrap et al., "Continuous control wit
 learning", 2015, arXiv 1509.02971; S. Fujimoto et al., "Addressing Function Approximation Error in
 Actor-Critic Methods", 2018, arXiv 1802.09477), and besides, as M. Plappert et al., "Multi-Goal
 Reinforcement Learning", 2018, arXiv 1802.09464, learn goals: values stay within what rewards can
-add up to, large actions have a price, and some actions are drawn evenly.
+add up to, large actions have a price, and some actions are drawn evenly. And what a demonstrator did
+before the first update is imitated, see `gazelle.training.demonstrations`.
 """
 
 from __future__ import annotations
@@ -20,7 +21,6 @@ from gazelle.training.demonstrations import Demonstrator, shown_actions
 from gazelle.training.layer_stack import LayerStack
 from gazelle.training.recipe import OffPolicySettings
 from gazelle.training.scaling import ObservationScale
-
 
 _IMITATED = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
@@ -113,18 +113,18 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
             shown: What is imitated, if anything.
         """
         actor, critic, price = self._nets.actor, self._nets.critics[0], self.ways.action_penalty
+        count = len(features)
         seen = features if shown is None else torch.cat((features, shown.features))
         outputs = actor.forward(seen)
-        values = critic.forward(torch.cat((seen, outputs), dim=1))
-        count = len(features)
         actions = outputs[:count]
-        worth = torch.full_like(values, -1.0 / count)
-        worth[count:] = 0.0
-        slope = critic.slopes(worth, _last(actions.shape[1]))
+        values = critic.forward(torch.cat((seen, outputs), dim=1))
+        weights = torch.full_like(values, -1.0 / count)
+        weights[count:] = 0.0
+        slope = critic.slopes(weights, slice(-actions.shape[1], None))
         slope[:count] += actions * (2.0 * price / actions.numel())
         if shown is not None:
-            better = critic.forward(torch.cat((shown.features, shown.actions), dim=1))
-            missed = (outputs[count:] - shown.actions) * (better > values[count:])
+            better = critic.forward(torch.cat(shown, dim=1)) > values[count:]
+            missed = (outputs[count:] - shown.actions) * better
             slope[count:] = missed * (2.0 * self.ways.imitation / missed.numel())
         actor.backward(slope)
         self.actor.optimizer.step()
@@ -188,8 +188,3 @@ class _Networks:
             [LayerStack(net, bfloat16=bfloat16) for net in critic.q_networks]
             for critic in (policy.critic, policy.critic_target)
         )
-
-
-def _last(count: int) -> slice:
-    """So many entries at the end."""
-    return slice(-count, None)

@@ -36,13 +36,19 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return self._gather(*self._draw(batch_size))
 
     def sample_first(self, batch_size: int, rows: int) -> Any:
-        """Draw transitions of the first so many control steps, just as they were.
+        """Draw transitions of the first control steps, with their own goals.
 
-        Once the memory is full the oldest are overwritten, these before others.
+        Args:
+            batch_size: How many.
+            rows: How many control steps of all copies count as the first.
+
+        Returns:
+            Fewer where some are not valid; None where no such step is in the memory any more.
         """
-        if self.full and self.pos >= rows:
+        first, last = (self.pos, rows) if self.full else (0, min(rows, self.pos))
+        if first >= last:
             return None
-        at = np.random.randint(self.pos if self.full else 0, rows, size=batch_size)  # noqa: NPY002
+        at = np.random.randint(first, last, size=batch_size)  # noqa: NPY002  # as the parent draws
         slots = np.random.randint(0, self.n_envs, size=batch_size)  # noqa: NPY002
         kept = self.valid[at, slots]
         parts = MaskedReplayBuffer._parts(self, at[kept], slots[kept])

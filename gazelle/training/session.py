@@ -15,6 +15,7 @@ from gazelle.errors import TaskError
 from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.contracts import contract_of, save_contract
+from gazelle.training.demonstrations import with_demonstrator_found
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress, Watched
@@ -116,6 +117,7 @@ def train(
         steps=recipe.steps if steps is None else steps,
         num_envs=recipe.num_envs if num_envs is None else num_envs,
     )
+    recipe, shown = with_demonstrator_found(recipe)
     if not 0 <= seed < 2**32:
         raise TaskError(f"seed must be between 0 and 4294967295, not {seed}")
     if checkpoint_every is not None and checkpoint_every < 1:
@@ -131,7 +133,7 @@ def train(
         eval_every=eval_every,
         eval_episodes=eval_episodes,
         callbacks=names,
-        imports=modules,
+        imports=(*modules, *shown),
         sharded=workers is not None or ray is not None,
     )
     limit_threads(threads)
