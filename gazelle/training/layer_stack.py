@@ -71,7 +71,9 @@ class LayerStack:
         """
         for level in reversed(range(len(self._layers))):
             weight = self._weight(level)
-            slope = self._before_activation(slope, level) @ (weight if level else weight[:, entries])
+            slope = self._before_activation(slope, level) @ (
+                weight if level else weight[:, entries]
+            )
         return slope.float()
 
     def _before_activation(self, slope: torch.Tensor, level: int) -> torch.Tensor:
@@ -81,9 +83,13 @@ class LayerStack:
             return slope * (1.0 - self._outputs.square()) if self._bounded else slope
         activated = self._given[level + 1]
         slope = slope.to(self._dtype)
-        if self._relu:
-            return torch.ops.aten.threshold_backward(slope, activated, 0)
-        return torch.ops.aten.tanh_backward(slope, activated)
+        through = torch.ops.aten
+        found: torch.Tensor = (
+            through.threshold_backward(slope, activated, 0)
+            if self._relu
+            else through.tanh_backward(slope, activated)
+        )
+        return found
 
     def _weight(self, level: int) -> torch.Tensor:
         return self._layers[-1].weight if level == len(self._hidden) else self._hidden[level][0]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 import torch
 from torch import nn
@@ -11,7 +13,7 @@ from gazelle.training.layer_stack import LayerStack
 
 def network(activation, sizes, bounded):
     layers = []
-    for given, gives in zip(sizes[:-1], sizes[1:], strict=True):
+    for given, gives in itertools.pairwise(sizes):
         layers += [nn.Linear(given, gives), activation()]
     return nn.Sequential(*layers[:-1], *([nn.Tanh()] if bounded else []))
 
@@ -24,9 +26,7 @@ def gradients(net):
 @pytest.mark.parametrize("bounded", [False, True])
 @pytest.mark.parametrize("sizes", [(5, 2), (7, 16, 3), (4, 12, 8, 1)])
 @pytest.mark.parametrize(("bfloat16", "near"), [(False, 1e-5), (True, 0.05)])
-def test_outputs_and_gradients_are_those_of_the_network(
-    activation, bounded, sizes, bfloat16, near
-):
+def test_outputs_and_gradients_are_those_of_the_network(activation, bounded, sizes, bfloat16, near):
     torch.manual_seed(2)
     net = network(activation, sizes, bounded)
     inputs = torch.randn(20, sizes[0], requires_grad=True)
@@ -43,9 +43,7 @@ def test_outputs_and_gradients_are_those_of_the_network(
         found = stack.slopes(slope, some)
         stack.backward(slope)
     scale = inputs.grad.abs().max()
-    torch.testing.assert_close(
-        found / scale, inputs.grad[:, some] / scale, atol=near, rtol=near
-    )
+    torch.testing.assert_close(found / scale, inputs.grad[:, some] / scale, atol=near, rtol=near)
     for mine, theirs in zip(gradients(net), own, strict=True):
         assert mine.dtype == torch.float32
         size = theirs.abs().max()

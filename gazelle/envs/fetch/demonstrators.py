@@ -34,11 +34,12 @@ _ENOUGH = 0.012  # from the goal [m]
 
 def pick_and_place(rows: Floats32) -> Floats32:
     """Over the object, down with open fingers, close them, and through the air to the goal."""
-    place = rows[:, _OBJECT]
-    away, left = place - rows[:, _GRIPPER], rows[:, _GOAL] - place
+    seen = rows.astype(np.float64)
+    place = seen[:, _OBJECT]
+    away, left = place - seen[:, _GRIPPER], seen[:, _GOAL] - place
     around = np.linalg.norm(away, axis=1) < _AROUND
-    shut = rows[:, _OPENING].max(axis=1) < _SHUT
-    held = around & shut & (np.abs(rows[:, _CLOSING]).max(axis=1) < _STILL)
+    shut = seen[:, _OPENING].max(axis=1) < _SHUT
+    held = around & shut & (np.abs(seen[:, _CLOSING]).max(axis=1) < _STILL)
     away[:, 2] += _OVER * (np.linalg.norm(away[:, :2], axis=1) > _ASIDE)
     left[:, 2] += _LIFTED * (np.linalg.norm(left[:, :2], axis=1) > _LIFTED)
     way = np.where(held[:, None], _CARRYING * left, away)
@@ -47,8 +48,9 @@ def pick_and_place(rows: Floats32) -> Floats32:
 
 def push(rows: Floats32) -> Floats32:
     """Over the object to behind it, down, and on towards the goal, slower the nearer it is."""
-    place = rows[:, _OBJECT]
-    left, away = (rows[:, _GOAL] - place)[:, :2], place - rows[:, _GRIPPER]
+    seen = rows.astype(np.float64)
+    place = seen[:, _OBJECT]
+    left, away = (seen[:, _GOAL] - place)[:, :2], place - seen[:, _GRIPPER]
     far = np.linalg.norm(left, axis=1)
     ahead = left / np.maximum(far, 1e-6)[:, None]
     along = np.sum(away[:, :2] * ahead, axis=1)

@@ -14,6 +14,8 @@ from gymnasium.utils.env_checker import check_env
 from scipy.spatial.transform import Rotation
 
 import gazelle.envs
+from gazelle.envs.dict_rows import DictRows
+from gazelle.envs.fetch.demonstrators import pick_and_place, push
 from gazelle.envs.fetch.task import _euler
 from gazelle.errors import TaskError
 
@@ -243,6 +245,20 @@ def test_what_is_grasped_is_lifted_and_carried_to_the_goal(envs):
     raised = obs["desired_goal"][:, 2] > 0.5
     assert raised.sum() > 10
     assert success[raised].all()
+
+
+@pytest.mark.parametrize(
+    ("task", "shows", "least"),
+    [("PickAndPlace", pick_and_place, 0.95), ("Push", push, 0.95), ("Slide", push, 0.5)],
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_demonstrators_reach_goals(envs, task, shows, least, seed):
+    env = envs[task]
+    obs, _ = env.reset(seed=seed)
+    rows = DictRows(env.single_observation_space)
+    for _ in range(49):
+        obs, _, _, _, info = env.step(shows(rows.join(obs)))
+    assert info["is_success"].mean() >= least
 
 
 def test_fingers_open_and_close_together_within_their_range(envs):
