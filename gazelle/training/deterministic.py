@@ -10,17 +10,20 @@ before the first update is imitated, see `gazelle.training.demonstrations`.
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 import torch
 from stable_baselines3 import DDPG, TD3
+from torch import nn
 
 from gazelle.training.demonstrations import Demonstrator, shown_actions
-from gazelle.training.layer_stack import LayerStack
 from gazelle.training.recipe import OffPolicySettings
 from gazelle.training.scaling import ObservationScale
+
 
 _IMITATED = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
@@ -47,18 +50,15 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
     scale: ObservationScale
     ways: OffPolicySettings = OffPolicySettings()
     demonstrator: Demonstrator | None = None
-    _nets: _Networks
     least_reward: float = 0.0
     greatest_reward: float = 0.0
 
-    @torch.no_grad()
     def train(self, gradient_steps: int, batch_size: int = 100) -> None:
         """Learn from so many minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)
         self._update_learning_rate([self.actor.optimizer, self.critic.optimizer])
-        self._nets = _Networks(self.policy, bfloat16=self.ways.bfloat16)
         critic_loss = actor_loss = torch.zeros(())
         for _ in range(gradient_steps):
             self._n_updates += 1
@@ -76,26 +76,24 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         """One step of the critics' optimiser; their loss."""
         target = self._target(batch)
         known = torch.cat((features, batch.actions), dim=1)
-        loss = torch.zeros(())
-        for net in self._nets.critics:
-            errors = net.forward(known) - target
-            net.backward(errors * (2.0 / len(errors)))
-            loss = loss + errors.square().mean()
+        errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
+        loss = torch.stack([error.square().mean() for error in errors]).sum()
+        self.critic.optimizer.zero_grad()
+        torch.autograd.backward(loss)
         self.critic.optimizer.step()
-        for net in self._nets.critics:
-            net.refresh()
-        return loss
+        return loss.detach()
 
+    @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
         """What the critics should say, shape (n, 1)."""
         following = self.actor.features_extractor(batch.next_observations)
-        actions = self._nets.actor_target.forward(following)
+        actions = self._outputs(self.actor_target.mu, following)
         if self.target_policy_noise:
             noise = torch.randn_like(actions) * self.target_policy_noise
             noise = noise.clamp(-self.target_noise_clip, self.target_noise_clip)
             actions = (actions + noise).clamp(-1.0, 1.0)
         known = torch.cat((following, actions), dim=1)
-        values = [net.forward(known) for net in self._nets.critic_targets]
+        values = [self._outputs(net, known) for net in self.critic_target.q_networks]
         value = torch.stack(values).amin(dim=0)
         target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
         if not self.ways.bound_values or self.gamma >= 1.0:
@@ -106,30 +104,28 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
 
     def _improve_actor(self, features: torch.Tensor, shown: _Shown | None) -> torch.Tensor:
-        """One step of the actor's optimiser; its loss, without what imitating adds.
+        """One step of the actor's optimiser; its loss.
 
         Args:
             features: Of the minibatch, shape (n, entries).
             shown: What is imitated, if anything.
         """
-        actor, critic, price = self._nets.actor, self._nets.critics[0], self.ways.action_penalty
         count = len(features)
         seen = features if shown is None else torch.cat((features, shown.features))
-        outputs = actor.forward(seen)
-        actions = outputs[:count]
-        values = critic.forward(torch.cat((seen, outputs), dim=1))
-        weights = torch.full_like(values, -1.0 / count)
-        weights[count:] = 0.0
-        slope = critic.slopes(weights, slice(-actions.shape[1], None))
-        slope[:count] += actions * (2.0 * price / actions.numel())
+        outputs = self._outputs(self.actor.mu, seen)
+        critic = self.critic.q_networks[0]
+        with _frozen(critic.parameters()):
+            values = self._outputs(critic, torch.cat((seen, outputs), dim=1))
+        loss = self.ways.action_penalty * outputs[:count].square().mean() - values[:count].mean()
         if shown is not None:
-            better = critic.forward(torch.cat(shown, dim=1)) > values[count:]
+            with torch.no_grad():
+                better = self._outputs(critic, torch.cat(shown, dim=1)) > values[count:]
             missed = (outputs[count:] - shown.actions) * better
-            slope[count:] = missed * (2.0 * self.ways.imitation / missed.numel())
-        actor.backward(slope)
+            loss = loss + self.ways.imitation * missed.square().mean()
+        self.actor.optimizer.zero_grad()
+        torch.autograd.backward(loss)
         self.actor.optimizer.step()
-        actor.refresh()
-        return price * actions.square().mean() - values[:count].mean()
+        return loss.detach()
 
     def _shown(self, batch_size: int) -> _Shown | None:
         """A share of what a demonstrator did, as far as it is remembered."""
@@ -141,14 +137,21 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
             return None
         return _Shown(self.actor.features_extractor(batch.observations), batch.actions)
 
+    @torch.no_grad()
     def _follow(self) -> None:
         """Let the targets come nearer."""
         pairs = (self.critic, self.critic_target), (self.actor, self.actor_target)
         for learnt, target in pairs:
             old, new = list(target.parameters()), list(learnt.parameters())
             torch._foreach_lerp_(old, new, self.tau)
-        for net in (self._nets.actor_target, *self._nets.critic_targets):
-            net.refresh()
+
+    def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
+        """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
+        last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
+        with torch.autocast("cpu", torch.bfloat16, enabled=self.ways.bfloat16):
+            hidden = net[:last](inputs)
+        outputs: torch.Tensor = net[last:](hidden.float())
+        return outputs
 
     def _sample_action(
         self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
@@ -177,14 +180,14 @@ class FastTD3(_Deterministic):
     """TD3; likewise."""
 
 
-class _Networks:
-    """All networks of a policy, with their weights as they are now."""
-
-    def __init__(self, policy: Any, *, bfloat16: bool) -> None:
-        self.actor, self.actor_target = (
-            LayerStack(actor.mu, bfloat16=bfloat16) for actor in (policy.actor, policy.actor_target)
-        )
-        self.critics, self.critic_targets = (
-            [LayerStack(net, bfloat16=bfloat16) for net in critic.q_networks]
-            for critic in (policy.critic, policy.critic_target)
-        )
+@contextlib.contextmanager
+def _frozen(parameters: Iterable[nn.Parameter]) -> Any:
+    """Ask for no gradients of these meanwhile."""
+    held = list(parameters)
+    for each in held:
+        each.requires_grad_(False)
+    try:
+        yield
+    finally:
+        for each in held:
+            each.requires_grad_(True)

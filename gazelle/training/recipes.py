@@ -202,9 +202,9 @@ RECIPES: dict[str, Recipe] = {
     **{
         f"Fetch{task}{reward}": recipe
         for task, recipe in (
-            ("Push", _shown_fetch("push", 300_000)),
+            ("Push", _shown_fetch("push", 400_000)),
             ("PickAndPlace", _shown_fetch("pick_and_place", 200_000)),
-            ("Slide", _shown_fetch("push", 300_000)),
+            ("Slide", _shown_fetch("push", 400_000)),
         )
         for reward in ("", "Dense")
     },
