@@ -24,7 +24,6 @@ from gazelle.training.demonstrations import Demonstrator, shown_actions
 from gazelle.training.recipe import OffPolicySettings
 from gazelle.training.scaling import ObservationScale
 
-
 _IMITATED = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
 
