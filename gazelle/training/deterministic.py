@@ -24,11 +24,11 @@ from gazelle.training.demonstrations import Demonstrator, shown_actions
 from gazelle.training.recipe import OffPolicySettings
 from gazelle.training.scaling import ObservationScale
 
-_IMITATED = 4  # of a minibatch one in so many is what was shown, besides
+_SHOWN = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
 
 
-class _Shown(NamedTuple):
+class _Imitated(NamedTuple):
     """What a demonstrator saw, shape (n, entries), and did, shape (n, actions)."""
 
     features: torch.Tensor
@@ -102,7 +102,7 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         horizon = 1.0 / (1.0 - self.gamma)
         return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
 
-    def _improve_actor(self, features: torch.Tensor, shown: _Shown | None) -> torch.Tensor:
+    def _improve_actor(self, features: torch.Tensor, shown: _Imitated | None) -> torch.Tensor:
         """One step of the actor's optimiser; its loss.
 
         Args:
@@ -126,15 +126,15 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         self.actor.optimizer.step()
         return loss.detach()
 
-    def _shown(self, batch_size: int) -> _Shown | None:
+    def _shown(self, batch_size: int) -> _Imitated | None:
         """A share of what a demonstrator did, as far as it is remembered."""
         if self.demonstrator is None or not self.ways.imitation:
             return None
         rows = -(-self.learning_starts // self.n_envs)
-        batch = self.replay_buffer.sample_first(batch_size // _IMITATED, rows)
+        batch = self.replay_buffer.sample_first(batch_size // _SHOWN, rows)
         if batch is None:
             return None
-        return _Shown(self.actor.features_extractor(batch.observations), batch.actions)
+        return _Imitated(self.actor.features_extractor(batch.observations), batch.actions)
 
     @torch.no_grad()
     def _follow(self) -> None:
