@@ -39,6 +39,7 @@ VERIFIED: dict[str, Verified] = {
     "TurtleBot2Maze": Verified(success={"planar": SuccessRate(166, 200)}, seeds=1, seconds=17),
     "TurtleBot3World": Verified(success={"planar": SuccessRate(187, 200)}, seeds=1, seconds=21),
     "FetchPush": Verified(success={"mujoco": SuccessRate(298, 300)}, seeds=3, seconds=172),
+    "FetchPickAndPlace": Verified(success={"mujoco": SuccessRate(293, 300)}, seeds=3, seconds=110),
     "FetchReach": Verified(success={"mujoco": SuccessRate(300, 300)}, seeds=3, seconds=11),
     "TurtleBot3Stage1": Verified(
         success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
