@@ -41,6 +41,7 @@ VERIFIED: dict[str, Verified] = {
     "FetchPush": Verified(success={"mujoco": SuccessRate(298, 300)}, seeds=3, seconds=172),
     "FetchPickAndPlace": Verified(success={"mujoco": SuccessRate(293, 300)}, seeds=3, seconds=110),
     "FetchReach": Verified(success={"mujoco": SuccessRate(300, 300)}, seeds=3, seconds=11),
+    "FetchSlide": Verified(success={"mujoco": SuccessRate(296, 300)}, seeds=3, seconds=186),
     "TurtleBot3Stage1": Verified(
         success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
         seeds=2,
