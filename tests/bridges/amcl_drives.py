@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
@@ -48,6 +48,8 @@ class RecordedDrive:
         guess: What amcl is told of the start; None to be found anywhere.
         odom: Frame of the odometry.
         waits: How long the robot stands first, while nodes come up [s].
+        skips: How much of its beginning is not played [s].
+        begins: Stamp of its first message [s].
     """
 
     start: tuple[float, float, float]
@@ -58,6 +60,8 @@ class RecordedDrive:
     guess: tuple[float, float, float] | None
     odom: str = "odom"
     waits: float = 15.0
+    skips: float = 0.0
+    begins: float = 1000.0
 
 
 DRIVES = {
@@ -77,7 +81,26 @@ DRIVES = {
         (42.378, 17.730, 1.583), ((42.0, 26.0), (48.0, 34.0), (44.0, 44.0), (33.0, 44.0)),
         (33.12, 34.53, -0.52), 103.5, (0.75, 0.4), (42.378, 17.730, 1.583),
     ),
+    "small_loop_crazy_driving_prg": RecordedDrive(
+        (14.016, 25.75, -3.0),
+        ((10.0, 25.5), (9.0, 30.0), (14.0, 33.0), (18.0, 30.0), (15.5, 26.0), (20.0, 26.0), (18.0, 32.0)),
+        (14.05, 28.91, 4.28), 90.0, (0.75, 0.75), None, odom="odom_combined",
+    ),
+    "texas_greenroom_loop": RecordedDrive(
+        (14.049, 24.234, -1.517), ((14.0, 18.0), (20.0, 16.0), (23.0, 22.0), (20.0, 28.0), (14.5, 28.5)),
+        (13.87, 24.07, 4.65), 89.0, (0.75, 0.75), None, odom="odom_combined", waits=30.0, skips=15.0,
+    ),
+    "texas_willow_hallway_loop": RecordedDrive(
+        (31.872, 31.557, 0.0),
+        ((44.0, 31.0), (52.0, 32.0), (52.0, 43.0), (40.0, 50.0), (24.0, 50.0), (10.0, 46.0), (8.0, 36.0),
+         (14.0, 32.0), (20.0, 31.0)),
+        (32.36, 31.44, 6.18), 250.0, (0.75, 0.75), None, odom="odom_combined", waits=30.0, skips=15.0,
+    ),
 }  # fmt: skip
+# The drive that a pose belongs to which is sent late, with an earlier stamp: the robot moves in between.
+DRIVES["set_initial_pose_delayed"] = replace(
+    DRIVES["basic_localization_stage"], waits=0.5, begins=34.6
+)
 
 
 def hall():
@@ -131,7 +154,7 @@ def record(drive, folder, bag_path):
     world.write_text(WORLD % (*drive.start[:2], math.degrees(drive.start[2])))
     left = [*drive.via, drive.end[:2]]
     with gazelle.Simulation(world, engine="planar", seed=3) as sim, Bag(bag_path, "w") as bag:
-        for _ in range(round((drive.seconds + 30.0) / 0.1)):
+        for _ in range(round((drive.skips + drive.seconds + 30.0) / 0.1)):
             pose = sim.stage.poses[0, 0]
             while left and math.dist(pose[:2], left[0]) < 0.1:
                 left.pop(0)
@@ -139,7 +162,7 @@ def record(drive, folder, bag_path):
             forward, turn = command(pose, left[0] if left else pose, None if left else drive.end[2])
             sim.stage.commands[0, 0] = (forward * moved, 0.0, turn * moved)
             sim.step()
-            stamp = Time(nsecs=round(1e9 * (1000.0 + sim.time)))
+            stamp = Time(nsecs=round(1e9 * (drive.begins + sim.time)))
             bag.write("/tf", _transforms(sim, drive, stamp), stamp)
             bag.write("/base_scan", _scan(sim, stamp), stamp)
         assert not left

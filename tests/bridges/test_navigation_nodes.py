@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 
 import numpy as np
 import pytest
@@ -271,7 +272,7 @@ def test_costmaps_are_published_and_cleared(room, move_base):
 def spin_amcl(room, node, done):
     def step():
         room.tick(located=False)
-        node._scans.work(node._use)
+        node._scans.work(node._find, node._use)
         return done()
 
     until(step)
@@ -325,6 +326,73 @@ def test_amcl_begins_where_it_is_told_and_is_tuned(room):
     room.node.client("/amcl/set_parameters", service).call(request, 30.0)
     assert amcl.settings.max_particles == 700
     assert room.node.get_param("/amcl/max_particles") == 700
+
+
+def start_message(x, frame="map", stamp=0):
+    message = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+    message.header.frame_id, message.header.stamp = frame, Time(nsecs=stamp)
+    message.pose.pose.position.x, message.pose.pose.orientation.w = x, 1.0
+    message.pose.covariance = [0.0] * 36
+    return message
+
+
+def test_amcl_remembers_a_pose_that_comes_before_the_map(room):
+    amcl = room.make("/amcl", AmclNode, {"base_frame_id": "base_footprint"})
+    room.nodes.append(amcl._node)
+    until(lambda: amcl.frames.latest("odom", "base_footprint") or room.tick(located=False))
+    given = amcl.frames.latest("odom", "base_footprint")
+    amcl._begin(start_message(1.0, stamp=given))
+    room.speed = (1.0, 0.0)
+    for _ in range(5):
+        room.tick(located=False)
+    until(lambda: amcl.frames.latest("odom", "base_footprint") >= room.now)
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    moved = (room.now - given) / 1e9
+    assert np.allclose(amcl._localizer.filter.poses[0], [1.0 + moved, 0.0, 0.0])
+    # A second map begins where parameters say, as that pose was for the first one.
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    assert abs(amcl._localizer.filter.poses[:, 0].mean()) < 0.2
+
+
+def test_amcl_looks_everywhere_though_it_is_asked_before_there_is_a_map(room):
+    amcl = room.make("/amcl", AmclNode, {"base_frame_id": "base_footprint"})
+    room.nodes.append(amcl._node)
+    empty = load_service("std_srvs/Empty")
+    answers = []
+    asking = threading.Thread(
+        target=lambda: answers.append(
+            room.node.client("/global_localization", empty).call(empty._request_class(), 60.0)
+        )
+    )
+    asking.start()
+    until(lambda: amcl._pending is not None)
+    assert not answers, "it has not begun yet"
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    asking.join(60.0)
+    assert answers
+    assert amcl._localizer.filter.poses[:, :2].std() > 0.5
+
+
+def test_amcl_that_has_its_map_from_a_topic_answers_before_it_came(room):
+    values = {"base_frame_id": "base_footprint", "use_map_topic": True}
+    amcl = room.make("/amcl", AmclNode, values)
+    room.nodes.append(amcl._node)
+    empty = load_service("std_srvs/Empty")
+    room.node.client("/global_localization", empty).call(empty._request_class(), 60.0)
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    assert amcl._localizer.filter.poses[:, :2].std() > 0.5
+
+
+def test_amcl_says_why_it_ignores_a_pose(room):
+    amcl = room.make("/amcl", AmclNode, {"base_frame_id": "base_footprint"})
+    room.nodes.append(amcl._node)
+    amcl._take_map(OccupancyMap(ROOM, 0.05, Pose()))
+    before = amcl._localizer.filter.poses.copy()
+    with pytest.warns(NavigationWarning, match="pose in 'odom': give it in 'map'"):
+        amcl._begin(start_message(1.0, frame="odom"))
+    assert np.array_equal(amcl._localizer.filter.poses, before)
+    amcl._begin(start_message(1.0, frame=""))
+    assert np.allclose(amcl._localizer.filter.poses, [1.0, 0.0, 0.0])
 
 
 AREA = {"xmin": -1, "ymin": -1, "xmax": 5, "ymax": 5, "temporalUpdate": 0.1, "particles": 2}

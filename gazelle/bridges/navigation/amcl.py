@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import threading
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.bridges.navigation.diagnosis import StartDiagnosis
+from gazelle.bridges.navigation.diagnosis import NavigationWarning, StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
 from gazelle.bridges.navigation.maps import MapListener, map_of_service
 from gazelle.bridges.navigation.messages import beam_angles, fill_pose, is_upside_down, pose_of
@@ -30,10 +31,12 @@ from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
 from gazelle.ros.signals import stopping
+from gazelle.ros.tf import StampedTransform
 from gazelle.ros.time import Time
 from gazelle.simulation import Tunable
 
 SECOND = 1_000_000_000
+_LOOK_S = 0.2
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -65,7 +68,13 @@ class AmclNode:
         self._tolerance_ns = round(value_of(self._values, "transform_tolerance", 0.1) * SECOND)
         self._broadcast = value_of(self._values, "tf_broadcast", True)
         self._lock = threading.RLock()
+        self._changed = threading.Condition(self._lock)
         self._localizer: Localizer | None = None
+        self._pending: Callable[[Localizer], None] | None = None
+        self._maps: MapListener | None = None
+        if value_of(self._values, "use_map_topic", False):
+            once = value_of(self._values, "first_map_only", False)
+            self._maps = MapListener(node, "map", once=once)
         self._saved_at = 0
         self.frames = GraphFrames(node)
         self._scans = ScanQueue(node, "scan", load_message("sensor_msgs/LaserScan"))
@@ -87,19 +96,15 @@ class AmclNode:
 
     def run(self, stop: threading.Event) -> None:
         """Get a map, then take scans until told to end."""
-        maps = None
-        if value_of(self._values, "use_map_topic", False):
-            once = value_of(self._values, "first_map_only", False)
-            maps = MapListener(self._node, "map", once=once)
-        else:
+        if self._maps is None:
             grid = map_of_service(self._node, stop.is_set)
             if grid is not None:
                 self._take_map(grid)
         while not stop.is_set() and not self._node.closed:
-            fresh = maps.take() if maps is not None else None
+            fresh = self._maps.take() if self._maps is not None else None
             if fresh is not None:
                 self._take_map(fresh)
-            self._scans.work(self._use)
+            self._scans.work(self._find, self._use)
             localizer = self._localizer
             lost = localizer is None or localizer.map_to_odom is None
             self._diagnosis.look(waiting=lost)
@@ -118,7 +123,19 @@ class AmclNode:
         with self._lock:
             localizer = Localizer(self.settings, grid)
             localizer.begin(*self._initial())
+            pending, self._pending = self._pending, None
+            if pending is not None:
+                pending(localizer)
             self._localizer = localizer
+            self._changed.notify_all()
+
+    def _do(self, change: Callable[[Localizer], None]) -> None:
+        """Change what is known, now or, the last one, as soon as there is a map."""
+        with self._lock:
+            if self._localizer is None:
+                self._pending = change
+            else:
+                change(self._localizer)
 
     def _initial(self) -> tuple[Pose2, Floats]:
         """Where the parameters say that it begins."""
@@ -150,24 +167,39 @@ class AmclNode:
         """Take an initial pose; it is moved on by what odometry says happened since its time."""
         frame = message.header.frame_id.strip("/")
         if frame not in {"", self._whole}:
+            warnings.warn(
+                NavigationWarning(
+                    f"{self._node.name} ignores an initial pose in '{frame}': give it in '{self._whole}' "
+                    f"(in RViz the fixed frame)"
+                ),
+                stacklevel=2,
+            )
             return
-        pose = pose_of(message.pose.pose)
-        then = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
-        now = self.frames.pose(self._odom, self._base)
-        if then is not None and now is not None:
-            pose = composed(pose, between(then, now))
+        given = pose_of(message.pose.pose)
+        stamp = message.header.stamp.to_nsec() or self.frames.latest(self._odom, self._base)
         cov = np.array(message.pose.covariance, np.float64).reshape(6, 6)[
             np.ix_([0, 1, 5], [0, 1, 5])
         ]
-        with self._lock:
-            if self._localizer is not None:
-                self._localizer.begin(pose, cov)
+
+        def begin(localizer: Localizer) -> None:
+            then = self.frames.pose(self._odom, self._base, stamp)
+            now = self.frames.pose(self._odom, self._base)
+            moved = between(then, now) if then is not None and now is not None else (0.0, 0.0, 0.0)
+            localizer.begin(composed(given, moved), cov)
+
+        self._do(begin)
 
     def _begin_anywhere(self, request: Any) -> list[Any]:
+        """Look for the robot all over the map.
+
+        The answer says that this has begun, so it waits for a map that a service is to give. One of
+        a topic may never come.
+        """
         del request
-        with self._lock:
-            if self._localizer is not None:
-                self._localizer.begin_anywhere()
+        self._do(Localizer.begin_anywhere)
+        with self._changed:
+            while self._localizer is None and self._maps is None and not self._node.closed:
+                self._changed.wait(_LOOK_S)
         return []
 
     def _force(self, request: Any) -> list[Any]:
@@ -182,16 +214,18 @@ class AmclNode:
         self._begin(request.initial_pose)
         return [True]
 
-    def _use(self, message: Any) -> bool:
-        """Take a scan; False if its transforms are not there yet."""
-        if self._localizer is None:
-            return False
+    def _find(self, message: Any) -> tuple[StampedTransform, Pose2] | None:
+        """Where the laser and the robot were; None if transforms, or a map, are not there yet."""
+        mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
+        odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
+        if self._localizer is None or mounted is None or odom is None:
+            return None
+        return mounted, odom
+
+    def _use(self, message: Any, found: tuple[StampedTransform, Pose2]) -> None:
+        """Take a scan."""
+        mounted, odom = found
         stamp = message.header.stamp.to_nsec()
-        frame = message.header.frame_id.strip("/")
-        mounted = self.frames.find(self._base, frame)
-        odom = self.frames.pose(self._odom, self._base, stamp)
-        if mounted is None or odom is None:
-            return False
         sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
         scan = PlanarScan(
             np.array(message.ranges, np.float64),
@@ -202,6 +236,8 @@ class AmclNode:
         )
         with self._lock:
             localizer = self._localizer
+            if localizer is None:
+                return
             estimate = localizer.update(odom, scan)
             if estimate is not None:
                 self._publish(localizer, stamp)
@@ -212,7 +248,6 @@ class AmclNode:
         if rate > 0.0 and abs(stamp - self._saved_at) >= SECOND / rate:
             self._saved_at = stamp
             self._save()
-        return True
 
     def _publish(self, localizer: Localizer, stamp: int) -> None:
         estimate = localizer.estimate

@@ -68,6 +68,13 @@ class GraphFrames:
         found = self.find(target, source, stamp)
         return None if found is None else flat(found)
 
+    def latest(self, target: str, source: str) -> int:
+        """The newest time at which a transform is known [ns]; 0 if there is none."""
+        try:
+            return self.tree.latest_common_time(target, source)
+        except TransformException:
+            return 0
+
 
 def flat(transform: StampedTransform) -> Pose2:
     """A transform seen from above."""

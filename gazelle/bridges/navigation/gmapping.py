@@ -53,12 +53,13 @@ class GmappingNode(MappingNode):
         """The best particle's map."""
         return self.slam.map()
 
-    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
-        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+    def take(
+        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+    ) -> bool:
+        """Take a scan; whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
-        odom = self.frames.pose(self._odom, self._base, stamp)
         if odom is None:
-            return None
+            return False
         # What is too near is as good as nothing.
         ranges[ranges < message.range_min] = message.range_max
         most = float(message.range_max)

@@ -50,7 +50,7 @@ class HectorNode(MappingNode):
         interval = value_of(values, "map_pub_period", 2.0)
         scans = value_of(values, "scan_topic", "scan")
         super().__init__(node, "base_link", scans, interval, 0.0, 0.0)
-        self._sends_odom = value_of(values, "pub_map_odom_transform", True)
+        self.needs_odometry = value_of(values, "pub_map_odom_transform", True)
         self._sends_match = value_of(values, "pub_map_scanmatch_transform", True)
         name = "tf_map_scanmatch_transform_frame_name"
         self._match_frame = value_of(values, name, "scanmatcher_frame").strip("/")
@@ -74,12 +74,11 @@ class HectorNode(MappingNode):
         """All of it."""
         return self.slam.map()
 
-    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
-        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+    def take(
+        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+    ) -> bool:
+        """Take a scan; whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
-        odom = self.frames.pose(self._odom, self._base, stamp) if self._sends_odom else None
-        if self._sends_odom and odom is None:
-            return None
         if self._paused:
             return False
         ranges[ranges >= message.range_max] = np.inf
@@ -110,7 +109,7 @@ class HectorNode(MappingNode):
 
     def _missing(self) -> list[str]:
         found = super()._missing()
-        return found if self._sends_odom else [each for each in found if "drive" not in each]
+        return found if self.needs_odometry else [each for each in found if "drive" not in each]
 
     def _command(self, message: Any) -> None:
         if message.data == "reset":

@@ -53,10 +53,11 @@ class KartoNode(MappingNode):
         """Of all scans."""
         return self.slam.map()
 
-    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
-        """Take a scan; whether the map has changed, None if transforms are not there yet."""
-        odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
+    def take(
+        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+    ) -> bool:
+        """Take a scan; whether the map has changed."""
         if odom is None:
-            return None
+            return False
         ranges[ranges < message.range_min] = np.inf
         return self.slam.update(odom, ranges, angles, float(message.range_max), laser)

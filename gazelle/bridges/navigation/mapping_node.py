@@ -20,6 +20,7 @@ from gazelle.navigation.following import Pose2
 from gazelle.ros.builtin.map_server import grid_message
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
+from gazelle.ros.tf import StampedTransform
 
 SECOND = 1_000_000_000
 
@@ -61,13 +62,26 @@ class MappingNode(ABC):
         self._topic = scans
         self._diagnosis = StartDiagnosis(node, self._missing)
 
+    needs_odometry = True
+    """Whether a scan waits for the odometry of its time."""
+
     @abstractmethod
     def place(self) -> Pose2 | None:
         """Where the frame of the odometry is on the map; None if it is not known."""
 
     @abstractmethod
-    def take(self, message: Any, ranges: Floats, angles: Floats, laser: Pose2) -> bool | None:
-        """Take a scan; whether the map has changed, None if transforms are not there yet."""
+    def take(
+        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+    ) -> bool:
+        """Take a scan; whether the map has changed.
+
+        Args:
+            message: The scan.
+            ranges: [m], shape (n,).
+            angles: Of the beams in the laser's frame [rad], shape (n,).
+            laser: Where the laser is on the robot.
+            odom: Where the robot was by its odometry; None where that is not `needs_odometry`.
+        """
 
     @abstractmethod
     def drawn(self) -> OccupancyMap:
@@ -76,7 +90,7 @@ class MappingNode(ABC):
     def run(self, stop: threading.Event) -> None:
         """Take scans until told to end."""
         while not stop.is_set() and not self._node.closed:
-            self._scans.work(self._use)
+            self._scans.work(self._find, self._use)
             self._send()
             self._diagnosis.look(waiting=self.place() is None)
 
@@ -86,27 +100,31 @@ class MappingNode(ABC):
             found.append(f"scans on {self._node.resolve(self._topic)} (a laser sends them)")
         return found
 
-    def _use(self, message: Any) -> bool:
-        """Take a scan; False if its transforms are not there yet."""
+    def _find(self, message: Any) -> tuple[StampedTransform, Pose2 | None] | None:
+        """Where the laser and the robot were; None if transforms are not there yet."""
         mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
-        if mounted is None:
-            return False
-        if (self._count + 1) % self._every:
-            self._count += 1
-            return True
+        odom = None
+        if self.needs_odometry:
+            odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
+        if mounted is None or (odom is None and self.needs_odometry):
+            return None
+        return mounted, odom
+
+    def _use(self, message: Any, found: tuple[StampedTransform, Pose2 | None]) -> None:
+        """Take a scan."""
+        mounted, odom = found
+        self._count += 1
+        if self._count % self._every:
+            return
         sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
         ranges = np.array(message.ranges, np.float64)
-        changed = self.take(message, ranges, sign * beam_angles(message), flat(mounted))
-        if changed is None:
-            return False
-        self._count += 1
+        changed = self.take(message, ranges, sign * beam_angles(message), flat(mounted), odom)
         stamp = message.header.stamp.to_nsec()
         late = self._message is None or abs(stamp - self._mapped_ns) >= self._interval_ns
         if changed and late:
             self._mapped_ns = stamp
             self._publish(stamp)
         self._send()
-        return True
 
     def _publish(self, stamp: int) -> None:
         message = grid_message(self.drawn(), self._whole, stamp)

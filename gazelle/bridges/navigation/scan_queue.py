@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 from gazelle.ros.node import Node
 
 _LOOK_S = 0.2
 _KEPT = 100
+
+T = TypeVar("T")
 
 
 class ScanQueue:
@@ -44,29 +46,31 @@ class ScanQueue:
         with self._news:
             self._news.notify_all()
 
-    def work(self, ready: Callable[[Any], bool]) -> None:
+    def work(self, find: Callable[[Any], T | None], use: Callable[[Any, T], None]) -> None:
         """Hand over what waits, oldest first; stop at the first that has to wait on.
 
         Args:
-            ready: Uses a message, and says whether it could.
+            find: The transforms of a message; None while they are not there.
+            use: Uses a message and its transforms.
         """
         with self._news:
             if not self._waiting:
                 self._news.wait(_LOOK_S)
             waiting = list(self._waiting)
-        used = []
-        for place, message in enumerate(waiting):
-            if ready(message):
-                used.append(message)
-            elif place == len(waiting) - 1 or not ready(waiting[-1]):
+        # Asked before the older ones: transforms come in their order, also while these are worked off. So what
+        # is not known then, though this one was, is too old ever to be known.
+        newest = waiting and find(waiting[-1]) is not None
+        done = []
+        for message in waiting:
+            found = find(message)
+            if found is not None:
+                use(message, found)
+            elif not newest:
                 break
-            else:
-                # A newer one could be used: what is before it never can.
-                used.extend(waiting)
-                break
+            done.append(message)
         with self._news:
-            for message in used:
+            for message in done:
                 if message in self._waiting:
                     self._waiting.remove(message)
-            if not used:
+            if not done:
                 self._news.wait(0.01)
