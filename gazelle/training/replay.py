@@ -43,7 +43,8 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
             rows: How many control steps of all copies count as the first.
 
         Returns:
-            Fewer where some are not valid; None where no such step is in the memory any more.
+            Fewer where some are not valid; None where no such step is in the memory any more, or
+            none that was drawn is valid.
         """
         first, last = (self.pos, rows) if self.full else (0, min(rows, self.pos))
         if first >= last:
@@ -51,6 +52,8 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         at = np.random.randint(first, last, size=batch_size)  # noqa: NPY002  # as the parent draws
         slots = np.random.randint(0, self.n_envs, size=batch_size)  # noqa: NPY002
         kept = self.valid[at, slots]
+        if not kept.any():
+            return None
         parts = MaskedReplayBuffer._parts(self, at[kept], slots[kept])
         return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
 

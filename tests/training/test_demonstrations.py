@@ -143,6 +143,8 @@ def test_the_first_steps_are_remembered_until_they_are_overwritten(env):
     first = memory.observations[:10].reshape(40, -1)
     for row in memory.sample_first(50, 10).observations.numpy():
         assert (np.abs(first - row).max(axis=1) == 0.0).any()
+    memory.valid[:10] = False
+    assert memory.sample_first(50, 10) is None
     memory = learnt(env, given, 220).replay_buffer  # five rows more than there are
     left = memory.observations[5:10].reshape(20, -1)
     for row in memory.sample_first(50, 10).observations.numpy():
